@@ -1,0 +1,209 @@
+"""Runs every test and check of the project; tools/test prepares the machine and calls this.
+
+A C test counts once, from its run in the first preset; its runs in the other presets are one check
+each.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import subprocess
+import sys
+import time
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = ROOT / "build"
+BRANCHES_PERCENT = 95  # of firmware/, that the C tests must reach
+# What no test can reach: the other side of an assertion.
+UNREACHABLE = r".*\b(static_)?assert\(.*"
+
+UNITY_SUMMARY = re.compile(r"^(\d+) Tests (\d+) Failures (\d+) Ignored", re.MULTILINE)
+UNITY_SKIP = re.compile(r"^(?:.*/)?(.+:\d+:.+:IGNORE.*)$", re.MULTILINE)
+PYTHON = [sys.executable, "-P", "-m"]
+CONFIG = "tools/pyproject.toml"
+ENVIRONMENT = {
+    **os.environ,
+    "RKM04_BUILD": str(BUILD / "host"),
+    "HYPOTHESIS_STORAGE_DIRECTORY": str(BUILD / "cache/hypothesis"),
+}
+
+
+@dataclass(frozen=True)
+class Count:
+    passed: int = 0
+    failed: int = 0
+    skipped: int = 0
+
+    def __add__(self, other: Count) -> Count:
+        return Count(
+            self.passed + other.passed, self.failed + other.failed, self.skipped + other.skipped
+        )
+
+    def __str__(self) -> str:
+        return f"{self.passed} passed, {self.failed} failed, {self.skipped} skipped"
+
+
+def succeeds(*command: str | Path, show: bool = False) -> bool:
+    """Runs a command; shows what it printed only if it fails, or if asked to."""
+    done = subprocess.run(
+        list(map(str, command)), cwd=ROOT, env=ENVIRONMENT, stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
+    )  # fmt: skip
+    if done.stdout.strip() and (show or done.returncode != 0):
+        print(done.stdout.strip())
+    if done.returncode != 0:
+        print(f"failed with status {done.returncode}: {' '.join(map(str, command))}")
+    return done.returncode == 0
+
+
+def check(*command: str | Path) -> Count:
+    return Count(passed=1) if succeeds(*command) else Count(failed=1)
+
+
+def count_program(case: ElementTree.Element) -> Count:
+    """What one Unity program counted; a crash, or a sanitizer's complaint, is one more failure."""
+    output = case.findtext("system-out") or ""
+    if summaries := UNITY_SUMMARY.findall(output):
+        tests, failures, ignored = map(int, summaries[-1])
+    else:
+        tests, failures, ignored = (1, 0, 0) if case.get("status") == "run" else (0, 0, 0)
+    crashed = case.get("status") != "run" and failures == 0
+    return Count(tests - failures - ignored, failures + crashed, ignored)
+
+
+def build(preset: str) -> bool:
+    return succeeds("cmake", "--preset", preset) and succeeds(
+        "cmake", "--build", "--preset", preset
+    )
+
+
+def c_tests(preset: str) -> Count:
+    if not build(preset):
+        return Count(failed=1)
+    results = BUILD / preset / "ctest.xml"
+    results.unlink(missing_ok=True)
+    succeeds(
+        "ctest", "--preset", preset, "--output-junit", results,
+        "--test-output-size-passed", "1000000", "--test-output-size-failed", "1000000",
+    )  # fmt: skip
+    if not results.exists():
+        return Count(failed=1)
+    count = Count()
+    for case in ElementTree.parse(results).iter("testcase"):
+        count += count_program(case)
+    return count
+
+
+def c_tests_once(preset: str) -> Count:
+    count = c_tests(preset)
+    if count.skipped:
+        for reason in UNITY_SKIP.findall((BUILD / preset / "ctest.xml").read_text()):
+            print(f"skipped: {reason}")
+    return count
+
+
+def c_tests_again(preset: str) -> Count:
+    count = c_tests(preset)
+    return Count(passed=1) if count.failed == 0 else Count(failed=count.failed)
+
+
+def coverage() -> Count:
+    for old in (BUILD / "coverage").rglob("*.gcda"):
+        old.unlink()
+    count = c_tests_again("coverage")
+    if not any((BUILD / "coverage").rglob("*.gcda")):
+        print("skipped: branch coverage, as no C test ran")
+        return count + Count(skipped=1)
+    enough = succeeds(
+        *PYTHON, "gcovr", "--root", ROOT, "--filter", "firmware/", "--txt-metric", "branch",
+        "--exclude-lines-by-pattern", UNREACHABLE, "--merge-mode-functions", "separate",
+        "--txt", "--print-summary", "--fail-under-branch", str(BRANCHES_PERCENT),
+        BUILD / "coverage/firmware", show=True,
+    )  # fmt: skip
+    return count + (Count(passed=1) if enough else Count(failed=1))
+
+
+def arm_check() -> Count:
+    if not build("arm-check"):
+        return Count(failed=1)
+    report = BUILD / "arm-check/arm_check.txt"
+    print(report.read_text().rstrip() if report.exists() else "no firmware sources yet")
+    return Count(passed=1)
+
+
+def python_tests() -> Count:
+    results = BUILD / "pytest.xml"
+    results.unlink(missing_ok=True)
+    command = [
+        *PYTHON, "pytest", "-q", "-c", CONFIG, "--rootdir", str(ROOT), "--junitxml", str(results),
+        "--hypothesis-profile", "ci", "tests",
+    ]  # fmt: skip
+    status = subprocess.run(command, cwd=ROOT, env=ENVIRONMENT, stdin=subprocess.DEVNULL).returncode
+    suite = ElementTree.parse(results).getroot().find("testsuite") if results.exists() else None
+    if suite is None:
+        return Count(failed=1)
+    tests, failures, errors, skipped = (
+        int(suite.get(name, "0")) for name in ("tests", "failures", "errors", "skipped")
+    )
+    failed = failures + errors
+    if failed == 0 and status not in (0, 5):  # 5: there are no tests
+        failed = 1
+    return Count(max(tests - failures - errors - skipped, 0), failed, skipped)
+
+
+def python_style() -> Count:
+    folders = ["tools", "tests"]
+    return (
+        check(*PYTHON, "ruff", "check", "--config", CONFIG, *folders)
+        + check(*PYTHON, "ruff", "format", "--check", "--config", CONFIG, *folders)
+        + check(*PYTHON, "mypy", "--config-file", CONFIG, "tools", "tests")
+    )
+
+
+def has_tiny_limits() -> bool:
+    return any("RKM04_TINY_LIMITS" in path.read_text() for path in ROOT.glob("firmware/**/*.h"))
+
+
+def steps(quick: bool) -> dict[str, Callable[[], Count]]:
+    chosen: dict[str, Callable[[], Count]] = {
+        "C tests (host)": lambda: c_tests_once("host"),
+        "Python tests": python_tests,
+    }
+    if quick:
+        return chosen
+    chosen["House limits"] = lambda: check(sys.executable, "tools/checks/house.py")
+    chosen["Python style and types"] = python_style
+    chosen["Objects for Cortex-M4 (arm-check)"] = arm_check
+    chosen["C tests under sanitizers (host-asan)"] = lambda: c_tests_again("host-asan")
+    chosen["C tests from the second compiler (host-clang)"] = lambda: c_tests_again("host-clang")
+    if has_tiny_limits():
+        chosen["C tests with tiny limits (tiny)"] = lambda: c_tests_again("tiny")
+    chosen["Coverage of firmware/ (coverage)"] = coverage
+    return chosen
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="tools/test", description="Runs every test and check.")
+    parser.add_argument(
+        "--quick", action="store_true", help="the C tests and the Python tests only"
+    )
+    options = parser.parse_args()
+    total = Count()
+    for title, step in steps(options.quick).items():
+        print(f"== {title}", flush=True)
+        started = time.monotonic()
+        count = step()
+        print(f"   {count}; {time.monotonic() - started:.1f} s\n", flush=True)
+        total += count
+    print(total)
+    return 1 if total.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
