@@ -1,0 +1,30 @@
+/*
+ * A move as a program orders it. A single move is one section, a compound move up to ten, a run without end one
+ * section of MOTION_ENDLESS_STEPS.
+ */
+#ifndef MOTION_ORDER_H
+#define MOTION_ORDER_H
+
+#include <stdint.h>
+
+enum { MOTION_SECTIONS = 10 };
+
+/* A run without end ends after 35 years at 16 000 steps/s. */
+#define MOTION_ENDLESS_STEPS (UINT64_C(1) << 44)
+
+/* The longest section that is not endless: from one end of the position counter's range to the other. */
+#define MOTION_SECTION_STEPS_MAX (UINT64_C(1) << 40)
+
+struct motion_section {
+    uint64_t steps;               /* 1 to MOTION_SECTION_STEPS_MAX, or MOTION_ENDLESS_STEPS as the only section */
+    uint32_t speed_steps_per_s;   /* 1 to STEP_SPEED_MAX: never exceeded */
+    uint32_t accel_steps_per_s2;  /* 1 to STEP_ACCEL_MAX */
+};
+
+struct motion_order {
+    struct motion_section section[MOTION_SECTIONS];
+    uint32_t start_speed_steps_per_s; /* start/stop speed S, 1 to STEP_SPEED_MAX */
+    uint8_t sections;                 /* 1 to MOTION_SECTIONS */
+};
+
+#endif

@@ -1,0 +1,212 @@
+#include "mover.h"
+
+#include "base_tick.h"
+#include "hal_run.h"
+#include "hal_step.h"
+#include "hal_time.h"
+
+enum {
+    CUT_SEGMENTS = 4,  /* handed over with a cut; the rest follows while they last */
+    REPLAN_TRIES = 8,  /* each gives the planner twice the time of the one before */
+};
+
+void mover_init(struct mover *mover, unsigned motor)
+{
+    *mover = (struct mover){.motor = (uint8_t)motor};
+    step_channel_init(&mover->channel, motor);
+}
+
+static void mover_feed(struct mover *mover)
+{
+    struct step_segment segment;
+    while (step_channel_room(&mover->channel) > 0 && motion_plan_next(&mover->plan, &segment)) {
+        step_channel_push(&mover->channel, &segment);
+    }
+}
+
+static enum hal_trace_stop guard_cause(const struct mover_guards *guards, uint8_t inputs)
+{
+    if ((guards->stop_total & inputs) != 0) {
+        return HAL_TRACE_STOP_TOTAL;
+    }
+    if ((guards->stop_high & inputs) != 0) {
+        return HAL_TRACE_STOP_HIGH;
+    }
+    if ((guards->stop_low & ~(unsigned)inputs) != 0) {
+        return HAL_TRACE_STOP_LOW;
+    }
+    return (guards->halt_high & inputs) != 0 ? HAL_TRACE_STOP_LIMIT : HAL_TRACE_STOP_NONE;
+}
+
+static void set_cause(struct mover *mover, enum hal_trace_stop cause)
+{
+    mover->cause = cause;
+    hal_trace(hal_time_now(), mover->motor + 1U, HAL_TRACE_STOP, cause);
+}
+
+void mover_start(struct mover *mover, const struct motion_order *order, bool backward, uint64_t start_tick,
+                 const struct mover_guards *guards, uint8_t inputs)
+{
+    hal_run_hold_tick();
+    mover->guards = *guards;
+    mover->cause = HAL_TRACE_STOP_NONE;
+    step_channel_begin(&mover->channel, (uint32_t)start_tick, backward);
+    enum hal_trace_stop cause = guard_cause(guards, inputs);
+    if (cause != HAL_TRACE_STOP_NONE) {
+        set_cause(mover, cause);
+    } else {
+        motion_plan_begin(&mover->plan, order, start_tick);
+        mover_feed(mover);
+        mover->moving = true;
+        step_channel_run(&mover->channel);
+    }
+    hal_run_release_tick();
+}
+
+/* A copy of the plan, laid anew at a point: a stop, or with a speed a change of speed. */
+static bool plan_anew(struct motion_plan *plan, const struct motion_point *at, uint32_t speed_steps_per_s)
+{
+    return speed_steps_per_s != 0 ? motion_plan_change_speed(plan, at, speed_steps_per_s) : motion_plan_stop(plan, at);
+}
+
+/* Cuts the plan at the first pulse that leaves time enough, and hands over what follows. Where planning takes longer
+ * than the backend said, the motor has gone past that pulse and the next try looks farther ahead. False if nothing is
+ * left to change. */
+static bool mover_replan(struct mover *mover, uint32_t speed_steps_per_s)
+{
+    uint32_t lead_ticks = hal_step_lead_ticks();
+    for (unsigned i = 0; i < REPLAN_TRIES; i++) {
+        uint64_t now = hal_time_now();
+        struct step_cursor at;
+        struct step_segment segments[CUT_SEGMENTS];
+        struct motion_plan plan = mover->plan;
+        if (!step_channel_foresee(&mover->channel, (uint32_t)now + lead_ticks, &at)) {
+            return false;
+        }
+        struct motion_point point = motion_point_of(&at, now);
+        if (!plan_anew(&plan, &point, speed_steps_per_s)) {
+            return false;
+        }
+        unsigned count = 0;
+        while (count < CUT_SEGMENTS && motion_plan_next(&plan, &segments[count])) {
+            count++;
+        }
+        if (step_channel_cut(&mover->channel, &at, segments, count)) {
+            mover->plan = plan;
+            mover_feed(mover);
+            return true;
+        }
+        lead_ticks *= 2U;
+    }
+    return false;
+}
+
+static void stop_locked(struct mover *mover, enum hal_trace_stop cause)
+{
+    if (!mover->moving || mover->cause != HAL_TRACE_STOP_NONE) {
+        return;
+    }
+    set_cause(mover, cause);
+    if (cause == HAL_TRACE_STOP_LIMIT) {
+        step_channel_halt(&mover->channel);
+    } else {
+        (void)mover_replan(mover, 0);
+    }
+}
+
+void mover_stop(struct mover *mover, enum hal_trace_stop cause)
+{
+    hal_run_hold_tick();
+    stop_locked(mover, cause);
+    hal_run_release_tick();
+}
+
+void mover_change_speed(struct mover *mover, uint32_t speed_steps_per_s)
+{
+    hal_run_hold_tick();
+    bool changeable = mover->moving && mover->cause == HAL_TRACE_STOP_NONE && mover->guards.halt_high == 0;
+    if (changeable && mover_replan(mover, speed_steps_per_s)) {
+        hal_trace(hal_time_now(), mover->motor + 1U, HAL_TRACE_SPEED, speed_steps_per_s);
+    }
+    hal_run_release_tick();
+}
+
+/* The step interrupt rests when the queue is empty. If the planner was late there is more now: then the motor goes on,
+ * late, and the backend counts it. */
+void mover_poll(struct mover *mover)
+{
+    if (!mover->moving) {
+        return;
+    }
+    hal_run_hold_tick();
+    mover_feed(mover);
+    if (!step_channel_is_running(&mover->channel)) {
+        if (step_channel_room(&mover->channel) < STEP_QUEUE_SEGMENTS) {
+            step_channel_run(&mover->channel);
+        } else {
+            mover->moving = false;
+        }
+    }
+    hal_run_release_tick();
+}
+
+bool mover_is_moving(const struct mover *mover)
+{
+    return mover->moving;
+}
+
+enum hal_trace_stop mover_stop_cause(const struct mover *mover)
+{
+    return mover->cause;
+}
+
+uint64_t mover_end_tick(const struct mover *mover)
+{
+    return tick_extend(step_channel_end_tick(&mover->channel), hal_time_now());
+}
+
+uint64_t mover_steps_made(const struct mover *mover)
+{
+    return step_channel_pulses(&mover->channel);
+}
+
+int64_t mover_position_steps(const struct mover *mover)
+{
+    return step_channel_position(&mover->channel);
+}
+
+void mover_set_position(struct mover *mover, int64_t position_steps)
+{
+    step_channel_set_position(&mover->channel, position_steps);
+}
+
+bool mover_take_mark(struct mover *mover)
+{
+    return step_channel_take_mark(&mover->channel);
+}
+
+unsigned mover_corners(const struct mover *mover, struct motion_corner corners[MOTION_CORNERS_MAX])
+{
+    if (!mover->moving) {
+        return 0;
+    }
+    hal_run_hold_tick();
+    unsigned count = motion_plan_corners(&mover->plan, corners);
+    hal_run_release_tick();
+    return count;
+}
+
+bool mover_sense_isr(struct mover *mover, uint8_t inputs)
+{
+    enum hal_trace_stop cause = guard_cause(&mover->guards, inputs);
+    bool stops = mover->moving && mover->cause == HAL_TRACE_STOP_NONE && cause != HAL_TRACE_STOP_NONE;
+    if (stops) {
+        stop_locked(mover, cause);
+    }
+    return stops;
+}
+
+bool mover_pulse_isr(struct mover *mover)
+{
+    return step_channel_pulse_isr(&mover->channel);
+}

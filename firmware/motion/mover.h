@@ -1,0 +1,84 @@
+/*
+ * The mover: one motor's moves, from order to pulses, with all that can end a move early.
+ *
+ * Comes in: orders, stops and changes of speed from the interpreter; the inputs, sensed in the unit's tick. Goes out:
+ * segments to the motor's step channel. Everything here is called from main, except mover_sense_isr and the step
+ * interrupt's mover_pulse_isr; main holds the tick interrupt off (hal_run.h) by itself where it must.
+ */
+#ifndef MOVER_H
+#define MOVER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base_limits.h"
+#include "hal_trace.h"
+#include "motion_order.h"
+#include "motion_plan.h"
+#include "step_channel.h"
+
+/* What inputs do to the move in progress; bit 0 is input 1. */
+struct mover_guards {
+    uint8_t stop_high;  /* an input that is 1 stops down the ramp (M) */
+    uint8_t stop_low;   /* an input that is 0 stops down the ramp (N) */
+    uint8_t stop_total; /* an input that is 1 stops down the ramp; told apart by its cause (X) */
+    uint8_t halt_high;  /* an input that is 1 ends the move at once: a limit run */
+};
+
+struct mover {
+    struct step_channel channel;
+    struct motion_plan plan;
+    struct mover_guards guards;
+    enum hal_trace_stop cause; /* why the move is being stopped or was stopped; NONE: not at all */
+    uint8_t motor;
+    bool moving;
+};
+
+/* Stands at position 0. */
+void mover_init(struct mover *mover, unsigned motor);
+
+/* Begins a move at `start_tick`, the unit's time, which may be up to 300 us past: the first pulse comes a whole step
+ * later. Where an input of a guard has the guarded level already, no step is made and the cause is set. */
+void mover_start(struct mover *mover, const struct motion_order *order, bool backward, uint64_t start_tick,
+                 const struct mover_guards *guards, uint8_t inputs);
+
+/* Stops the move down its ramp, from the next pulse that is due; nothing if it is being stopped already. */
+void mover_stop(struct mover *mover, enum hal_trace_stop cause);
+
+/* Changes the speed of the present section, from the next pulse that is due; nothing while the move is being stopped
+ * and in a limit run. */
+void mover_change_speed(struct mover *mover, uint32_t speed_steps_per_s);
+
+/* Work in main, whenever the step interrupt asks for it: hands over segments, sees the end of a move. */
+void mover_poll(struct mover *mover);
+
+/* Whether a move is in progress: from mover_start until mover_poll has seen its last pulse. */
+bool mover_is_moving(const struct mover *mover);
+
+/* Why the last move ended before its end; NONE if it did not. */
+enum hal_trace_stop mover_stop_cause(const struct mover *mover);
+
+/* The unit's time of the last pulse of the move that has ended, or of its start if there was no pulse; to be asked
+ * within 25 s of it. */
+uint64_t mover_end_tick(const struct mover *mover);
+
+/* Steps made in the present or last move. */
+uint64_t mover_steps_made(const struct mover *mover);
+
+/* The absolute position; set only while standing. */
+int64_t mover_position_steps(const struct mover *mover);
+void mover_set_position(struct mover *mover, int64_t position_steps);
+
+/* Whether the last section of a move of several has begun since the last call. */
+bool mover_take_mark(struct mover *mover);
+
+/* The break points of the move in progress (motion_plan.h); 0 while standing. */
+unsigned mover_corners(const struct mover *mover, struct motion_corner corners[MOTION_CORNERS_MAX]);
+
+/* Tick interrupt: ends or stops the move if an input says so. True: main has something to do. */
+bool mover_sense_isr(struct mover *mover, uint8_t inputs);
+
+/* Step interrupt: the armed pulse has been made. True: main has something to do. */
+bool mover_pulse_isr(struct mover *mover);
+
+#endif

@@ -1,0 +1,189 @@
+#include "step_channel.h"
+
+#include <assert.h>
+
+#include "base_tick.h"
+#include "hal_step.h"
+
+static_assert((STEP_QUEUE_SEGMENTS & (STEP_QUEUE_SEGMENTS - 1)) == 0, "the ring's counters wrap with its size");
+
+static const struct step_segment *queue_slot(const struct step_channel *channel, uint32_t count)
+{
+    return &channel->queue[count % STEP_QUEUE_SEGMENTS];
+}
+
+/* Moves a cursor to the next pulse. False if there is none. */
+static bool cursor_advance(struct step_cursor *cursor, const struct step_channel *channel, uint32_t head)
+{
+    if (cursor->left == 0) {
+        if (cursor->tail == head) {
+            return false;
+        }
+        const struct step_segment *segment = queue_slot(channel, cursor->tail);
+        step_generator_load(&cursor->generator, segment);
+        cursor->left = segment->steps;
+        cursor->tail++;
+    }
+    cursor->left--;
+    cursor->pulses++;
+    (void)step_generator_next(&cursor->generator);
+    return true;
+}
+
+/* Arms the next pulse; the channel rests if there is none. True when a new segment was begun or none was left. */
+static bool channel_arm_next(struct step_channel *channel)
+{
+    uint32_t head = atomic_load_explicit(&channel->head, memory_order_acquire);
+    uint32_t tail = channel->cursor.tail;
+    if (!cursor_advance(&channel->cursor, channel, head)) {
+        atomic_store_explicit(&channel->running, false, memory_order_release);
+        return true;
+    }
+    hal_step_arm(channel->motor, channel->cursor.generator.tick);
+    if (channel->cursor.tail == tail) {
+        return false;
+    }
+    if (queue_slot(channel, tail)->marked) {
+        atomic_store_explicit(&channel->marked, true, memory_order_relaxed);
+    }
+    atomic_store_explicit(&channel->taken, channel->cursor.tail, memory_order_release);
+    return true;
+}
+
+void step_channel_init(struct step_channel *channel, unsigned motor)
+{
+    *channel = (struct step_channel){.direction = 1, .motor = (uint8_t)motor};
+}
+
+void step_channel_begin(struct step_channel *channel, uint32_t tick, bool backward)
+{
+    step_generator_start(&channel->cursor.generator, tick);
+    channel->cursor.pulses = 0;
+    channel->cursor.left = 0;
+    channel->direction = backward ? -1 : 1;
+    atomic_store_explicit(&channel->marked, false, memory_order_relaxed);
+    hal_step_set_direction(channel->motor, backward);
+}
+
+uint32_t step_channel_room(const struct step_channel *channel)
+{
+    uint32_t head = atomic_load_explicit(&channel->head, memory_order_relaxed);
+    uint32_t taken = atomic_load_explicit(&channel->taken, memory_order_acquire);
+    return STEP_QUEUE_SEGMENTS - (head - taken);
+}
+
+void step_channel_push(struct step_channel *channel, const struct step_segment *segment)
+{
+    uint32_t head = atomic_load_explicit(&channel->head, memory_order_relaxed);
+    channel->queue[head % STEP_QUEUE_SEGMENTS] = *segment;
+    atomic_store_explicit(&channel->head, head + 1U, memory_order_release);
+}
+
+void step_channel_run(struct step_channel *channel)
+{
+    atomic_store_explicit(&channel->running, true, memory_order_relaxed);
+    (void)channel_arm_next(channel);
+}
+
+bool step_channel_is_running(const struct step_channel *channel)
+{
+    return atomic_load_explicit(&channel->running, memory_order_acquire);
+}
+
+bool step_channel_foresee(struct step_channel *channel, uint32_t tick, struct step_cursor *cursor)
+{
+    hal_step_hold();
+    bool running = step_channel_is_running(channel);
+    *cursor = channel->cursor;
+    hal_step_release();
+    uint32_t head = atomic_load_explicit(&channel->head, memory_order_relaxed);
+    while (running && tick_is_before(cursor->generator.tick, tick)) {
+        running = cursor_advance(cursor, channel, head);
+    }
+    return running;
+}
+
+/* Leaves of the queue what lies before pulse `pulses`, which is the armed one or a later one. */
+static void channel_truncate(struct step_channel *channel, uint64_t pulses)
+{
+    uint64_t keep = pulses - channel->cursor.pulses;
+    uint32_t head = channel->cursor.tail;
+    if (keep <= channel->cursor.left) {
+        channel->cursor.left = (uint32_t)keep;
+    } else {
+        keep -= channel->cursor.left;
+        for (; keep > 0; head++) {
+            struct step_segment *segment = &channel->queue[head % STEP_QUEUE_SEGMENTS];
+            segment->steps = keep < segment->steps ? (uint32_t)keep : segment->steps;
+            keep -= segment->steps;
+        }
+    }
+    atomic_store_explicit(&channel->head, head, memory_order_relaxed);
+}
+
+bool step_channel_cut(struct step_channel *channel, const struct step_cursor *at, const struct step_segment *segments,
+                      unsigned count)
+{
+    hal_step_hold();
+    bool in_time = step_channel_is_running(channel) && channel->cursor.pulses <= at->pulses;
+    if (in_time) {
+        channel_truncate(channel, at->pulses);
+        for (unsigned i = 0; i < count; i++) {
+            step_channel_push(channel, &segments[i]);
+        }
+    }
+    hal_step_release();
+    return in_time;
+}
+
+void step_channel_halt(struct step_channel *channel)
+{
+    hal_step_hold();
+    if (step_channel_is_running(channel)) {
+        channel->cursor.left = 0;
+        atomic_store_explicit(&channel->head, channel->cursor.tail, memory_order_relaxed);
+        if (hal_step_disarm(channel->motor)) {
+            channel->cursor.pulses--;
+            channel->cursor.generator.tick -= channel->cursor.generator.interval;
+            atomic_store_explicit(&channel->running, false, memory_order_relaxed);
+        }
+    }
+    hal_step_release();
+}
+
+uint64_t step_channel_pulses(const struct step_channel *channel)
+{
+    hal_step_hold();
+    uint64_t pulses = channel->cursor.pulses - (step_channel_is_running(channel) ? 1U : 0U);
+    hal_step_release();
+    return pulses;
+}
+
+int64_t step_channel_position(const struct step_channel *channel)
+{
+    hal_step_hold();
+    int64_t position = channel->position;
+    hal_step_release();
+    return position;
+}
+
+void step_channel_set_position(struct step_channel *channel, int64_t position_steps)
+{
+    channel->position = position_steps;
+}
+
+uint32_t step_channel_end_tick(const struct step_channel *channel)
+{
+    return channel->cursor.generator.tick;
+}
+
+bool step_channel_take_mark(struct step_channel *channel)
+{
+    return atomic_exchange_explicit(&channel->marked, false, memory_order_relaxed);
+}
+
+bool step_channel_pulse_isr(struct step_channel *channel)
+{
+    channel->position += channel->direction;
+    return channel_arm_next(channel);
+}

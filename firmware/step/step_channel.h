@@ -1,0 +1,89 @@
+/*
+ * A step channel: the pulses of one motor, from segments to the pin.
+ *
+ * Comes in: segments, in a ring that the planner fills (main) and the step interrupt empties. Goes out: compare ticks
+ * to hal_step, one pulse ahead, and the position. Because the channel is never more than one pulse ahead, a stop or a
+ * change of speed cuts the queue at the pulse that is armed and nothing has to be taken back.
+ * Functions named _isr run in the step interrupt; all others in main (or the unit's tick), never in both at once.
+ */
+#ifndef STEP_CHANNEL_H
+#define STEP_CHANNEL_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "step_generator.h"
+#include "step_segment.h"
+
+/* A compound move of ten sections has at most 30 segments: a whole move fits. A power of two. */
+enum { STEP_QUEUE_SEGMENTS = 32 };
+
+/* How far the pulses have come: enough to foresee the pulses that follow. */
+struct step_cursor {
+    struct step_generator generator;
+    uint64_t pulses;   /* ordinal in the move of the pulse that the generator stands on; 0 before the first */
+    uint32_t left;     /* pulses still to come on the present segment */
+    uint32_t tail;     /* count of segments taken from the queue */
+};
+
+struct step_channel {
+    struct step_cursor cursor; /* stands on the armed pulse while running, else on the last one made */
+    struct step_segment queue[STEP_QUEUE_SEGMENTS];
+    _Atomic uint32_t head;     /* count of segments put into the queue; written by main */
+    _Atomic uint32_t taken;    /* count of segments taken; written by the interrupt: what main may overwrite */
+    _Atomic bool running;      /* a pulse is armed */
+    _Atomic bool marked;       /* a marked segment has begun; main clears it */
+    int64_t position;          /* steps, absolute */
+    int8_t direction;          /* +1 or -1 */
+    uint8_t motor;             /* 0 to 3 */
+};
+
+/* Stands at position 0. */
+void step_channel_init(struct step_channel *channel, unsigned motor);
+
+/* Readies the channel for a move that begins at `tick` with DIR set; the queue is empty. Not while running. */
+void step_channel_begin(struct step_channel *channel, uint32_t tick, bool backward);
+
+/* Free places in the queue. */
+uint32_t step_channel_room(const struct step_channel *channel);
+
+/* Appends a segment; there must be room. */
+void step_channel_push(struct step_channel *channel, const struct step_segment *segment);
+
+/* Arms the first pulse of what has been pushed, if any. */
+void step_channel_run(struct step_channel *channel);
+
+/* Whether a pulse is still to come. */
+bool step_channel_is_running(const struct step_channel *channel);
+
+/* The pulse at which a change can take effect: the armed one, or the first that is due at or after `tick`, which
+ * gives the caller time to plan. False if no pulse is left there. */
+bool step_channel_foresee(struct step_channel *channel, uint32_t tick, struct step_cursor *cursor);
+
+/* From the pulse `at` on, nothing that was queued is left, and `count` new segments follow. False, and nothing is
+ * changed, if the motor has gone past that pulse in the meantime. */
+bool step_channel_cut(struct step_channel *channel, const struct step_cursor *at, const struct step_segment *segments,
+                      unsigned count);
+
+/* Takes the armed pulse back and ends the move at once. */
+void step_channel_halt(struct step_channel *channel);
+
+/* Pulses made in the present or last move. */
+uint64_t step_channel_pulses(const struct step_channel *channel);
+
+/* Absolute position, steps; set only while not running. */
+int64_t step_channel_position(const struct step_channel *channel);
+void step_channel_set_position(struct step_channel *channel, int64_t position_steps);
+
+/* The tick of the last pulse; of the start of the move if there was none. Not while running. */
+uint32_t step_channel_end_tick(const struct step_channel *channel);
+
+/* Whether a marked segment has begun since the last call. */
+bool step_channel_take_mark(struct step_channel *channel);
+
+/* The armed pulse has been made by hardware: counts it and arms the next. True when main should look: the move has
+ * ended, or a marked segment has begun, or the queue has got shorter. */
+bool step_channel_pulse_isr(struct step_channel *channel);
+
+#endif

@@ -1,0 +1,24 @@
+/*
+ * A segment: motion under one constant acceleration, the only thing that the step generator knows.
+ *
+ * The planner lays segments (motion/), the step interrupt walks along them. A trapezoid is three segments, a stop is
+ * one; an axis of an interpolated vector would be segments with slope and accel scaled by its share.
+ * Positions and slopes are in the units of step_scale.h.
+ */
+#ifndef STEP_SEGMENT_H
+#define STEP_SEGMENT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct step_segment {
+    uint64_t residual;       /* position at `tick`, less the pulses made before this segment; quanta, modulo 2^64 */
+    uint64_t slope;          /* quanta a tick, at `tick` */
+    int32_t accel;           /* quanta a tick^2; negative when braking, 0 at constant speed */
+    uint32_t tick;           /* the moment that residual and slope are of; within 25 s of the first pulse */
+    uint32_t interval_ticks; /* from `tick` to the first pulse, nearly: where the generator begins to search */
+    uint32_t steps;          /* pulses on this segment, at least 1 */
+    bool marked;             /* the channel reports when this segment begins (last section of a compound move) */
+};
+
+#endif

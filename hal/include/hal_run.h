@@ -1,0 +1,26 @@
+/*
+ * What the backend calls: the unit's interrupt entries, handed over once at start.
+ */
+#ifndef HAL_RUN_H
+#define HAL_RUN_H
+
+#include <stdbool.h>
+
+struct hal_client {
+    void *context;
+
+    /* Step interrupt: the armed pulse of motor 0 to 3 has been made. True: main has something to do. */
+    bool (*step_isr)(void *context, unsigned motor);
+
+    /* Tick interrupt, 1 kHz or faster, or whenever an input changes: senses the inputs for guards and stops. */
+    void (*tick_isr)(void *context);
+};
+
+/* Starts the interrupts. The client must live as long as the backend runs. Main. */
+void hal_run_start(const struct hal_client *client);
+
+/* Holds the tick interrupt off while main works on what it shares with it, and lets it through again; not nested. */
+void hal_run_hold_tick(void);
+void hal_run_release_tick(void);
+
+#endif
