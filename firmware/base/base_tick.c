@@ -4,8 +4,7 @@
 
 int32_t tick_difference(uint32_t a, uint32_t b)
 {
-    uint32_t way = a - b;
-    return way <= (uint32_t)INT32_MAX ? (int32_t)way : -(int32_t)(UINT32_MAX - way) - 1;
+    return wide_to_signed_32(a - b);
 }
 
 bool tick_is_before(uint32_t a, uint32_t b)

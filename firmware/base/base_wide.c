@@ -2,6 +2,18 @@
 
 enum { WORD_BITS = 64, HALF_BITS = 32 };
 
+unsigned wide_bits(uint32_t value)
+{
+    unsigned bits = 0;
+    for (unsigned half = HALF_BITS / 2; half > 0; half /= 2U) {
+        if (value >> half != 0) {
+            value >>= half;
+            bits += half;
+        }
+    }
+    return bits + value;
+}
+
 struct wide wide_multiply(uint64_t a, uint64_t b)
 {
     uint64_t a_low = a & UINT32_MAX;

@@ -15,17 +15,31 @@ struct wide {
     uint64_t low;
 };
 
-/* The two's complement reading of a wrapping 64-bit number, and back. Compilers make nothing of them: they are the
+/* The two's complement reading of a wrapping 64-bit or 32-bit number, and back. Compilers make nothing of them: they are the
  * portable spelling of a cast, and may be used in the step interrupt. */
 static inline int64_t wide_to_signed(uint64_t value)
 {
     return value <= (uint64_t)INT64_MAX ? (int64_t)value : -(int64_t)(UINT64_MAX - value) - 1;
 }
 
+static inline int32_t wide_to_signed_32(uint32_t value)
+{
+    return value <= (uint32_t)INT32_MAX ? (int32_t)value : -(int32_t)(UINT32_MAX - value) - 1;
+}
+
 static inline uint64_t wide_from_signed(int64_t value)
 {
     return (uint64_t)value;
 }
+
+/* a * b / 2^32, rounded down. May be used in the step interrupt. */
+static inline int32_t wide_multiply_high(int32_t a, int32_t b)
+{
+    return wide_to_signed_32((uint32_t)(wide_from_signed((int64_t)a * b) >> 32U));
+}
+
+/* The number of bits of value up to its highest 1; 0 for 0. May be used in the step interrupt. */
+unsigned wide_bits(uint32_t value);
 
 /* a * b, exact. */
 struct wide wide_multiply(uint64_t a, uint64_t b);
