@@ -15,8 +15,8 @@ struct wide {
     uint64_t low;
 };
 
-/* The two's complement reading of a wrapping 64-bit or 32-bit number, and back. Compilers make nothing of them: they are the
- * portable spelling of a cast, and may be used in the step interrupt. */
+/* The two's complement reading of a wrapping 64-bit or 32-bit number, and back. Compilers make nothing of them: they
+ * are the portable spelling of a cast, and may be used in the step interrupt. */
 static inline int64_t wide_to_signed(uint64_t value)
 {
     return value <= (uint64_t)INT64_MAX ? (int64_t)value : -(int64_t)(UINT64_MAX - value) - 1;
@@ -58,7 +58,7 @@ bool wide_is_at_least(struct wide a, struct wide b);
  * must fit 64 bits, that is value.high < divisor; otherwise UINT64_MAX comes back with remainder 0. */
 uint64_t wide_divide(struct wide value, uint64_t divisor, uint64_t *remainder);
 
-/* value / divisor rounded to the nearest whole number; as wide_divide. */
+/* value / divisor rounded to the nearest whole number, which must fit 64 bits; else as wide_divide. */
 uint64_t wide_divide_nearest(struct wide value, uint64_t divisor);
 
 /* The square root of value, rounded to the nearest whole number; value < 2^127. */
