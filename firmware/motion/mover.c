@@ -38,10 +38,10 @@ static enum hal_trace_stop guard_cause(const struct mover_guards *guards, uint8_
     return (guards->halt_high & inputs) != 0 ? HAL_TRACE_STOP_LIMIT : HAL_TRACE_STOP_NONE;
 }
 
-static void set_cause(struct mover *mover, enum hal_trace_stop cause)
+static void set_cause(struct mover *mover, enum hal_trace_stop cause, uint64_t tick)
 {
     mover->cause = cause;
-    hal_trace(hal_time_now(), mover->motor + 1U, HAL_TRACE_STOP, cause);
+    hal_trace(tick, mover->motor + 1U, HAL_TRACE_STOP, cause);
 }
 
 void mover_start(struct mover *mover, const struct motion_order *order, bool backward, uint64_t start_tick,
@@ -53,7 +53,7 @@ void mover_start(struct mover *mover, const struct motion_order *order, bool bac
     step_channel_begin(&mover->channel, (uint32_t)start_tick, backward);
     enum hal_trace_stop cause = guard_cause(guards, inputs);
     if (cause != HAL_TRACE_STOP_NONE) {
-        set_cause(mover, cause);
+        set_cause(mover, cause, start_tick);
     } else {
         motion_plan_begin(&mover->plan, order, start_tick);
         mover_feed(mover);
@@ -106,8 +106,9 @@ static void stop_locked(struct mover *mover, enum hal_trace_stop cause)
     if (!mover->moving || mover->cause != HAL_TRACE_STOP_NONE) {
         return;
     }
-    set_cause(mover, cause);
+    set_cause(mover, cause, hal_time_now());
     if (cause == HAL_TRACE_STOP_LIMIT) {
+        motion_plan_end(&mover->plan);
         step_channel_halt(&mover->channel);
     } else {
         (void)mover_replan(mover, 0);

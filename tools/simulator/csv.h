@@ -1,0 +1,19 @@
+/*
+ * The two tables: a line for each STEP pulse, and a line for each trace event. Ticks count from the start of the
+ * simulation.
+ */
+#ifndef CSV_H
+#define CSV_H
+
+#include "outfile.h"
+#include "timeline.h"
+
+/* Steps: `# tick_hz=84000000`, `tick,motor,position`, then the pulses. */
+void csv_begin_steps(struct outfile *file);
+void csv_put_step(struct outfile *file, const struct timeline_event *event);
+
+/* Trace: `tick,motor,event,value`, then the events. The value of a stop is its cause, of an error its text. */
+void csv_begin_trace(struct outfile *file);
+void csv_put_trace(struct outfile *file, const struct timeline_event *event);
+
+#endif

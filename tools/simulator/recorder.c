@@ -1,0 +1,81 @@
+#include "recorder.h"
+
+#include "csv.h"
+#include "host_machine.h"
+
+static void recorder_write(void *context, const struct timeline_event *event)
+{
+    struct recorder *recorder = context;
+    if (event->kind == TIMELINE_STEP && outfile_is_open(&recorder->steps)) {
+        csv_put_step(&recorder->steps, event);
+    }
+    if (event->kind == TIMELINE_TRACE && outfile_is_open(&recorder->trace)) {
+        csv_put_trace(&recorder->trace, event);
+    }
+    if (outfile_is_open(&recorder->waves)) {
+        vcd_put(&recorder->vcd, event);
+    }
+}
+
+static void recorder_begin(struct recorder *recorder)
+{
+    if (outfile_is_open(&recorder->steps)) {
+        csv_begin_steps(&recorder->steps);
+    }
+    if (outfile_is_open(&recorder->trace)) {
+        csv_begin_trace(&recorder->trace);
+    }
+    if (outfile_is_open(&recorder->waves)) {
+        vcd_begin(&recorder->vcd, &recorder->waves);
+    }
+}
+
+bool recorder_open(struct recorder *recorder, const struct recorder_paths *paths)
+{
+    timeline_init(&recorder->timeline, recorder_write, recorder);
+    recorder->active = paths->steps != NULL || paths->trace != NULL || paths->vcd != NULL;
+    recorder->steps = (struct outfile){.path = NULL};
+    recorder->trace = recorder->steps;
+    recorder->waves = recorder->steps;
+    if (!outfile_open(&recorder->steps, paths->steps) || !outfile_open(&recorder->trace, paths->trace) ||
+        !outfile_open(&recorder->waves, paths->vcd)) {
+        recorder_discard(recorder);
+        return false;
+    }
+    recorder_begin(recorder);
+    return true;
+}
+
+void recorder_put(struct recorder *recorder, const struct timeline_event *event, uint64_t now_ticks)
+{
+    timeline_put(&recorder->timeline, event, now_ticks);
+    if (event->kind == TIMELINE_STEP && outfile_is_open(&recorder->waves)) {
+        struct timeline_event fall = *event;
+        fall.kind = TIMELINE_STEP_END;
+        fall.tick += HOST_PULSE_TICKS;
+        timeline_put(&recorder->timeline, &fall, now_ticks);
+    }
+}
+
+bool recorder_finish(struct recorder *recorder, uint64_t end_tick)
+{
+    timeline_flush(&recorder->timeline);
+    if (outfile_is_open(&recorder->waves)) {
+        vcd_end(&recorder->vcd, end_tick);
+    }
+    bool good = outfile_close(&recorder->steps);
+    good = outfile_close(&recorder->trace) && good;
+    good = outfile_close(&recorder->waves) && good;
+    good = good && outfile_publish(&recorder->steps) && outfile_publish(&recorder->trace) &&
+           outfile_publish(&recorder->waves);
+    recorder_discard(recorder);
+    return good;
+}
+
+void recorder_discard(struct recorder *recorder)
+{
+    outfile_discard(&recorder->steps);
+    outfile_discard(&recorder->trace);
+    outfile_discard(&recorder->waves);
+    recorder->active = false;
+}

@@ -1,0 +1,181 @@
+#include "run.h"
+
+#include <stdlib.h>
+
+#include "feed.h"
+#include "inputs.h"
+#include "summary.h"
+#include "units.h"
+
+static void record(struct run *run, const struct timeline_event *event)
+{
+    if (run->recorder.active) {
+        recorder_put(&run->recorder, event, run->machine.now);
+    }
+}
+
+/* The pin is up, the step interrupt has not counted the pulse yet. */
+static void hear_step(void *context, uint64_t tick, unsigned motor, bool backward)
+{
+    struct run *run = context;
+    int64_t position = mover_position_steps(&run->unit.mover[motor]) + (backward ? -1 : 1);
+    run->positions[motor] = position;
+    uint64_t interval_ticks = tally_count_pulse(&run->tally[motor], tick, position);
+    record(run, &(struct timeline_event){.tick = tick,
+                                         .kind = TIMELINE_STEP,
+                                         .motor = (uint8_t)(motor + 1U),
+                                         .value = position,
+                                         .interval_ticks = interval_ticks});
+}
+
+static void hear_direction(void *context, uint64_t tick, unsigned motor, bool backward)
+{
+    record(context, &(struct timeline_event){
+                        .tick = tick, .kind = TIMELINE_DIRECTION, .motor = (uint8_t)(motor + 1U), .value = backward});
+}
+
+static void hear_led(void *context, uint64_t tick, unsigned motor, bool on)
+{
+    record(context, &(struct timeline_event){
+                        .tick = tick, .kind = TIMELINE_LED, .motor = (uint8_t)(motor + 1U), .value = on});
+}
+
+static void hear_input(void *context, uint64_t tick, uint8_t levels)
+{
+    record(context, &(struct timeline_event){.tick = tick, .kind = TIMELINE_INPUT, .value = levels});
+}
+
+static void hear_output(void *context, uint64_t tick, uint8_t levels)
+{
+    record(context, &(struct timeline_event){.tick = tick, .kind = TIMELINE_OUTPUT, .value = levels});
+}
+
+static void hear_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
+{
+    struct run *run = context;
+    if (event == HAL_TRACE_MOVE) {
+        tally_begin_move(&run->tally[motor - 1U], tick, mover_position_steps(&run->unit.mover[motor - 1U]));
+    } else if (event == HAL_TRACE_DONE) {
+        tally_end_move(&run->tally[motor - 1U], tick);
+    }
+    record(run, &(struct timeline_event){.tick = tick,
+                                         .kind = TIMELINE_TRACE,
+                                         .motor = (uint8_t)motor,
+                                         .detail = (uint8_t)event,
+                                         .value = value});
+}
+
+/* Positions that a command has written; those that pulses make are recorded with the pulses. */
+static void record_positions(struct run *run)
+{
+    for (unsigned i = 0; i < UNIT_MOTORS; i++) {
+        const struct mover *mover = &run->unit.mover[i];
+        int64_t position = run->positions[i];
+        if (!mover_is_moving(mover)) {
+            position = mover_position_steps(mover);
+        }
+        if (position != run->positions[i]) {
+            run->positions[i] = position;
+            record(run, &(struct timeline_event){.tick = run->machine.now,
+                                                 .kind = TIMELINE_POSITION,
+                                                 .motor = (uint8_t)(i + 1U),
+                                                 .value = position});
+        }
+    }
+}
+
+static uint64_t run_pass(void *context)
+{
+    struct run *run = context;
+    uint64_t wake = unit_poll(&run->unit);
+    if (run->recorder.active) {
+        record_positions(run);
+    }
+    return wake;
+}
+
+static bool run_is_idle(void *context)
+{
+    struct run *run = context;
+    run->idle = unit_is_idle(&run->unit);
+    return run->idle;
+}
+
+void run_begin(struct run *run, uint64_t epoch)
+{
+    host_machine_init(&run->machine, epoch);
+    host_machine_select(&run->machine);
+    run->machine.listener = (struct host_listener){
+        .context = run,
+        .step = hear_step,
+        .direction = hear_direction,
+        .led = hear_led,
+        .input = hear_input,
+        .output = hear_output,
+        .trace = hear_trace,
+    };
+    run->recorder.active = false;
+    for (unsigned i = 0; i < UNIT_MOTORS; i++) {
+        run->tally[i] = (struct tally){.moves = 0};
+        run->positions[i] = 0;
+    }
+    run->real_ns = 0;
+    run->idle = false;
+    unit_init(&run->unit);
+    unit_start(&run->unit);
+}
+
+void run_until(struct run *run, uint64_t until_tick)
+{
+    uint64_t start_ns = units_real_ns();
+    host_machine_run(&run->machine, until_tick, run_pass, run_is_idle, run);
+    run->real_ns += units_real_ns() - start_ns;
+}
+
+/* With everything read and all output files open. The unit gets its programs before its first pass. */
+static enum exit_status run_programs(struct run *run, struct feed *feed, uint64_t duration_ns)
+{
+    if (!feed_send(feed, &run->unit)) {
+        return EXIT_REFUSED;
+    }
+    run_until(run, units_ticks_of_ns(duration_ns));
+    if (!recorder_finish(&run->recorder, run->machine.now)) {
+        return EXIT_REFUSED;
+    }
+    summary_print(run, feed);
+    return finish_output();
+}
+
+static enum exit_status run_with(const struct options *options, struct feed *feed, const struct inputs *inputs)
+{
+    struct run *run = malloc(sizeof *run);
+    if (run == NULL) {
+        complain("there is not memory enough for a unit; close other programs");
+        return EXIT_REFUSED;
+    }
+    enum exit_status status = EXIT_REFUSED;
+    run_begin(run, options->epoch);
+    host_machine_set_script(&run->machine, inputs->script, inputs->length);
+    if (recorder_open(&run->recorder, &options->paths)) {
+        status = run_programs(run, feed, options->duration_ns);
+        recorder_discard(&run->recorder);
+    }
+    free(run);
+    return status;
+}
+
+enum exit_status run_simulation(const struct options *options)
+{
+    struct feed feed;
+    struct inputs inputs;
+    enum exit_status status = EXIT_REFUSED;
+    if (!feed_read(&feed, options->programs)) {
+        return status;
+    }
+    if (inputs_read(&inputs, options->inputs)) {
+        status = run_with(options, &feed, &inputs);
+        inputs_discard(&inputs);
+    }
+    feed_discard(&feed);
+    return status;
+}

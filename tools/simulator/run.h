@@ -1,0 +1,36 @@
+/*
+ * A simulation: the unit on a machine of its own, watched. It is large (300 kB and more): on the heap.
+ */
+#ifndef RUN_H
+#define RUN_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "complain.h"
+#include "host_machine.h"
+#include "options.h"
+#include "recorder.h"
+#include "tally.h"
+#include "unit.h"
+
+struct run {
+    struct host_machine machine;
+    struct unit unit;
+    struct recorder recorder;
+    struct tally tally[UNIT_MOTORS];
+    int64_t positions[UNIT_MOTORS]; /* as recorded last */
+    uint64_t real_ns;               /* time that the simulation took */
+    bool idle;                      /* ended because nothing more could happen */
+};
+
+/* A unit that has just been switched on, with no output files; it stays the one that the hal functions work on. */
+void run_begin(struct run *run, uint64_t epoch);
+
+/* Lets the unit run until all motors are idle or for so many ticks from the start. */
+void run_until(struct run *run, uint64_t until_tick);
+
+/* Does what `rkm04-host sim` does. */
+enum exit_status run_simulation(const struct options *options);
+
+#endif
