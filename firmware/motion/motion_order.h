@@ -12,7 +12,7 @@ enum { MOTION_SECTIONS = 10 };
 /* A run without end ends after 35 years at 16 000 steps/s. */
 #define MOTION_ENDLESS_STEPS (UINT64_C(1) << 44)
 
-/* The longest section that is not endless: from one end of the position counter's range to the other. */
+/* The longest section that is not endless: a hundred times the way between the ends of the counter that `=` can set. */
 #define MOTION_SECTION_STEPS_MAX (UINT64_C(1) << 40)
 
 struct motion_section {

@@ -313,13 +313,13 @@ static unsigned section_corners(const struct motion_profile *profile, struct mot
     return count;
 }
 
-/* The curve ends at its last pulse with speed 0; a run without end does not. */
+/* The curve ends at its last pulse with speed 0; a run without end has neither an end nor a ramp down to it. */
 static unsigned close_corners(struct motion_corner corners[MOTION_CORNERS_MAX], unsigned count)
 {
-    if (corners[count - 1U].step >= MOTION_ENDLESS_STEPS) {
-        return count - 1U;
-    }
     corners[count - 1U].speed_steps_per_s = 0;
+    while (corners[count - 1U].step > MOTION_SECTION_STEPS_MAX) {
+        count--;
+    }
     return count;
 }
 
