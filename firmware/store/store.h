@@ -1,0 +1,62 @@
+/*
+ * The store: one program text per motor in memory that keeps it without power.
+ *
+ * Comes in: canonical program text to keep. Goes out: the same text after a reset. Texts are appended as records with
+ * length, generation and CRC-32 (store_record.h) to one of the two areas of hal_flash; when it is full, the other one
+ * is erased and the newest record of each motor copied over. Main only; no copy in RAM.
+ *
+ * Power cuts: the old text or the new one is there after a cut at any word or inside an erase. A record counts from
+ * the moment its last word, the whole-mark, is written, and that is when all before it has been read back; an area
+ * counts from the moment the record at its begin is whole, which is written when all copies are. Only then is the
+ * area before it made void, and it is erased only when it is to be used again: an erase that was cut is never trusted.
+ *
+ * Damage: a record that was whole and has not its text any more, because bits of it have changed, is damaged, and so
+ * is its motor until the next store: an older text is never taken in its place. Where damage hides which motors are
+ * meant, all are damaged. A record without whole-mark is what a cut or a failure has left; it does not count and the
+ * text before it does. One wrong bit anywhere makes at most one motor damaged.
+ *
+ * Life: at 10 000 erases for each area the rotation is good for 220 000 stores of the longest text on all motors (11
+ * in each area beside the four copies) and for 17 million of 100 bytes. Storing what is stored already writes nothing.
+ */
+#ifndef STORE_H
+#define STORE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base_limits.h"
+
+/* The longest text that can be kept: 700 commands of 12 bytes. */
+enum { STORE_TEXT_BYTES_MAX = 8400 };
+
+/* The error byte of Store Flash. */
+enum store_error {
+    STORE_OK = 0,
+    STORE_WRITE_FAILED = 1, /* the memory reports an error or does not read back what was written; the old text stays,
+                               and the next store tries the other area */
+    STORE_TOO_LONG = 2,
+};
+
+struct store {
+    uint32_t generation;              /* the highest of all records and areas */
+    uint32_t end;                     /* offset behind the last record of the present area; its size: it is full */
+    uint32_t image[UNIT_MOTORS];      /* offset of the record that counts for each motor; 0: none */
+    uint8_t area;                     /* the present area */
+    bool damaged[UNIT_MOTORS];        /* what was stored for this motor cannot be read; image is 0 */
+    bool usable;                      /* there is a present area; else the next store begins the other one */
+};
+
+/* Finds what is stored. Writes at most one word, where a cut came just before the last step of a change of areas;
+ * a cut here does no harm, and calling again finds the same. */
+void store_init(struct store *store);
+
+/* Whether something was stored for motor 0 to 3 and cannot be read. */
+bool store_is_damaged(const struct store *store, unsigned motor);
+
+/* Copies the text kept for motor 0 to 3, once more checked. Returns its length; 0 if there is none or it is empty. */
+uint32_t store_load(const struct store *store, unsigned motor, uint8_t text[STORE_TEXT_BYTES_MAX]);
+
+/* Keeps a text for motor 0 to 3 in place of the one before; an empty text is kept as such. */
+enum store_error store_save(struct store *store, unsigned motor, const uint8_t *text, uint32_t length);
+
+#endif

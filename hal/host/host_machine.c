@@ -1,0 +1,162 @@
+#include "host_machine.h"
+
+#include <string.h>
+
+#include "base_tick.h"
+#include "host_private.h"
+
+enum { ERASED = 0xFF };
+
+struct host_machine *host_selected;
+
+void host_machine_init(struct host_machine *machine, uint64_t epoch)
+{
+    memset(machine, 0, sizeof *machine);
+    machine->epoch = epoch;
+    machine->wake = TICK_NEVER;
+    memset(machine->flash, ERASED, sizeof machine->flash);
+    host_step_reset(machine);
+    host_io_reset(machine);
+}
+
+void host_machine_select(struct host_machine *machine)
+{
+    host_selected = machine;
+}
+
+void host_machine_set_script(struct host_machine *machine, const struct host_input *script, uint32_t length)
+{
+    for (uint32_t i = 0; i < length; i++) {
+        assert(script[i].input >= 1 && script[i].input <= UNIT_INPUTS);
+        assert(i == 0 || script[i - 1].tick <= script[i].tick);
+    }
+    machine->script = script;
+    machine->script_length = length;
+    machine->script_next = 0;
+}
+
+void host_machine_restart(struct host_machine *machine)
+{
+    machine->client = (struct hal_client){0};
+    machine->faults = (struct host_faults){0};
+    machine->wake = TICK_NEVER;
+    machine->step_held = false;
+    machine->tick_held = false;
+    machine->flash_operations = 0;
+    host_step_reset(machine);
+    host_io_reset(machine);
+}
+
+static void wake_main(struct host_machine *machine, uint64_t tick)
+{
+    machine->wake = tick < machine->wake ? tick : machine->wake;
+}
+
+/* The motor whose pulse, or late interrupt, comes first. */
+static unsigned first_motor(const struct host_machine *machine)
+{
+    unsigned first = 0;
+    for (unsigned motor = 1; motor < UNIT_MOTORS; motor++) {
+        first = machine->armed[motor] < machine->armed[first] ? motor : first;
+    }
+    return first;
+}
+
+static uint64_t next_input_tick(const struct host_machine *machine)
+{
+    if (machine->script_next == machine->script_length) {
+        return TICK_NEVER;
+    }
+    uint64_t tick = machine->script[machine->script_next].tick;
+    return tick < machine->now ? machine->now : tick;
+}
+
+static void make_edge(struct host_machine *machine, unsigned motor)
+{
+    machine->pulses++;
+    if (machine->connected && machine->listener.step != NULL) {
+        machine->listener.step(machine->listener.context, machine->now, motor, machine->backward[motor]);
+    }
+}
+
+static void pulse_event(struct host_machine *machine, unsigned motor)
+{
+    machine->now = machine->armed[motor];
+    if (!machine->edge_made[motor]) {
+        make_edge(machine, motor);
+        if (machine->faults.late_step_ticks != 0) {
+            machine->edge_made[motor] = true;
+            machine->armed[motor] += machine->faults.late_step_ticks;
+            return;
+        }
+    }
+    machine->edge_made[motor] = false;
+    machine->armed[motor] = TICK_NEVER;
+    if (machine->client.step_isr(machine->client.context, motor)) {
+        wake_main(machine, machine->now + HOST_PULSE_TICKS);
+    }
+}
+
+static void input_event(struct host_machine *machine, uint64_t tick)
+{
+    uint8_t levels = machine->inputs;
+    machine->now = tick;
+    while (machine->script_next < machine->script_length && machine->script[machine->script_next].tick <= tick) {
+        const struct host_input *change = &machine->script[machine->script_next++];
+        unsigned bit = 1U << (change->input - 1U);
+        levels = (uint8_t)(change->level ? levels | bit : levels & ~bit);
+    }
+    if (levels == machine->inputs) {
+        return;
+    }
+    machine->inputs = levels;
+    if (machine->listener.input != NULL) {
+        machine->listener.input(machine->listener.context, tick, levels);
+    }
+    if (machine->client.tick_isr != NULL) {
+        machine->client.tick_isr(machine->client.context);
+        assert(!machine->step_held);
+    }
+    wake_main(machine, tick);
+}
+
+static void main_event(struct host_machine *machine, host_main_pass *pass, void *context)
+{
+    machine->now = machine->wake;
+    uint64_t next = pass(context);
+    assert(!machine->step_held && !machine->tick_held);
+    if (next == TICK_NEVER) {
+        machine->wake = TICK_NEVER;
+    } else if (next <= host_unit_time(machine)) {
+        machine->wake = machine->now + HOST_PASS_TICKS;
+    } else {
+        machine->wake = next - machine->epoch;
+    }
+}
+
+void host_machine_run(struct host_machine *machine, uint64_t until, host_main_pass *pass, bool (*done)(void *context),
+                      void *context)
+{
+    host_machine_select(machine);
+    machine->wake = machine->now;
+    for (;;) {
+        unsigned motor = first_motor(machine);
+        uint64_t pulse = machine->armed[motor];
+        uint64_t input = next_input_tick(machine);
+        if (pulse < until && pulse <= input && pulse <= machine->wake) {
+            pulse_event(machine, motor);
+        } else if (input < until && input <= machine->wake) {
+            input_event(machine, input);
+        } else if (machine->wake < until) {
+            main_event(machine, pass, context);
+            if (done != NULL && done(context)) {
+                return;
+            }
+        } else {
+            break;
+        }
+    }
+    if (until != TICK_NEVER && until > machine->now) {
+        machine->now = until;
+    }
+}

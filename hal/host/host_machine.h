@@ -1,0 +1,114 @@
+/*
+ * The host backend: a deterministic machine with virtual time on which the unmodified firmware runs.
+ *
+ * Comes in: a script of input levels, flash contents, switches for misbehaviour. Goes out: an edge log through a
+ * listener. Time jumps from event to event; when nothing happens nothing is spent. The same run twice gives the same
+ * calls in the same order. A machine belongs to its caller; the hal functions work on the one that was selected last.
+ * What the headers of the seam forbid (arming a motor twice, holding an interrupt twice, ...) ends in an assertion.
+ */
+#ifndef HOST_MACHINE_H
+#define HOST_MACHINE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base_limits.h"
+#include "hal_flash.h"
+#include "hal_run.h"
+#include "hal_trace.h"
+
+/* Ticks from a STEP edge until the step interrupt has put the pin back low and main can run: 2.5 us. */
+#define HOST_PULSE_TICKS UINT32_C(210)
+
+/* Ticks of one pass of the main loop while there is more to run at once: 20 us. */
+#define HOST_PASS_TICKS UINT32_C(1680)
+
+/* What the machine tells, in order of time; ticks count from the start of the machine, not from its epoch. Entries
+ * may be null. Of levels and directions only changes at the pins are told. */
+struct host_listener {
+    void *context;
+    void (*step)(void *context, uint64_t tick, unsigned motor, bool backward); /* rising edge of STEP at the pin */
+    void (*direction)(void *context, uint64_t tick, unsigned motor, bool backward);
+    void (*led)(void *context, uint64_t tick, unsigned motor, bool on);
+    void (*input)(void *context, uint64_t tick, uint8_t levels);
+    void (*output)(void *context, uint64_t tick, uint8_t levels);
+    void (*trace)(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value);
+};
+
+struct host_input {
+    uint64_t tick;   /* from the start of the machine */
+    uint8_t input;   /* 1 to 8 */
+    bool level;
+};
+
+/* What of its word or area a flash operation gets done when it goes wrong. */
+enum host_flash_done {
+    HOST_FLASH_FIRST_HALF,
+    HOST_FLASH_LAST_HALF,
+    HOST_FLASH_NOTHING,
+    HOST_FLASH_ALL,
+};
+
+/* Switches for misbehaviour; all zero: none. */
+struct host_faults {
+    uint32_t flash_cut_after; /* power fails at this flash operation (1 = the first word or erase since the start):
+                                 it is left half done, and all later ones do nothing; all report success; 0: never */
+    uint32_t flash_fail_at;   /* this flash operation reports an error; 0: never */
+    uint32_t flash_silent_at; /* this flash operation goes wrong and reports success; 0: never */
+    enum host_flash_done flash_done; /* of the operation that goes wrong */
+    uint32_t late_step_ticks; /* every step interrupt comes this much after the edge */
+};
+
+struct host_machine {
+    uint64_t epoch;                    /* hal_time_now at the start */
+    uint64_t now;                      /* ticks from the start */
+    uint64_t wake;                     /* the next pass of main, ticks from the start; TICK_NEVER: none */
+    struct hal_client client;
+    struct host_listener listener;
+    struct host_faults faults;
+    const struct host_input *script;   /* sorted by tick */
+    uint32_t script_length;
+    uint32_t script_next;
+    uint64_t armed[UNIT_MOTORS];       /* ticks from the start; TICK_NEVER: none */
+    bool edge_made[UNIT_MOTORS];       /* `armed` is no more the edge but its interrupt, which is late */
+    bool backward[UNIT_MOTORS];        /* DIR as set; the pin shows it while connected */
+    bool led[UNIT_MOTORS];
+    bool connected;                    /* STEP and DIR reach their pins; so they do at the start */
+    bool step_held;
+    bool tick_held;
+    uint8_t inputs;
+    uint8_t outputs;
+    uint64_t late_steps;               /* pulses armed for a tick that had gone by; 0 in every good run */
+    uint64_t pulses;                   /* armed pulses made, connected or not */
+    uint32_t flash_operations;         /* words and erases since the start or restart */
+    uint32_t flash_rewrites;           /* words that were written when not erased; 0 in every good run */
+    uint8_t flash[HAL_FLASH_AREAS][HAL_FLASH_AREA_BYTES];
+};
+
+/* A machine at time 0 (hal_time_now gives `epoch`), erased flash, no script, no faults, no listener. */
+void host_machine_init(struct host_machine *machine, uint64_t epoch);
+
+/* Makes this machine the one that the hal functions work on. */
+void host_machine_select(struct host_machine *machine);
+
+/* Gives the machine its inputs over time, sorted by tick; the array must outlive the run. What is already past
+ * comes at once. */
+void host_machine_set_script(struct host_machine *machine, const struct host_input *script, uint32_t length);
+
+/* Turns the power off and on: pins at 0, interrupts stopped, faults cleared; flash, inputs and time stay. The firmware
+ * starts again when the caller initialises it again. */
+void host_machine_restart(struct host_machine *machine);
+
+/* The main loop's body, as the machine calls it: does one pass and returns the tick of the unit's time at which it
+ * wants to be called again at the latest (TICK_NEVER: never). */
+typedef uint64_t host_main_pass(void *context);
+
+/* Selects the machine and runs main and interrupts: all that happens before `until` ticks from the start, where time
+ * then stands, or up to the pass after which `done` (may be null) says so. With TICK_NEVER for `until` it ends, at the
+ * last event, when nothing is left to happen. Main makes a pass at once, and again whenever its wake-up is due, an
+ * interrupt has work for it or an input has changed. Of what falls on the same tick, pulses come first, in the order
+ * of the motors, then inputs, then main. */
+void host_machine_run(struct host_machine *machine, uint64_t until, host_main_pass *pass, bool (*done)(void *context),
+                      void *context);
+
+#endif

@@ -1,0 +1,89 @@
+#include "hal_step.h"
+
+#include "base_tick.h"
+#include "host_private.h"
+
+/* Sets DIR of a motor and the connection of all; tells of the pin if it changes. */
+static void set_pin(struct host_machine *machine, unsigned motor, bool backward, bool connected)
+{
+    bool before = machine->connected && machine->backward[motor];
+    bool after = connected && backward;
+    machine->backward[motor] = backward;
+    if (before != after && machine->listener.direction != NULL) {
+        machine->listener.direction(machine->listener.context, machine->now, motor, after);
+    }
+}
+
+static void connect_pins(struct host_machine *machine, bool connected)
+{
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        set_pin(machine, motor, machine->backward[motor], connected);
+    }
+    machine->connected = connected;
+}
+
+void host_step_reset(struct host_machine *machine)
+{
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        machine->armed[motor] = TICK_NEVER;
+        machine->edge_made[motor] = false;
+        set_pin(machine, motor, false, machine->connected);
+    }
+    connect_pins(machine, true);
+}
+
+void hal_step_arm(unsigned motor, uint32_t tick)
+{
+    struct host_machine *machine = host_current();
+    assert(motor < UNIT_MOTORS);
+    assert(machine->armed[motor] == TICK_NEVER);
+    int32_t way = tick_difference(tick, (uint32_t)host_unit_time(machine));
+    if (way < 0) {
+        machine->late_steps++;
+        way = 0;
+    }
+    machine->armed[motor] = machine->now + (uint32_t)way;
+}
+
+bool hal_step_disarm(unsigned motor)
+{
+    struct host_machine *machine = host_current();
+    assert(motor < UNIT_MOTORS);
+    if (machine->armed[motor] == TICK_NEVER || machine->edge_made[motor]) {
+        return false;
+    }
+    machine->armed[motor] = TICK_NEVER;
+    return true;
+}
+
+void hal_step_set_direction(unsigned motor, bool backward)
+{
+    struct host_machine *machine = host_current();
+    assert(motor < UNIT_MOTORS);
+    assert(machine->armed[motor] == TICK_NEVER);
+    set_pin(machine, motor, backward, machine->connected);
+}
+
+void hal_step_connect(bool connected)
+{
+    connect_pins(host_current(), connected);
+}
+
+uint32_t hal_step_lead_ticks(void)
+{
+    return 0;
+}
+
+void hal_step_hold(void)
+{
+    struct host_machine *machine = host_current();
+    assert(!machine->step_held);
+    machine->step_held = true;
+}
+
+void hal_step_release(void)
+{
+    struct host_machine *machine = host_current();
+    assert(machine->step_held);
+    machine->step_held = false;
+}

@@ -1,0 +1,240 @@
+#include "unity.h"
+
+#include "base_tick.h"
+#include "hal_run.h"
+#include "hal_step.h"
+#include "host_machine.h"
+
+static struct host_machine machine;
+static unsigned edges;
+static uint64_t edge_tick;
+static unsigned turns;
+static uint64_t turn_tick;
+static unsigned turn_motor;
+static bool pin_backward;
+static bool edge_backward;
+
+static void step_seen(void *context, uint64_t tick, unsigned motor, bool backward)
+{
+    (void)context;
+    (void)motor;
+    edges++;
+    edge_tick = tick;
+    edge_backward = backward;
+}
+
+static void direction_seen(void *context, uint64_t tick, unsigned motor, bool backward)
+{
+    (void)context;
+    turns++;
+    turn_tick = tick;
+    turn_motor = motor;
+    pin_backward = backward;
+}
+
+static bool step_isr(void *context, unsigned motor)
+{
+    (void)context;
+    (void)motor;
+    return false;
+}
+
+static void tick_isr(void *context)
+{
+    (void)context;
+}
+
+static uint64_t main_pass(void *context)
+{
+    (void)context;
+    return TICK_NEVER;
+}
+
+static void run_until(uint64_t until)
+{
+    host_machine_run(&machine, until, main_pass, NULL, NULL);
+}
+
+static void begin_at(uint64_t epoch)
+{
+    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr};
+    host_machine_init(&machine, epoch);
+    machine.listener = (struct host_listener){.step = step_seen, .direction = direction_seen};
+    host_machine_select(&machine);
+    hal_run_start(&client);
+}
+
+void setUp(void)
+{
+    edges = 0;
+    turns = 0;
+    begin_at(0);
+}
+
+void tearDown(void)
+{
+}
+
+void test_a_pulse_comes_at_the_armed_tick(void)
+{
+    hal_step_arm(0, 840);
+
+    run_until(10000);
+
+    TEST_ASSERT_EQUAL_UINT64(840, edge_tick);
+}
+
+void test_a_pulse_beyond_the_wrap_of_the_counter_is_ahead(void)
+{
+    begin_at(UINT32_MAX);
+    hal_step_arm(0, 99);
+
+    run_until(1000);
+
+    TEST_ASSERT_EQUAL_UINT64(100, edge_tick);
+    TEST_ASSERT_EQUAL_UINT64(0, machine.late_steps);
+}
+
+void test_the_longest_way_ahead_is_half_of_the_counter(void)
+{
+    hal_step_arm(0, INT32_MAX);
+
+    run_until(UINT32_MAX);
+
+    TEST_ASSERT_EQUAL_UINT64(INT32_MAX, edge_tick);
+}
+
+void test_a_pulse_for_the_present_tick_is_in_time(void)
+{
+    run_until(5000);
+    hal_step_arm(0, 5000);
+
+    run_until(6000);
+
+    TEST_ASSERT_EQUAL_UINT64(5000, edge_tick);
+    TEST_ASSERT_EQUAL_UINT64(0, machine.late_steps);
+}
+
+void test_a_pulse_for_a_tick_gone_by_comes_at_once_and_is_counted(void)
+{
+    run_until(5000);
+    hal_step_arm(0, 4999);
+
+    run_until(6000);
+
+    TEST_ASSERT_EQUAL_UINT64(5000, edge_tick);
+    TEST_ASSERT_EQUAL_UINT64(1, machine.late_steps);
+}
+
+void test_an_armed_pulse_can_be_taken_back(void)
+{
+    hal_step_arm(1, 100);
+
+    TEST_ASSERT_TRUE(hal_step_disarm(1));
+
+    run_until(1000);
+    TEST_ASSERT_EQUAL_UINT(0, edges);
+}
+
+void test_a_pulse_that_is_not_armed_cannot_be_taken_back(void)
+{
+    TEST_ASSERT_FALSE(hal_step_disarm(1));
+}
+
+void test_a_pulse_cannot_be_taken_back_between_its_edge_and_its_interrupt(void)
+{
+    machine.faults.late_step_ticks = 50;
+    hal_step_arm(1, 100);
+    run_until(120);
+
+    TEST_ASSERT_FALSE(hal_step_disarm(1));
+    TEST_ASSERT_EQUAL_UINT(1, edges);
+}
+
+void test_a_direction_is_told_when_it_changes(void)
+{
+    run_until(40);
+
+    hal_step_set_direction(2, true);
+    hal_step_set_direction(2, true);
+
+    TEST_ASSERT_EQUAL_UINT(1, turns);
+    TEST_ASSERT_EQUAL_UINT64(40, turn_tick);
+    TEST_ASSERT_EQUAL_UINT(2, turn_motor);
+    TEST_ASSERT_TRUE(pin_backward);
+}
+
+void test_an_edge_tells_the_direction_of_its_motor(void)
+{
+    hal_step_set_direction(0, true);
+    hal_step_arm(0, 10);
+
+    run_until(100);
+
+    TEST_ASSERT_TRUE(edge_backward);
+}
+
+void test_a_disconnected_motor_runs_on_but_shows_no_edge(void)
+{
+    hal_step_connect(false);
+    hal_step_arm(0, 10);
+
+    run_until(100);
+
+    TEST_ASSERT_EQUAL_UINT(0, edges);
+    TEST_ASSERT_EQUAL_UINT64(1, machine.pulses);
+}
+
+void test_disconnecting_puts_the_direction_pin_to_0(void)
+{
+    hal_step_set_direction(1, true);
+
+    hal_step_connect(false);
+
+    TEST_ASSERT_EQUAL_UINT(2, turns);
+    TEST_ASSERT_FALSE(pin_backward);
+}
+
+void test_a_direction_set_while_disconnected_shows_when_connected(void)
+{
+    hal_step_connect(false);
+    hal_step_set_direction(3, true);
+    TEST_ASSERT_EQUAL_UINT(0, turns);
+
+    hal_step_connect(true);
+
+    TEST_ASSERT_EQUAL_UINT(1, turns);
+    TEST_ASSERT_TRUE(pin_backward);
+}
+
+void test_a_restart_connects_and_turns_the_pins_forward(void)
+{
+    hal_step_connect(false);
+    hal_step_set_direction(3, true);
+    hal_step_connect(true);
+    hal_step_set_direction(0, true);
+    hal_step_connect(false);
+
+    host_machine_restart(&machine);
+
+    TEST_ASSERT_TRUE(machine.connected);
+    TEST_ASSERT_FALSE(machine.backward[0]);
+    TEST_ASSERT_FALSE(machine.backward[3]);
+    TEST_ASSERT_FALSE(pin_backward);
+}
+
+void test_planning_takes_no_time(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, hal_step_lead_ticks());
+}
+
+void test_a_machine_without_listener_runs_all_the_same(void)
+{
+    machine.listener = (struct host_listener){0};
+    hal_step_set_direction(0, true);
+    hal_step_arm(0, 10);
+
+    run_until(100);
+
+    TEST_ASSERT_EQUAL_UINT64(1, machine.pulses);
+}
