@@ -1,0 +1,297 @@
+#include "interpreter_private.h"
+
+#include <assert.h>
+
+#include "hal_trace.h"
+
+/* Numbers of functions that T and C switch. */
+enum {
+    FUNCTION_MEMORY_LOCK = 40,
+    FUNCTION_SIMULATION = 41,
+    FUNCTION_MARK_FIRST = 51,
+    FUNCTION_MARK_LAST = 58,
+};
+
+static_assert(FUNCTION_MARK_LAST - FUNCTION_MARK_FIRST + 1 == UNIT_OUTPUTS, "one function for each output");
+
+static uint8_t input_mask(uint32_t number)
+{
+    return (uint8_t)(1U << (number - 1U));
+}
+
+/* The next moves go forward or backward by so many steps; a compound move that has been run is forgotten. */
+static void run_steps(struct interpreter *interpreter, uint32_t steps, bool backward)
+{
+    interpreter->steps = steps;
+    interpreter->backward = backward;
+    if (interpreter->compound_done) {
+        interpreter->compound.sections = 0;
+        interpreter->compound_done = false;
+    }
+}
+
+/* Turns the next moves round, a compound move too. */
+static void run_reverse(struct interpreter *interpreter)
+{
+    interpreter->backward = !interpreter->backward;
+    interpreter->compound_reversed = !interpreter->compound_reversed;
+}
+
+/* Begins a new compound move: the outputs of T51-T58 and its direction are those of now. */
+static void begin_compound(struct interpreter *interpreter)
+{
+    interpreter->compound.sections = 0;
+    interpreter->compound_done = false;
+    interpreter->compound_backward = interpreter->backward;
+    interpreter->compound_reversed = false;
+    interpreter->compound_outputs = interpreter->mark_outputs;
+}
+
+/* Appends steps, V and A as they are now to the compound move. */
+static void run_append_section(struct interpreter *interpreter, uint64_t now_ticks)
+{
+    struct motion_order *compound = &interpreter->compound;
+    if (interpreter->steps == 0) {
+        interpreter_fail(interpreter, INTERPRETER_ERROR_NO_STEPS, now_ticks);
+        return;
+    }
+    if (compound->sections == 0 || interpreter->compound_done) {
+        begin_compound(interpreter);
+    }
+    if (interpreter->backward != interpreter->compound_backward) {
+        interpreter_fail(interpreter, INTERPRETER_ERROR_DIRECTION, now_ticks);
+        return;
+    }
+    if (compound->sections == MOTION_SECTIONS) {
+        interpreter_fail(interpreter, INTERPRETER_ERROR_SECTIONS, now_ticks);
+        return;
+    }
+    compound->section[compound->sections] = (struct motion_section){
+        .steps = interpreter->steps,
+        .speed_steps_per_s = interpreter->speed,
+        .accel_steps_per_s2 = interpreter->acceleration,
+    };
+    compound->sections++;
+}
+
+/* Makes the compound move if there is one, else the single move. */
+static void run_move(struct interpreter *interpreter, uint64_t now_ticks)
+{
+    if (interpreter->compound.sections > 0) {
+        interpreter->compound_done = true;
+        interpreter->order = interpreter->compound;
+        interpreter->order.start_speed_steps_per_s = interpreter->start_speed;
+        interpreter_begin_move(interpreter, interpreter->compound_backward != interpreter->compound_reversed, 0,
+                               interpreter->compound_outputs, now_ticks);
+    } else if (interpreter->steps > 0) {
+        interpreter_order_section(interpreter, interpreter->steps, interpreter->speed);
+        interpreter_begin_move(interpreter, interpreter->backward, 0, 0, now_ticks);
+    }
+}
+
+/* Moves to an absolute position, where the motor is not there already. */
+static void run_go_to(struct interpreter *interpreter, int64_t position_steps, uint64_t now_ticks)
+{
+    int64_t way = position_steps - mover_position_steps(interpreter->mover);
+    uint64_t steps = way < 0 ? (uint64_t)-way : (uint64_t)way;
+    if (steps == 0) {
+        return;
+    }
+    interpreter_order_section(interpreter, steps < MOTION_SECTION_STEPS_MAX ? steps : MOTION_SECTION_STEPS_MAX,
+                              interpreter->speed);
+    interpreter_begin_move(interpreter, way < 0, 0, 0, now_ticks);
+}
+
+/* Runs without end at V. */
+static void run_endless(struct interpreter *interpreter, bool backward, uint64_t now_ticks)
+{
+    interpreter_order_section(interpreter, MOTION_ENDLESS_STEPS, interpreter->speed);
+    interpreter_begin_move(interpreter, backward, 0, 0, now_ticks);
+}
+
+/* Runs at S until the input is 1. */
+static void run_limit(struct interpreter *interpreter, uint32_t input, bool backward, uint64_t now_ticks)
+{
+    interpreter_order_section(interpreter, MOTION_ENDLESS_STEPS, interpreter->start_speed);
+    interpreter_begin_move(interpreter, backward, input_mask(input), 0, now_ticks);
+}
+
+/* Goes on at a label. */
+static void run_jump(struct interpreter *interpreter, uint32_t label, uint64_t now_ticks)
+{
+    if (!program_memory_find_label(&interpreter->memory, label, &interpreter->next)) {
+        interpreter_fail(interpreter, INTERPRETER_ERROR_NO_LABEL, now_ticks);
+    }
+}
+
+/* Goes on at a label if an input or variable has a level. */
+static void run_jump_if(struct interpreter *interpreter, const struct program_instruction *instruction, bool level,
+                        uint64_t now_ticks)
+{
+    if (io_level(interpreter->io, instruction->io) == level) {
+        run_jump(interpreter, (uint32_t)instruction->value, now_ticks);
+    }
+}
+
+/* Goes on at a label and remembers the way back. */
+static void run_call(struct interpreter *interpreter, uint32_t label, uint64_t now_ticks)
+{
+    if (interpreter->call_depth == INTERPRETER_CALLS_MAX) {
+        interpreter_fail(interpreter, INTERPRETER_ERROR_CALL_DEPTH, now_ticks);
+        return;
+    }
+    interpreter->calls[interpreter->call_depth] = interpreter->next;
+    interpreter->call_depth++;
+    run_jump(interpreter, label, now_ticks);
+}
+
+/* Goes back behind the youngest call. */
+static void run_return(struct interpreter *interpreter, uint64_t now_ticks)
+{
+    if (interpreter->call_depth == 0) {
+        interpreter_fail(interpreter, INTERPRETER_ERROR_RETURN, now_ticks);
+        return;
+    }
+    interpreter->call_depth--;
+    interpreter->next = interpreter->calls[interpreter->call_depth];
+}
+
+/* Begins a loop of so many passes. */
+static void run_loop(struct interpreter *interpreter, uint32_t passes, uint64_t now_ticks)
+{
+    if (interpreter->loop_depth == INTERPRETER_LOOPS_MAX) {
+        interpreter_fail(interpreter, INTERPRETER_ERROR_LOOP_DEPTH, now_ticks);
+        return;
+    }
+    interpreter->loops[interpreter->loop_depth] = (struct interpreter_loop){.body = interpreter->next, .left = passes};
+    interpreter->loop_depth++;
+}
+
+/* Begins the next pass of the innermost loop, or leaves it. */
+static void run_loop_end(struct interpreter *interpreter, uint64_t now_ticks)
+{
+    if (interpreter->loop_depth == 0) {
+        interpreter_fail(interpreter, INTERPRETER_ERROR_LOOP_END, now_ticks);
+        return;
+    }
+    struct interpreter_loop *loop = &interpreter->loops[interpreter->loop_depth - 1U];
+    loop->left--;
+    if (loop->left > 0) {
+        interpreter->next = loop->body;
+    } else {
+        interpreter->loop_depth--;
+    }
+}
+
+/* Lets time go by, from the program clock on. */
+static void run_wait(struct interpreter *interpreter, uint32_t milliseconds, uint64_t now_ticks)
+{
+    interpreter_align_clock(interpreter, now_ticks);
+    interpreter_trace(interpreter, interpreter->clock, HAL_TRACE_WAIT, milliseconds);
+    interpreter->clock += (uint64_t)milliseconds * TICKS_PER_MS;
+    interpreter->state = INTERPRETER_WAIT_TIME;
+}
+
+/* Waits for a level, if it is not there already. */
+static void run_wait_level(struct interpreter *interpreter, uint32_t number, bool level, uint64_t now_ticks)
+{
+    if (io_level(interpreter->io, number) == level) {
+        return;
+    }
+    interpreter->wait_number = (uint8_t)number;
+    interpreter->wait_level = level;
+    interpreter->state = INTERPRETER_WAIT_LEVEL;
+    interpreter_trace(interpreter, now_ticks, HAL_TRACE_WAIT, 0);
+}
+
+/* Waits for a `]` further on. */
+static void run_hold(struct interpreter *interpreter, uint64_t now_ticks)
+{
+    interpreter->state = INTERPRETER_HELD;
+    if (!program_memory_is_released(&interpreter->memory, interpreter->place - 1U)) {
+        interpreter_trace(interpreter, now_ticks, HAL_TRACE_WAIT, 0);
+    }
+}
+
+/* Sets or clears an output or variable. */
+static void run_set(struct interpreter *interpreter, uint32_t number, bool level, uint64_t now_ticks)
+{
+    io_set(interpreter->io, number, level, interpreter->motor + 1U, now_ticks);
+}
+
+/* Switches a function; those without a meaning do nothing. */
+static void run_function(struct interpreter *interpreter, uint32_t number, bool on)
+{
+    if (number == FUNCTION_MEMORY_LOCK) {
+        interpreter->io->memory_locked = on;
+    } else if (number == FUNCTION_SIMULATION) {
+        io_simulate(interpreter->io, on);
+    } else if (number >= FUNCTION_MARK_FIRST) {
+        uint8_t mask = input_mask(number - FUNCTION_MARK_FIRST + 1U);
+        uint8_t others = interpreter->mark_outputs & (uint8_t)~mask;
+        interpreter->mark_outputs = on ? others | mask : others;
+    }
+}
+
+/* Takes both guards away. */
+static void run_guards_off(struct interpreter *interpreter)
+{
+    interpreter->guard_high = 0;
+    interpreter->guard_low = 0;
+}
+
+void interpreter_run(struct interpreter *interpreter, const struct program_instruction *instruction,
+                     uint64_t now_ticks)
+{
+    uint32_t value = (uint32_t)instruction->value;
+
+    /* clang-format off */
+    switch ((enum program_opcode)instruction->opcode) {
+    case PROGRAM_ACCELERATION: interpreter->acceleration = value; break;
+    case PROGRAM_STEPS_BACKWARD: run_steps(interpreter, value, true); break;
+    case PROGRAM_CLEAR_OUTPUT: run_set(interpreter, value, false, now_ticks); break;
+    case PROGRAM_FUNCTION_OFF: run_function(interpreter, value, false); break;
+    case PROGRAM_CLEAR_VARIABLE: run_set(interpreter, value, false, now_ticks); break;
+    case PROGRAM_ZERO_POSITION: mover_set_position(interpreter->mover, 0); break;
+    case PROGRAM_REVERSE: run_reverse(interpreter); break;
+    case PROGRAM_LOOP_END: run_loop_end(interpreter, now_ticks); break;
+    case PROGRAM_STEPS_FORWARD: run_steps(interpreter, value, false); break;
+    case PROGRAM_GO_TO: run_go_to(interpreter, instruction->value, now_ticks); break;
+    case PROGRAM_RUN_FORWARD: run_endless(interpreter, false, now_ticks); break;
+    case PROGRAM_RUN_BACKWARD: run_endless(interpreter, true, now_ticks); break;
+    case PROGRAM_GO_HOME: run_go_to(interpreter, 0, now_ticks); break;
+    case PROGRAM_JUMP_IF_HIGH: run_jump_if(interpreter, instruction, true, now_ticks); break;
+    case PROGRAM_JUMP_IF_LOW: run_jump_if(interpreter, instruction, false, now_ticks); break;
+    case PROGRAM_JUMP: run_jump(interpreter, value, now_ticks); break;
+    case PROGRAM_LOOP: run_loop(interpreter, value, now_ticks); break;
+    case PROGRAM_GUARD_HIGH: interpreter->guard_high = input_mask(value); break;
+    case PROGRAM_GUARD_LOW: interpreter->guard_low = input_mask(value); break;
+    case PROGRAM_WAIT_INPUT_HIGH: run_wait_level(interpreter, value, true, now_ticks); break;
+    case PROGRAM_WAIT_VARIABLE_HIGH: run_wait_level(interpreter, value, true, now_ticks); break;
+    case PROGRAM_MOVE: run_move(interpreter, now_ticks); break;
+    case PROGRAM_START_SPEED: interpreter->start_speed = value; break;
+    case PROGRAM_SET_OUTPUT: run_set(interpreter, value, true, now_ticks); break;
+    case PROGRAM_FUNCTION_ON: run_function(interpreter, value, true); break;
+    case PROGRAM_SET_VARIABLE: run_set(interpreter, value, true, now_ticks); break;
+    case PROGRAM_GUARDS_OFF: run_guards_off(interpreter); break;
+    case PROGRAM_SPEED: interpreter->speed = value; break;
+    case PROGRAM_WAIT: run_wait(interpreter, value, now_ticks); break;
+    case PROGRAM_TOTAL_STOP: interpreter->total_stop |= input_mask(value); break;
+    case PROGRAM_APPEND_SECTION: run_append_section(interpreter, now_ticks); break;
+    case PROGRAM_WAIT_INPUT_LOW: run_wait_level(interpreter, value, false, now_ticks); break;
+    case PROGRAM_WAIT_VARIABLE_LOW: run_wait_level(interpreter, value, false, now_ticks); break;
+    case PROGRAM_LIMIT_FORWARD: run_limit(interpreter, value, false, now_ticks); break;
+    case PROGRAM_LIMIT_BACKWARD: run_limit(interpreter, value, true, now_ticks); break;
+    case PROGRAM_SET_POSITION: mover_set_position(interpreter->mover, instruction->value); break;
+    case PROGRAM_CALL: run_call(interpreter, value, now_ticks); break;
+    case PROGRAM_RETURN: run_return(interpreter, now_ticks); break;
+    case PROGRAM_HOLD: run_hold(interpreter, now_ticks); break;
+    case PROGRAM_LABEL: /* marks a place */
+    case PROGRAM_RELEASE: /* has acted when it was stored */
+    case PROGRAM_RESET: /* these three act on arrival and are never stored */
+    case PROGRAM_HALT:
+    case PROGRAM_RESUME:
+    case PROGRAM_OPCODES: break;
+    }
+    /* clang-format on */
+}

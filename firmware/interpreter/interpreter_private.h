@@ -1,0 +1,42 @@
+/*
+ * What the files of the interpreter share: interpreter.c (states), interpreter_commands.c (one function per command),
+ * interpreter_move.c (moves, from the command to what is left after a stop), interpreter_take.c (messages).
+ */
+#ifndef INTERPRETER_PRIVATE_H
+#define INTERPRETER_PRIVATE_H
+
+#include "interpreter.h"
+
+/* Start values; memory, loops, calls, guards and errors are cleared. A move under way is left to its end. */
+void interpreter_clear(struct interpreter *interpreter);
+
+void interpreter_trace(const struct interpreter *interpreter, uint64_t tick, enum hal_trace_event event, int64_t value);
+
+/* The clock never goes back. */
+void interpreter_raise_clock(struct interpreter *interpreter, uint64_t tick);
+
+/* Before a move or a wait begins at the clock: a clock that has fallen behind too far is set to now. */
+void interpreter_align_clock(struct interpreter *interpreter, uint64_t now_ticks);
+
+/* Runs one command; the motor stands and `next` is behind the command already. */
+void interpreter_run(struct interpreter *interpreter, const struct program_instruction *instruction,
+                     uint64_t now_ticks);
+
+/* Lays a single section in `order`, at the present A and S. */
+void interpreter_order_section(struct interpreter *interpreter, uint64_t steps, uint32_t speed_steps_per_s);
+
+/* Begins the move in `order` at the clock. `halt_high` is the input that ends a limit run, as a mask; `outputs` are
+ * set when the last section begins. */
+void interpreter_begin_move(struct interpreter *interpreter, bool backward, uint8_t halt_high, uint8_t outputs,
+                            uint64_t now_ticks);
+
+/* Sees what the mover has done: the last section has begun, the move has ended. */
+void interpreter_watch_move(struct interpreter *interpreter, uint64_t now_ticks);
+
+/* Stops the motor if it moves, and tells why the program stops. */
+void interpreter_stop(struct interpreter *interpreter, enum hal_trace_stop cause, uint64_t now_ticks);
+
+/* From STOPPED back to the state that K interrupted; the motor stands. */
+void interpreter_continue(struct interpreter *interpreter, uint64_t now_ticks);
+
+#endif

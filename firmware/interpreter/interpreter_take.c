@@ -1,0 +1,127 @@
+#include "interpreter_private.h"
+
+#include "program_parser.h"
+
+/* K: the motor stops, and with it the program. */
+static void take_halt(struct interpreter *interpreter, uint64_t now_ticks)
+{
+    switch ((enum interpreter_state)interpreter->state) {
+    case INTERPRETER_ENDED:
+    case INTERPRETER_FAILED:
+    case INTERPRETER_RESETTING:
+        return;
+    case INTERPRETER_STOPPED:
+        interpreter->resuming = false;
+        return;
+    case INTERPRETER_WAIT_TIME:
+        interpreter->wait_left = interpreter->clock > now_ticks ? interpreter->clock - now_ticks : 0;
+        break;
+    case INTERPRETER_RUNNING:
+    case INTERPRETER_IDLE:
+    case INTERPRETER_HELD:
+    case INTERPRETER_MOVING:
+    case INTERPRETER_WAIT_LEVEL:
+        break;
+    }
+    interpreter_stop(interpreter, HAL_TRACE_STOP_COMMAND, now_ticks);
+    interpreter->resume_state = interpreter->state;
+    interpreter->state = INTERPRETER_STOPPED;
+}
+
+/* C75: goes on where K has stopped, as soon as the motor stands. */
+static void take_resume(struct interpreter *interpreter, uint64_t now_ticks)
+{
+    if (interpreter->state != INTERPRETER_STOPPED) {
+        return;
+    }
+    if (interpreter->under_way) {
+        interpreter->resuming = true;
+    } else {
+        interpreter_continue(interpreter, now_ticks);
+    }
+}
+
+/* V while the motor moves. False: there is no move of this program, the command is to be stored. */
+static bool take_speed(struct interpreter *interpreter, uint32_t speed_steps_per_s)
+{
+    bool ours = interpreter->state == INTERPRETER_MOVING || interpreter->state == INTERPRETER_STOPPED;
+    if (!interpreter->under_way || !ours) {
+        return false;
+    }
+    mover_change_speed(interpreter->mover, speed_steps_per_s);
+    return true;
+}
+
+/* The only command of a message; false if it is one to be stored. */
+static bool take_alone(struct interpreter *interpreter, const struct program_instruction *instruction,
+                       uint64_t now_ticks)
+{
+    if (instruction->opcode == PROGRAM_HALT) {
+        take_halt(interpreter, now_ticks);
+        return true;
+    }
+    if (instruction->opcode == PROGRAM_RESUME) {
+        take_resume(interpreter, now_ticks);
+        return true;
+    }
+    return instruction->opcode == PROGRAM_SPEED && take_speed(interpreter, (uint32_t)instruction->value);
+}
+
+/* `\`: what was is forgotten at once; what follows it waits until the motor stands. */
+static void take_reset(struct interpreter *interpreter, uint64_t now_ticks)
+{
+    bool over = interpreter->state == INTERPRETER_IDLE || interpreter->state == INTERPRETER_ENDED ||
+                interpreter->state == INTERPRETER_FAILED;
+    if (interpreter->state != INTERPRETER_RESETTING && (interpreter->under_way || !over)) {
+        interpreter_stop(interpreter, HAL_TRACE_STOP_RESET, now_ticks);
+    }
+    interpreter_clear(interpreter);
+    interpreter->state = interpreter->under_way ? INTERPRETER_RESETTING : INTERPRETER_IDLE;
+    interpreter->clock = now_ticks;
+}
+
+/* False: the memory was full. */
+static bool take_command(struct interpreter *interpreter, const struct program_instruction *instruction,
+                         uint64_t now_ticks)
+{
+    if (instruction->opcode == PROGRAM_HALT || instruction->opcode == PROGRAM_RESUME) {
+        return true;
+    }
+    if (instruction->opcode == PROGRAM_RELEASE) {
+        interpreter->release_tick = now_ticks;
+    }
+    return program_memory_append(&interpreter->memory, instruction, interpreter->io->memory_locked);
+}
+
+static bool take_program(struct interpreter *interpreter, const uint8_t *text, uint32_t length, uint64_t now_ticks)
+{
+    struct program_parser parser;
+    struct program_instruction instruction;
+    bool overflow = false;
+
+    program_parser_init(&parser, text, length);
+    while (program_parser_next(&parser, &instruction) == PROGRAM_OK) {
+        if (instruction.opcode == PROGRAM_RESET) {
+            take_reset(interpreter, now_ticks);
+            overflow = false;
+        } else if (!take_command(interpreter, &instruction, now_ticks)) {
+            overflow = true;
+        }
+    }
+    return overflow;
+}
+
+bool interpreter_take(struct interpreter *interpreter, const uint8_t *text, uint32_t length, uint64_t now_ticks)
+{
+    struct program_summary summary = program_check(text, length);
+
+    interpreter_watch_move(interpreter, now_ticks);
+    if (summary.commands == 1 && take_alone(interpreter, &summary.first, now_ticks)) {
+        return false;
+    }
+    bool overflow = take_program(interpreter, text, length, now_ticks);
+    if (interpreter->state == INTERPRETER_IDLE) {
+        interpreter_raise_clock(interpreter, now_ticks);
+    }
+    return overflow;
+}

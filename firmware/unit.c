@@ -1,0 +1,146 @@
+#include "unit.h"
+
+#include "base_tick.h"
+#include "hal_io.h"
+#include "hal_time.h"
+#include "program_parser.h"
+
+/* A blinking LED is on for half a second and off for half a second. */
+#define BLINK_TICKS ((uint64_t)TICK_HZ / 2U)
+
+static bool unit_step_isr(void *context, unsigned motor)
+{
+    struct unit *unit = context;
+    return mover_pulse_isr(&unit->mover[motor]);
+}
+
+static void unit_sense(struct unit *unit)
+{
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        (void)mover_sense_isr(&unit->mover[motor], io_inputs(&unit->io));
+    }
+}
+
+static void unit_tick_isr(void *context)
+{
+    struct unit *unit = context;
+    (void)io_sample_isr(&unit->io);
+    unit_sense(unit);
+}
+
+void unit_init(struct unit *unit)
+{
+    io_init(&unit->io);
+    store_init(&unit->store);
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        mover_init(&unit->mover[motor], motor);
+        interpreter_init(&unit->interpreter[motor], motor, &unit->mover[motor], &unit->io);
+        unit->led[motor] = (struct unit_led){.on = false};
+        hal_io_set_led(motor, false);
+    }
+    unit->protocol = (struct protocol){
+        .interpreters = unit->interpreter,
+        .store = &unit->store,
+        .version = UNIT_VERSION,
+    };
+    unit->client = (struct hal_client){
+        .context = unit,
+        .step_isr = unit_step_isr,
+        .tick_isr = unit_tick_isr,
+    };
+}
+
+static void unit_start_program(struct unit *unit, unsigned motor, uint64_t now_ticks)
+{
+    struct interpreter *interpreter = &unit->interpreter[motor];
+    uint32_t length = store_load(&unit->store, motor, unit->text);
+    bool good = !store_is_damaged(&unit->store, motor) && program_check(unit->text, length).status == PROGRAM_OK;
+
+    if (good) {
+        (void)interpreter_take(interpreter, unit->text, length, now_ticks);
+    } else {
+        interpreter_fail(interpreter, INTERPRETER_ERROR_STORED_PROGRAM, now_ticks);
+    }
+}
+
+void unit_start(struct unit *unit)
+{
+    hal_run_start(&unit->client);
+    uint64_t now = hal_time_now();
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        unit_start_program(unit, motor, now);
+    }
+}
+
+/* Shows an input to programs and movers at once, not only at the next tick interrupt. */
+static void unit_sample(struct unit *unit)
+{
+    hal_run_hold_tick();
+    if (io_sample_isr(&unit->io)) {
+        unit_sense(unit);
+    }
+    hal_run_release_tick();
+}
+
+static void led_set(struct unit_led *led, unsigned motor, bool on)
+{
+    if (led->on != on) {
+        led->on = on;
+        hal_io_set_led(motor, on);
+    }
+}
+
+/* On while the motor moves, blinking while its program has failed. Returns the tick of the next change by itself. */
+static uint64_t unit_poll_led(struct unit *unit, unsigned motor, uint64_t now_ticks)
+{
+    struct unit_led *led = &unit->led[motor];
+    bool moving = mover_is_moving(&unit->mover[motor]);
+
+    if (moving || unit->interpreter[motor].state != INTERPRETER_FAILED) {
+        led->blinking = false;
+        led_set(led, motor, moving);
+        return TICK_NEVER;
+    }
+    if (!led->blinking) {
+        led->blinking = true;
+        led->edge_tick = now_ticks + BLINK_TICKS;
+        led_set(led, motor, true);
+    } else if (now_ticks >= led->edge_tick) {
+        led->edge_tick += BLINK_TICKS;
+        led_set(led, motor, !led->on);
+    }
+    return led->edge_tick;
+}
+
+uint64_t unit_poll(struct unit *unit)
+{
+    uint16_t variables = unit->io.variables;
+    uint64_t wake = TICK_NEVER;
+
+    unit_sample(unit);
+    uint64_t now = hal_time_now();
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        uint64_t program = interpreter_poll(&unit->interpreter[motor], now);
+        uint64_t led = unit_poll_led(unit, motor, now);
+        wake = program < wake ? program : wake;
+        wake = led < wake ? led : wake;
+    }
+    /* A motor polled before the one that wrote a variable may be waiting for it. */
+    return unit->io.variables != variables ? now : wake;
+}
+
+uint32_t unit_message(struct unit *unit, const uint8_t *request, uint32_t length,
+                      uint8_t answer[PROTOCOL_ANSWER_BYTES_MAX])
+{
+    return protocol_answer(&unit->protocol, request, length, hal_time_now(), answer);
+}
+
+bool unit_is_idle(const struct unit *unit)
+{
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        if (!interpreter_is_idle(&unit->interpreter[motor])) {
+            return false;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,342 @@
+#include "bench.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "unity.h"
+
+/* Half of all epochs let the 32-bit counter wrap within this time: 3 s. */
+#define WRAP_SOON_TICKS (UINT64_C(3) * TICK_HZ)
+#define IDLE_LIMIT_TICKS (UINT64_C(60) * TICK_HZ)
+#define INTERVAL_MIN_TICKS (TICK_HZ / 16000U - 2U)
+
+#define MEMORY_COMMANDS_MIN 700
+
+/* splitmix64, seeded once a program; the seed is told so that a failure can be repeated. */
+static uint64_t random_next(void)
+{
+    static uint64_t state;
+    static bool seeded;
+    if (!seeded) {
+        const char *given = getenv("RKM04_SEED");
+        state = given != NULL ? strtoull(given, NULL, 0) : (uint64_t)time(NULL);
+        seeded = true;
+        printf("RKM04_SEED=%" PRIu64 "\n", state);
+    }
+    state += UINT64_C(0x9e3779b97f4a7c15);
+    uint64_t mixed = (state ^ (state >> 30U)) * UINT64_C(0xbf58476d1ce4e5b9);
+    mixed = (mixed ^ (mixed >> 27U)) * UINT64_C(0x94d049bb133111eb);
+    return mixed ^ (mixed >> 31U);
+}
+
+static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
+{
+    struct bench *bench = context;
+    TEST_ASSERT_LESS_THAN_UINT32_MESSAGE(BENCH_PULSES_MAX, bench->pulse_count, "too many pulses for the bench");
+    bench->pulses[bench->pulse_count] =
+        (struct bench_pulse){.tick = tick, .motor = (uint8_t)(motor + 1U), .backward = backward};
+    bench->pulse_count++;
+    bench->made[motor + 1U]++;
+}
+
+static void add_edge(struct bench *bench, uint64_t tick, unsigned motor, uint8_t value)
+{
+    TEST_ASSERT_LESS_THAN_UINT32_MESSAGE(BENCH_EDGES_MAX, bench->edge_count, "too many edges for the bench");
+    bench->edges[bench->edge_count] = (struct bench_edge){.tick = tick, .motor = (uint8_t)motor, .value = value};
+    bench->edge_count++;
+}
+
+static void on_led(void *context, uint64_t tick, unsigned motor, bool on)
+{
+    add_edge(context, tick, motor + 1U, on ? 1 : 0);
+}
+
+static void on_output(void *context, uint64_t tick, uint8_t levels)
+{
+    add_edge(context, tick, 0, levels);
+}
+
+static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
+{
+    struct bench *bench = context;
+    TEST_ASSERT_LESS_THAN_UINT32_MESSAGE(BENCH_EVENTS_MAX, bench->event_count, "too many events for the bench");
+    bench->events[bench->event_count] =
+        (struct bench_event){.tick = tick, .value = value, .motor = (uint8_t)motor, .event = event};
+    bench->event_count++;
+}
+
+static bool step_isr(void *context, unsigned motor)
+{
+    struct bench *bench = context;
+    bool wanted = bench->wanted_motor == motor + 1U && bench->wanted_pulses == bench->made[motor + 1U];
+    return bench->unit.client.step_isr(&bench->unit, motor) || wanted;
+}
+
+static void tick_isr(void *context)
+{
+    struct bench *bench = context;
+    bench->unit.client.tick_isr(&bench->unit);
+}
+
+static void start_unit(struct bench *bench)
+{
+    unit_init(&bench->unit);
+    unit_start(&bench->unit);
+    bench->machine.client = (struct hal_client){.context = bench, .step_isr = step_isr, .tick_isr = tick_isr};
+}
+
+void bench_init_at(struct bench *bench, uint64_t epoch)
+{
+    memset(bench, 0, sizeof *bench);
+    host_machine_init(&bench->machine, epoch);
+    host_machine_select(&bench->machine);
+    bench->machine.listener = (struct host_listener){
+        .context = bench,
+        .step = on_step,
+        .led = on_led,
+        .output = on_output,
+        .trace = on_trace,
+    };
+    host_machine_set_script(&bench->machine, bench->script, 0);
+    start_unit(bench);
+}
+
+void bench_init(struct bench *bench)
+{
+    if (PROGRAM_COMMANDS_MAX < MEMORY_COMMANDS_MIN) {
+        TEST_IGNORE_MESSAGE("the program memory of this build is too small");
+    }
+    uint64_t chance = random_next();
+    uint64_t epoch = chance >> 16U;
+    if ((chance & 1U) != 0) {
+        epoch = (epoch | UINT32_MAX) - epoch % WRAP_SOON_TICKS;
+    }
+    bench_init_at(bench, epoch);
+}
+
+void bench_restart(struct bench *bench)
+{
+    host_machine_restart(&bench->machine);
+    start_unit(bench);
+}
+
+void bench_message(struct bench *bench, const void *request, uint32_t length)
+{
+    bench->answer_length = unit_message(&bench->unit, request, length, bench->answer);
+}
+
+uint8_t bench_send(struct bench *bench, unsigned motor, const char *text)
+{
+    uint8_t request[PROTOCOL_REQUEST_BYTES_MAX] = {PROTOCOL_SET_COMMAND, (uint8_t)('0' + motor)};
+    size_t length = strlen(text);
+    TEST_ASSERT_LESS_OR_EQUAL_size_t_MESSAGE(BENCH_TEXT_BYTES_MAX, length, "text too long for a message");
+    memcpy(request + 2, text, length);
+    bench_message(bench, request, (uint32_t)length + 2U);
+    TEST_ASSERT_EQUAL_UINT32(4, bench->answer_length);
+    TEST_ASSERT_EQUAL_UINT8(PROTOCOL_SET_COMMAND, bench->answer[0]);
+    return bench->answer[2];
+}
+
+const char *bench_ask(struct bench *bench, uint8_t number, unsigned motor)
+{
+    uint8_t request[2] = {number, (uint8_t)('0' + motor)};
+    bench_message(bench, request, sizeof request);
+    TEST_ASSERT_LESS_THAN_UINT32(sizeof bench->answer, bench->answer_length);
+    bench->answer[bench->answer_length] = '\0';
+    return (const char *)bench->answer + 2;
+}
+
+uint8_t *bench_find_in_flash(struct bench *bench, const char *text)
+{
+    size_t length = strlen(text);
+    uint8_t *flash = &bench->machine.flash[0][0];
+    for (size_t i = 0; i + length <= sizeof bench->machine.flash; i++) {
+        if (memcmp(flash + i, text, length) == 0) {
+            return flash + i;
+        }
+    }
+    return NULL;
+}
+
+static uint64_t main_pass(void *context)
+{
+    struct bench *bench = context;
+    bench->simulated = bench->simulated || bench->unit.io.simulating;
+    return unit_poll(&bench->unit);
+}
+
+static bool is_idle(void *context)
+{
+    const struct bench *bench = context;
+    return unit_is_idle(&bench->unit);
+}
+
+static bool has_pulses(void *context)
+{
+    const struct bench *bench = context;
+    return bench_pulses(bench, bench->wanted_motor) >= bench->wanted_pulses;
+}
+
+void bench_run_ticks(struct bench *bench, uint64_t ticks)
+{
+    host_machine_run(&bench->machine, bench->machine.now + ticks, main_pass, NULL, bench);
+}
+
+void bench_run_ms(struct bench *bench, uint32_t milliseconds)
+{
+    bench_run_ticks(bench, (uint64_t)milliseconds * TICKS_PER_MS);
+}
+
+void bench_run_idle(struct bench *bench)
+{
+    host_machine_run(&bench->machine, bench->machine.now + IDLE_LIMIT_TICKS, main_pass, is_idle, bench);
+    TEST_ASSERT_TRUE_MESSAGE(unit_is_idle(&bench->unit), "still busy after a minute");
+}
+
+void bench_run_pulses(struct bench *bench, unsigned motor, uint32_t pulses)
+{
+    bench->wanted_motor = motor;
+    bench->wanted_pulses = pulses;
+    host_machine_run(&bench->machine, bench->machine.now + IDLE_LIMIT_TICKS, main_pass, has_pulses, bench);
+    TEST_ASSERT_EQUAL_UINT32_MESSAGE(pulses, bench_pulses(bench, motor), "pulses not made within a minute");
+}
+
+void bench_do(struct bench *bench, unsigned motor, const char *text)
+{
+    TEST_ASSERT_EQUAL_UINT8(0, bench_send(bench, motor, text));
+    bench_run_idle(bench);
+}
+
+void bench_plan_input(struct bench *bench, uint64_t tick, uint8_t input, bool level)
+{
+    uint32_t length = bench->machine.script_length;
+    TEST_ASSERT_LESS_THAN_UINT32_MESSAGE(BENCH_INPUTS_MAX, length, "too many inputs for the bench");
+    bench->script[length] = (struct host_input){.tick = tick, .input = input, .level = level};
+    bench->machine.script_length = length + 1U;
+}
+
+void bench_set_input(struct bench *bench, uint8_t input, bool level)
+{
+    bench_plan_input(bench, bench->machine.now, input, level);
+    bench_run_ticks(bench, 1);
+}
+
+uint64_t bench_now(const struct bench *bench)
+{
+    return bench->machine.now;
+}
+
+uint32_t bench_pulses(const struct bench *bench, unsigned motor)
+{
+    return bench->made[motor];
+}
+
+uint64_t bench_pulse_tick(const struct bench *bench, unsigned motor, uint32_t pulse)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < bench->pulse_count; i++) {
+        count += bench->pulses[i].motor == motor ? 1U : 0U;
+        if (bench->pulses[i].motor == motor && count == pulse) {
+            return bench->pulses[i].tick;
+        }
+    }
+    TEST_FAIL_MESSAGE("there is no such pulse");
+    return TICK_NEVER;
+}
+
+uint64_t bench_led_tick(const struct bench *bench, unsigned motor, uint32_t edge)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < bench->edge_count; i++) {
+        count += bench->edges[i].motor == motor ? 1U : 0U;
+        if (bench->edges[i].motor == motor && count == edge) {
+            return bench->edges[i].tick;
+        }
+    }
+    TEST_FAIL_MESSAGE("there is no such edge of the LED");
+    return TICK_NEVER;
+}
+
+uint32_t bench_count(const struct bench *bench, unsigned motor, enum hal_trace_event event)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < bench->event_count; i++) {
+        count += bench->events[i].motor == motor && bench->events[i].event == event ? 1U : 0U;
+    }
+    return count;
+}
+
+const struct bench_event *bench_event(const struct bench *bench, unsigned motor, enum hal_trace_event event,
+                                      uint32_t which)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < bench->event_count; i++) {
+        const struct bench_event *found = &bench->events[i];
+        if (found->motor == motor && found->event == event) {
+            if (count == which) {
+                return found;
+            }
+            count++;
+        }
+    }
+    TEST_FAIL_MESSAGE("there is no such event");
+    return NULL;
+}
+
+int64_t bench_position(const struct bench *bench, unsigned motor)
+{
+    return mover_position_steps(&bench->unit.mover[motor - 1U]);
+}
+
+enum interpreter_state bench_state(const struct bench *bench, unsigned motor)
+{
+    return (enum interpreter_state)bench->unit.interpreter[motor - 1U].state;
+}
+
+bool bench_output(const struct bench *bench, unsigned output)
+{
+    return (bench->machine.outputs >> (output - 1U) & 1U) != 0;
+}
+
+/* The signed pulses of a motor are the sum of what its moves tell when they are done. */
+static void check_done(const struct bench *bench, unsigned motor)
+{
+    int64_t pulses = 0;
+    int64_t done = 0;
+    for (uint32_t i = 0; i < bench->pulse_count; i++) {
+        if (bench->pulses[i].motor == motor) {
+            pulses += bench->pulses[i].backward ? -1 : 1;
+        }
+    }
+    for (uint32_t i = 0; i < bench->event_count; i++) {
+        if (bench->events[i].motor == motor && bench->events[i].event == HAL_TRACE_DONE) {
+            done += bench->events[i].value;
+        }
+    }
+    if (!bench->simulated && !mover_is_moving(&bench->unit.mover[motor - 1U])) {
+        TEST_ASSERT_EQUAL_INT64_MESSAGE(done, pulses, "'done' is not the pulses made");
+    }
+}
+
+static void check_intervals(const struct bench *bench)
+{
+    uint64_t last[UNIT_MOTORS + 1] = {0};
+    for (uint32_t i = 0; i < bench->pulse_count; i++) {
+        const struct bench_pulse *pulse = &bench->pulses[i];
+        TEST_ASSERT_GREATER_OR_EQUAL_UINT64_MESSAGE(last[pulse->motor] + INTERVAL_MIN_TICKS, pulse->tick,
+                                                    "two pulses faster than 16000 steps/s");
+        last[pulse->motor] = pulse->tick;
+    }
+}
+
+void bench_check(const struct bench *bench)
+{
+    TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, bench->machine.late_steps, "a pulse was late");
+    check_intervals(bench);
+    for (unsigned motor = 1; motor <= UNIT_MOTORS; motor++) {
+        check_done(bench, motor);
+    }
+}
