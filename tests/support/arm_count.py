@@ -2,8 +2,8 @@
 
 Compiles firmware/step and firmware/motion for Cortex-M4, runs them in the Unicorn CPU emulator and
 counts every executed instruction of `step_generator_next` (the next tick of one pulse) and of
-`step_channel_pulse_isr` (the whole work of one step interrupt but the timer's registers). Counts, not
-cycles: they are exact and the same on every machine.
+`step_channel_pulse_isr` (the whole work of one step interrupt but the timer's registers). These are
+counts, not cycles: exact, and the same on every machine.
 
     python tests/support/arm_count.py [--json]
 """
@@ -75,7 +75,7 @@ def build(folder: Path) -> Path:
 
 @dataclass
 class Counter:
-    """Executed instructions, by function entered; a call's instructions count for its callers too."""
+    """Executed instructions by function; those of a callee count for its callers too."""
 
     machine: Uc
     symbols: dict[str, tuple[int, int]]
@@ -163,15 +163,19 @@ def measure() -> dict[str, object]:
     rows = []
     for name, move in MOVES.items():
         counts = run_move(counter, move)
-        rows.append({"move": name, "generator": summary(counts[GENERATOR])} |
-                    {"interrupt": summary(counts[INTERRUPT])})
+        rows.append(
+            {"move": name, "generator": summary(counts[GENERATOR])}
+            | {"interrupt": summary(counts[INTERRUPT])}
+        )
     worst = max(row["generator"]["mean"] for row in rows)
     return {"goal": GOAL, "generator_worst_mean": worst, "moves": rows}
 
 
 def table(result: dict[str, object]) -> str:
-    lines = [f"{'':32}{'next tick':>24}{'whole interrupt':>24}",
-             f"{'instructions a pulse':32}" + "  median    mean     max" * 2]
+    lines = [
+        f"{'':32}{'next tick':>24}{'whole interrupt':>24}",
+        f"{'instructions a pulse':32}" + "  median    mean     max" * 2,
+    ]
     rows = result["moves"]
     assert isinstance(rows, list)
     for row in rows:

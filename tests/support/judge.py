@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -32,6 +32,7 @@ STEPS_HEADER = "tick,motor,position"
 TRACE_HEADER = "tick,motor,event,value"
 RATE_PREFIX = "# tick_hz="
 MOTORS = range(1, 5)
+CAUSES = ("stop", "error")
 
 
 @dataclass(frozen=True)
@@ -197,38 +198,33 @@ def _bad_motors(steps: Steps, trace: Iterable[Event]) -> list[str]:
 
 
 def _moves(motor: int, trace: Iterable[Event]) -> tuple[list[Move], list[str]]:
-    """Pair the `move` and `done` events of a motor; what does not pair is reported."""
+    """Pair the `move` and `done` events of a motor; what does not pair is reported.
+
+    The cause may come behind `done` where a move has no set end: a limit run ends with the
+    pulse before its input.
+    """
     moves: list[Move] = []
     found: list[str] = []
-    cuts = _cuts(motor, trace)
-    opened: Event | None = None
-    for event in (e for e in trace if e.motor == motor):
-        if event.event == "move":
-            if opened:
-                found.append(f"motor {motor}: no done of the move at {opened.tick}")
-            opened = event
+    is_open = False
+    for event in (e for e in trace if e.motor == motor or (e.motor == 0 and e.event in CAUSES)):
+        if event.event in CAUSES:
+            if moves and (is_open or moves[-1].steps == 0):
+                moves[-1] = replace(moves[-1], cut=True)
+        elif event.event == "move":
+            if is_open:
+                found.append(f"motor {motor}: no done of the move at {moves[-1].start}")
+                moves.pop()
+            moves.append(Move(motor, event.tick, int(event.value), None, None, False))
+            is_open = True
         elif event.event == "done":
-            if opened:
-                moves.append(_closed(opened, event, cuts))
+            if is_open:
+                moves[-1] = replace(moves[-1], end=event.tick, made=int(event.value))
             else:
                 found.append(f"motor {motor}: done without a move at {event.tick}")
-            opened = None
-    if opened:
-        moves.append(Move(motor, opened.tick, int(opened.value), None, None, True))
+            is_open = False
+    if is_open:
+        moves[-1] = replace(moves[-1], cut=True)
     return moves, found
-
-
-def _cuts(motor: int, trace: Iterable[Event]) -> Ticks:
-    """Ticks of the events that may end a move before its target."""
-    causes = ("stop", "error")
-    ticks = [e.tick for e in trace if e.event in causes and e.motor in (0, motor)]
-    return np.array(ticks, dtype=np.int64)
-
-
-def _closed(move: Event, done: Event, cuts: Ticks) -> Move:
-    cut = bool(np.any((cuts >= move.tick) & (cuts <= done.tick)))
-    steps, made = int(move.value), int(done.value)
-    return Move(move.motor, move.tick, steps, done.tick, made, cut)
 
 
 def _outside(motor: int, track: Track, moves: Iterable[Move]) -> list[str]:

@@ -171,6 +171,26 @@ void test_an_error_is_cleared(void)
     TEST_ASSERT_EQUAL_UINT8(INTERPRETER_ERROR_NONE, bench.unit.interpreter[0].error);
 }
 
+void test_the_place_is_0_until_a_command_is_run(void)
+{
+    bench_do(&bench, 1, "T01 T02");
+    bench_do(&bench, 1, "\\");
+    TEST_ASSERT_EQUAL_STRING("     0; 0", bench_ask(&bench, 7, 1));
+}
+
+void test_a_c75_that_waits_for_the_motor_to_stand_is_forgotten(void)
+{
+    bench_send(&bench, 1, "S100 V1000 A2000 F2000 R");
+    bench_run_pulses(&bench, 1, 700);
+    bench_send(&bench, 1, "K");
+    bench_send(&bench, 1, "C75");
+    bench_do(&bench, 1, "\\ S1000 F100 R");
+    bench_send(&bench, 1, "R");
+    bench_run_pulses(&bench, 1, 1070);
+    bench_do(&bench, 1, "K");
+    TEST_ASSERT_EQUAL_INT(INTERPRETER_STOPPED, bench_state(&bench, 1));
+}
+
 void test_position_outputs_variables_and_t40_stay(void)
 {
     bench_do(&bench, 1, "S1000 F7 R T01 T80 T40");

@@ -124,6 +124,16 @@ void test_after_a_reset_of_the_unit_everything_is_as_at_first(void)
     TEST_ASSERT_EQUAL_UINT8(0, bench.unit.interpreter[0].mark_outputs);
 }
 
+void test_the_led_shows_what_the_motor_does_after_a_reset_of_the_unit(void)
+{
+    bench_send(&bench, 1, "S1000 G+");
+    bench_run_ms(&bench, 100);
+    store_program(1);
+    bench_restart(&bench);
+    bench_run_ms(&bench, 100);
+    TEST_ASSERT_TRUE(bench.machine.led[0]);
+}
+
 void test_storing_does_not_move_a_pulse(void)
 {
     bench_send(&bench, 1, "S1000 F100 R");

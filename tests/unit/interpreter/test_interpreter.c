@@ -101,8 +101,10 @@ void test_a_poll_runs_a_bounded_number_of_commands(void)
     take("@1T80C80J1");
     poll(); /* one step of it leaves the idle state */
     unsigned writes = traced[HAL_TRACE_VAR];
-    TEST_ASSERT_EQUAL_UINT64(now(), poll());
-    TEST_ASSERT_EQUAL_UINT(INTERPRETER_SLICE_COMMANDS / 2, traced[HAL_TRACE_VAR] - writes);
+    for (unsigned i = 0; i < 4; i++) {
+        TEST_ASSERT_EQUAL_UINT64(now(), poll());
+    }
+    TEST_ASSERT_EQUAL_UINT(4 * INTERPRETER_SLICE_COMMANDS / 2, traced[HAL_TRACE_VAR] - writes);
 }
 
 void test_a_wait_wants_to_be_called_at_its_end(void)

@@ -1,0 +1,93 @@
+"""Runs the command-line tools inside the test, or as a process of their own."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+from rkm04_tools.cli import main
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a command printed, and its exit status."""
+
+    status: int
+    out: str
+    err: str
+
+    @property
+    def json(self) -> Any:
+        return json.loads(self.out)
+
+    @property
+    def complaint(self) -> str:
+        """The one line on standard error; a command that complains prints nothing else."""
+        assert self.out == ""
+        assert self.err.count("\n") == 1, self.err
+        return self.err.rstrip("\n")
+
+
+Tool = Callable[..., Result]
+
+
+@pytest.fixture(autouse=True, scope="session")
+def build_folder() -> Iterator[None]:
+    """Tell the tools where the simulator is, if the caller has not."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("RKM04_BUILD", os.environ.get("RKM04_BUILD", str(ROOT / "build" / "host")))
+        yield
+
+
+@pytest.fixture
+def tool(capsys: pytest.CaptureFixture[str]) -> Tool:
+    """Run a command inside this process."""
+
+    def run(*arguments: str | Path) -> Result:
+        capsys.readouterr()
+        try:
+            status = main([str(argument) for argument in arguments])
+        except SystemExit as end:
+            status = int(end.code or 0)
+        printed = capsys.readouterr()
+        return Result(status, printed.out, printed.err)
+
+    return run
+
+
+@pytest.fixture
+def start(tmp_path: Path) -> Callable[..., subprocess.Popen[str]]:
+    """Start a command as a process of its own."""
+
+    def begin(*arguments: str | Path) -> subprocess.Popen[str]:
+        return subprocess.Popen(
+            [sys.executable, "-P", "-m", "rkm04_tools", *map(str, arguments)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=tmp_path,
+            env={**os.environ, "PYTHONPATH": str(ROOT / "tools")},
+        )
+
+    return begin
+
+
+@pytest.fixture
+def write(tmp_path: Path) -> Callable[..., Path]:
+    """Write a file; text becomes UTF-8."""
+
+    def put(content: str | bytes, name: str = "a.rks") -> Path:
+        path = tmp_path / name
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        return path
+
+    return put

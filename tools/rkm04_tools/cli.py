@@ -1,0 +1,134 @@
+"""The command line: arguments, and what becomes of errors."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Sequence
+from typing import NoReturn, TypeAlias
+
+from rkm04_tools import bench, check
+from rkm04_tools.failure import INTERRUPTED, NOT_SO, Failure
+
+SIM_NOTES = """\
+INPUTS has lines ms,input,level such as 350.5,3,1: BI3 becomes 1 at 350.5 ms.
+The simulation ends when all programs have come to rest, or at the limit of time.
+"""
+STATUSES = """\
+exit status: 0 done; 1 what was asked about is not so (a program has errors); 2 wrong usage
+"""
+
+Run = Callable[[argparse.Namespace], int]
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser whose errors are one line, as all errors of the tools."""
+
+    def error(self, message: str) -> NoReturn:
+        """End the command."""
+        raise Failure(f"{message}; {self.prog} --help shows how it is used")
+
+
+Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run a command and return its exit status."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        options = _parser().parse_args(arguments)
+        run: Run = options.run
+        status = run(options)
+        sys.stdout.flush()
+        return status
+    except Failure as failure:
+        print(f"rkm04: {failure}", file=sys.stderr)
+        return failure.status
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except BrokenPipeError:
+        # Nobody reads any more; nothing is left to be written when Python ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return NOT_SO
+
+
+def _sim(options: argparse.Namespace) -> int:
+    """Import the drawing of plots only when it may be needed: it takes long."""
+    from rkm04_tools import sim
+
+    return sim.run(options)
+
+
+def _parser() -> Parser:
+    parser = Parser(
+        prog="rkm04",
+        description="Tools for the RKM04 unit, which runs the programs of four stepper motors.",
+        epilog="rkm04 COMMAND --help shows an example of each command.",
+        allow_abbrev=False,
+    )
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    _add_check(commands)
+    _add_sim(commands)
+    _add_bench(commands)
+    return parser
+
+
+def _add(
+    commands: Commands,
+    name: str,
+    run: Run,
+    title: str,
+    example: str,
+) -> Parser:
+    """Add a command with its example and the option that all have."""
+    command = commands.add_parser(
+        name,
+        help=title,
+        description=title[0].upper() + title[1:] + ".",
+        epilog=f"example:\n  {example}\n\n{STATUSES}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    command.add_argument("--json", action="store_true", help="print one JSON object")
+    command.set_defaults(run=run)
+    return command
+
+
+def _add_check(commands: Commands) -> None:
+    title = "find every error in program files, and what is surely not meant"
+    command = _add(commands, "check", check.run, title, "rkm04 check tools/examples/*.rks")
+    command.add_argument("files", nargs="+", metavar="FILE", help="a program file")
+
+
+def _add_sim(commands: Commands) -> None:
+    title = "run programs on the simulated unit, in virtual time"
+    example = (
+        "rkm04 sim tools/examples/4-loop.rks --plot loop.svg\n"
+        "  rkm04 sim --motor 1=a.rks --motor 2=b.rks --inputs inputs.csv --for 10"
+    )
+    command = _add(commands, "sim", _sim, title, f"{example}\n\n{SIM_NOTES.rstrip()}")
+    command.add_argument("file", nargs="?", metavar="FILE", help="the program of motor 1")
+    options = [
+        ("--motor", "N=FILE", "the program of motor N (1 to 4); may be repeated"),
+        ("--inputs", "INPUTS", "what the inputs do over time; all are 0 at the start"),
+        ("--for", "SECONDS", "end at this unit time at the latest (default: 60)"),
+        ("--steps", "OUT.csv", "write the tick of every pulse"),
+        ("--trace", "OUT.csv", "write moves, stops, outputs, waits and errors"),
+        ("--vcd", "OUT.vcd", "write the waveforms for a viewer such as GTKWave"),
+        ("--plot", "OUT", "draw speeds, positions and signals: a name ending in .svg or .png"),
+    ]
+    for flag, metavar, text in options:
+        if flag == "--motor":
+            command.add_argument(flag, metavar=metavar, help=text, action="append", default=[])
+        elif flag == "--for":
+            command.add_argument(flag, metavar=metavar, help=text, dest="seconds", default="60")
+        else:
+            command.add_argument(flag, metavar=metavar, help=text)
+
+
+def _add_bench(commands: Commands) -> None:
+    title = "measure accuracy and speed, and compare them with their goals"
+    _add(commands, "bench", bench.run, title, "rkm04 bench --json")

@@ -1,0 +1,65 @@
+"""Lines of speed and position over time, from pulses and moves, thin enough to draw."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from rkm04_tools.record import Floats, Move, Pulses
+
+COLUMNS = 2000
+"""More columns than the drawing has pixels across."""
+
+
+def speed_line(pulses: Pulses, moves: Sequence[Move], hz: int) -> tuple[Floats, Floats]:
+    """Seconds and steps/s: the mean speed of each interval in its middle, 0 outside moves.
+
+    The first interval of a move counts from its start.
+    """
+    if not moves or not len(pulses.tick):
+        return np.zeros(0), np.zeros(0)
+    start = np.array([m.start for m in moves], dtype=np.int64)
+    end = np.array([m.end for m in moves], dtype=np.int64)
+    sign = np.array([m.sign for m in moves], dtype=np.int64)
+    own = np.maximum(np.searchsorted(start, pulses.tick, side="left") - 1, 0)
+    before = np.maximum(np.concatenate(([0], pulses.tick[:-1])), start[own])
+    speed = sign[own] * hz / np.maximum(pulses.tick - before, 1)
+    first = np.searchsorted(pulses.tick, start, side="right")
+    last = np.searchsorted(pulses.tick, end, side="right") - 1
+    moved = last >= first
+    start, end, first, last = start[moved], end[moved], first[moved], last[moved]
+    corners = np.stack([start, start, end, end], axis=1) / hz
+    zero = np.zeros(len(start))
+    stands = np.array([m.done for m in moves])[moved]
+    edges = np.stack([zero, speed[first], speed[last], speed[last] * ~stands], axis=1)
+    at = np.stack([first, first, last + 1, last + 1], axis=1).ravel()
+    time = np.insert((pulses.tick + before) / (2.0 * hz), at, corners.ravel())
+    return time, np.insert(speed, at, edges.ravel())
+
+
+def thinned(time: Floats, value: Floats, end: float) -> tuple[Floats, Floats]:
+    """At most four points a column: the first, the least and greatest, and the last of each."""
+    if len(time) <= 4 * COLUMNS or end <= 0:
+        return time, value
+    column = (time * (COLUMNS / end)).astype(np.int64)
+    first = np.flatnonzero(np.diff(column, prepend=-1))
+    last = np.append(first[1:], len(time)) - 1
+    least = np.minimum.reduceat(value, first)
+    greatest = np.maximum.reduceat(value, first)
+    falls = value[first] > value[last]
+    one, other = np.where(falls, greatest, least), np.where(falls, least, greatest)
+    times = np.stack([time[first], time[first], time[last], time[last]], axis=1)
+    values = np.stack([value[first], one, other, value[last]], axis=1)
+    return times.ravel(), values.ravel()
+
+
+def position_line(pulses: Pulses, sign: int, end: float, hz: int) -> tuple[Floats, Floats]:
+    """Seconds and steps: corners of a line that keeps each position until the next pulse.
+
+    `sign` is that of the first move.
+    """
+    position = pulses.position
+    time = np.concatenate(([0.0], pulses.tick / hz, [end]))
+    steps = np.concatenate((position[:1] - sign, position, position[-1:]))
+    return time, steps.astype(np.float64)

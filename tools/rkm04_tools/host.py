@@ -1,0 +1,153 @@
+"""The C program `rkm04-host`: the firmware on the host backend, asked by command line.
+
+It parses, simulates and measures; this module starts it and turns its JSON into types. Its errors
+are one line each on standard error and become a `Failure` here.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from rkm04_tools.failure import Failure
+
+PROGRAM = "rkm04-host"
+BUILD_VARIABLE = "RKM04_BUILD"
+PROGRESS_AFTER_SECONDS = 1.0
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command as the firmware's parser found it.
+
+    `offset` is that of its letter; `opcode` the name of its row in program_opcodes.def; `io` the
+    input or variable of a conditional jump, else 0; `value` its number, else 0; `text` its
+    canonical form.
+    """
+
+    offset: int
+    opcode: str
+    io: int
+    value: int
+    text: str
+
+
+@dataclass(frozen=True)
+class ParseError:
+    """What the parser refused: `flag` 1 = wrong value, 2 = unknown command, at `offset`."""
+
+    offset: int
+    flag: int
+
+
+@dataclass(frozen=True)
+class Parsed:
+    """All commands and all errors of a text, in its order."""
+
+    commands: list[Command]
+    errors: list[ParseError]
+
+
+@dataclass(frozen=True)
+class OpcodeRow:
+    """A row of program_opcodes.def."""
+
+    name: str
+    letter: str
+    form: str
+    min: int
+    max: int
+
+
+def parse(message: bytes) -> Parsed:
+    """Parse a text as the unit does."""
+    answer = _answer(["check", "-"], message)
+    commands = [
+        Command(c["offset"], c["opcode"], c["io"], c["value"], c["text"])
+        for c in answer["commands"]
+    ]
+    return Parsed(commands, [ParseError(e["offset"], e["flag"]) for e in answer["errors"]])
+
+
+@cache
+def opcode_rows() -> list[OpcodeRow]:
+    """The table of all commands."""
+    rows = _answer(["opcodes"])["opcodes"]
+    return [OpcodeRow(r["name"], r["letter"], r["form"], r["min"], r["max"]) for r in rows]
+
+
+def simulate(arguments: Sequence[str]) -> dict[str, Any]:
+    """Run programs; the answer is the summary."""
+    return _answer(["sim", *arguments], progress="simulating")
+
+
+def measure() -> dict[str, Any]:
+    """Run the benchmarks of the host."""
+    return _answer(["bench"], progress="measuring")
+
+
+def program_path() -> Path:
+    """Where the program was built."""
+    build = os.environ.get(BUILD_VARIABLE)
+    if not build:
+        raise Failure(f"{BUILD_VARIABLE} is not set; start the command as tools/rkm04")
+    path = Path(build) / "bin" / PROGRAM
+    if not path.is_file():
+        raise Failure(f"{path}: not built; start the command as tools/rkm04, which builds it")
+    return path
+
+
+def _answer(arguments: Sequence[str], given: bytes = b"", progress: str = "") -> dict[str, Any]:
+    """Run the program to its end and return what it answers."""
+    command = [str(program_path()), *arguments]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe) as process:
+        try:
+            out, complaint = _communicate(process, given, progress)
+        except BaseException:
+            process.kill()
+            raise
+    if process.returncode != 0:
+        raise _failed(process.returncode, complaint.decode(errors="replace"))
+    answer = json.loads(out)
+    if not isinstance(answer, dict):
+        raise Failure(f"{PROGRAM} {arguments[0]} did not answer with an object; build it again")
+    return answer
+
+
+def _communicate(
+    process: subprocess.Popen[bytes], given: bytes, progress: str
+) -> tuple[bytes, bytes]:
+    """Wait for the end of the program; show the time on a terminal if it takes long."""
+    if not progress or not sys.stderr.isatty():
+        return process.communicate(given)
+    started = time.monotonic()
+    shown = False
+    while True:
+        try:
+            answer = process.communicate(given, timeout=PROGRESS_AFTER_SECONDS)
+            break
+        except subprocess.TimeoutExpired:
+            shown = True
+            seconds = time.monotonic() - started
+            print(f"\r{progress} ... {seconds:.0f} s", end="", file=sys.stderr, flush=True)
+    if shown:
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+    return answer
+
+
+def _failed(status: int, complaint: str) -> Failure:
+    """Pass on the program's own line, or say that it crashed."""
+    line = complaint.strip().rpartition("\n")[2].removeprefix(f"{PROGRAM}: ")
+    if status > 0 and line:
+        return Failure(line)
+    how = f"signal {-status}" if status < 0 else f"status {status}"
+    return Failure(f"{PROGRAM} ended with {how}: this is a fault of the tool")
