@@ -11,7 +11,7 @@ enum {
     TEXT_RECORD_BYTES_MAX = STORE_RECORD_EXTRA_BYTES + STORE_TEXT_BYTES_MAX,
 };
 
-static_assert(STORE_TEXT_BYTES_MAX % HAL_FLASH_WORD_BYTES == 0, "the longest record is its text and what it has besides");
+static_assert(STORE_TEXT_BYTES_MAX % HAL_FLASH_WORD_BYTES == 0, "the longest text needs no filling");
 static_assert(LOG_BEGIN + (UNIT_MOTORS + 1) * TEXT_RECORD_BYTES_MAX <= HAL_FLASH_AREA_BYTES,
               "an area that has just been begun has room for one more text");
 static_assert(HAL_FLASH_AREAS == 2, "there is one other area");

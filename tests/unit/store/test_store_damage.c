@@ -339,6 +339,16 @@ void test_the_texts_of_an_area_that_is_void_are_never_taken(void)
     TEST_ASSERT_EQUAL_UINT(UNIT_MOTORS, count_damaged());
 }
 
+void test_an_area_that_is_void_tells_that_texts_have_been_lost(void)
+{
+    save_all();
+    memset(machine.flash[store.area], 0xFF, HAL_FLASH_AREA_BYTES);
+
+    restart();
+
+    TEST_ASSERT_EQUAL_UINT(UNIT_MOTORS, count_damaged());
+}
+
 void test_an_area_whose_begin_is_unreadable_damages_all_motors(void)
 {
     (void)save(0, texts[0]);
