@@ -58,7 +58,7 @@ static void run_append_section(struct interpreter *interpreter, uint64_t now_tic
     if (compound->sections == 0 || interpreter->compound_done) {
         begin_compound(interpreter);
     }
-    if (interpreter->backward != interpreter->compound_backward) {
+    if (interpreter->backward != interpreter->compound_backward || interpreter->compound_reversed) {
         interpreter_fail(interpreter, INTERPRETER_ERROR_DIRECTION, now_ticks);
         return;
     }

@@ -297,19 +297,18 @@ static bool is_same_place(struct motion_place a, struct motion_place b)
     return a.step == b.step && a.quanta == b.quanta;
 }
 
-/* The corners inside a section and at its end. */
+/* The corners inside a section and at its end. A stop ends with its last whole step, before its corner. */
 static unsigned section_corners(const struct motion_profile *profile, struct motion_corner corners[LEGS])
 {
     struct motion_place begin = {.step = profile->begin};
-    struct motion_place end = {.step = profile->end};
     unsigned count = 0;
-    if (!is_same_place(profile->corner_a, begin) && !is_same_place(profile->corner_a, end)) {
+    if (!is_same_place(profile->corner_a, begin) && profile->corner_a.step < profile->end) {
         corners[count++] = corner_at(profile->corner_a, profile->turn);
     }
-    if (!is_same_place(profile->corner_b, profile->corner_a) && !is_same_place(profile->corner_b, end)) {
+    if (!is_same_place(profile->corner_b, profile->corner_a) && profile->corner_b.step < profile->end) {
         corners[count++] = corner_at(profile->corner_b, profile->cruise);
     }
-    corners[count++] = corner_at(end, profile->exit);
+    corners[count++] = corner_at((struct motion_place){.step = profile->end}, profile->exit);
     return count;
 }
 

@@ -44,7 +44,9 @@ class Run:
     def motor(self) -> dict[str, object]:
         motors = self.summary["motors"]
         assert isinstance(motors, list)
-        return motors[0]
+        first = motors[0]
+        assert isinstance(first, dict)
+        return first
 
     def values(self, *names: str) -> list[tuple[str, str]]:
         """The events of these names, in order, without their ticks."""

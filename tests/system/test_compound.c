@@ -94,6 +94,7 @@ void test_an_eleventh_section_is_an_error(void)
 TEST_CASE("F5 Y D Y R")
 TEST_CASE("F5 Y B5 Y R")
 TEST_CASE("B5 Y F5 Y R")
+TEST_CASE("F100 Y D F100 Y R")
 void test_a_change_of_direction_inside_is_an_error(const char *text)
 {
     bench_do(&bench, 1, text);

@@ -22,7 +22,7 @@ def scripts(tmp_path, monkeypatch):
     return tmp_path
 
 
-def figures(tool) -> dict[str, dict]:
+def figures(tool):
     result = tool("bench", "--json")
     assert result.status == 0
     return {row["figure"]: row for row in result.json["figures"]}

@@ -150,7 +150,7 @@ def test_any_program_runs_or_is_refused_in_order(program, content):
 def accepted_by_the_unit(program: Path, content: bytes) -> bool:
     """Whether the unit answers a Set Command with this text with flag 0 or 3."""
     program.write_bytes(Source("", decode(content)).message)
-    command = [host.program_path(), "sim", "--motor", f"1={program}", "--for", "0.000001"]
+    command = [str(host.program_path()), "sim", "--motor", f"1={program}", "--for", "0.000001"]
     done = subprocess.run(command, capture_output=True)
     program.write_bytes(content)
     assert done.returncode in (0, 1)
