@@ -284,6 +284,11 @@ def test_a_directory_is_no_output(tool, tmp_path, flag):
     expect_wrong_usage(tool("sim", LOOP, flag, tmp_path), "is a directory")
 
 
+@pytest.mark.parametrize("path", ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"])
+def test_a_stream_is_no_output(tool, path):
+    expect_wrong_usage(tool("sim", LOOP, "--trace", path), f"{path}: is a stream; name a file")
+
+
 @pytest.mark.parametrize("flag", ["--steps", "--trace", "--vcd"])
 def test_a_full_disk_is_told(tool, flag):
     expect_wrong_usage(tool("sim", LOOP, flag, "/dev/full"), "/dev/full: cannot be written")

@@ -97,6 +97,11 @@ def _require_inputs(path: Path | None) -> None:
         raise reading_failed(path, error) from None
 
 
+def _is_stream(path: Path) -> bool:
+    """Whether a path names an open stream: that of the simulator would be another one."""
+    return str(path).startswith(("/dev/std", "/dev/fd", "/proc/"))
+
+
 def _require_outputs(outputs: Outputs, read: Sequence[Path]) -> None:
     """Refuse what cannot be written before anything runs."""
     if outputs.plot:
@@ -105,6 +110,8 @@ def _require_outputs(outputs: Outputs, read: Sequence[Path]) -> None:
     for path in outputs.wanted:
         if path.is_dir():
             raise Failure(f"{path}: is a directory; name a file in it")
+        if _is_stream(path):
+            raise Failure(f"{path}: is a stream; name a file")
         if not path.parent.is_dir():
             raise Failure(f"{path}: there is no folder {path.parent}; make it first")
         if not os.access(path if path.exists() else path.parent, os.W_OK):
