@@ -59,6 +59,10 @@ bool wide_is_at_least(struct wide a, struct wide b)
 /* Schoolbook division, a bit at a time: the rest stays below the divisor, so it never needs a 65th bit. */
 uint64_t wide_divide(struct wide value, uint64_t divisor, uint64_t *remainder)
 {
+    if (value.high == 0) {
+        *remainder = value.low % divisor;
+        return value.low / divisor;
+    }
     *remainder = 0;
     if (value.high >= divisor) {
         return UINT64_MAX;
@@ -77,6 +81,12 @@ uint64_t wide_divide(struct wide value, uint64_t divisor, uint64_t *remainder)
     return quotient;
 }
 
+uint64_t wide_scale(uint64_t factor, uint32_t fraction)
+{
+    struct wide product = wide_add(wide_multiply(factor, fraction), (struct wide){.low = UINT64_C(1) << 31});
+    return (product.high << HALF_BITS) | (product.low >> HALF_BITS);
+}
+
 uint64_t wide_divide_nearest(struct wide value, uint64_t divisor)
 {
     uint64_t rest = 0;
@@ -84,17 +94,22 @@ uint64_t wide_divide_nearest(struct wide value, uint64_t divisor)
     return rest > 0 && rest >= divisor - rest ? quotient + 1U : quotient;
 }
 
-/* The largest root whose square fits, a bit at a time from the top; then up if the next half is nearer:
- * (root + 1/2)^2 = root^2 + root + 1/4, so the rest decides. */
+/* Digit by digit, as on paper, two bits of the value for one of the root: rest = what is left of the bits so far, and
+ * (2*root + 1)^2 - (2*root)^2 = 4*root + 1 decides the next bit. Then up if the next half is nearer: (root + 1/2)^2 =
+ * root^2 + root + 1/4, so the rest decides. */
 uint64_t wide_root_nearest(struct wide value)
 {
     uint64_t root = 0;
-    for (unsigned bit = WORD_BITS; bit-- > 0;) {
-        uint64_t trial = root | (UINT64_C(1) << bit);
-        if (wide_is_at_least(value, wide_multiply(trial, trial))) {
-            root = trial;
+    uint64_t rest = 0;
+    for (unsigned i = 0; i < WORD_BITS; i++) {
+        rest = (rest << 2U) | (value.high >> (WORD_BITS - 2U));
+        value = wide_shift_left(value, 2);
+        uint64_t trial = (root << 2U) | 1U;
+        root <<= 1U;
+        if (rest >= trial) {
+            rest -= trial;
+            root |= 1U;
         }
     }
-    struct wide rest = wide_subtract(value, wide_multiply(root, root));
-    return rest.high > 0 || rest.low > root ? root + 1U : root;
+    return rest > root ? root + 1U : root;
 }

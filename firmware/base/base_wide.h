@@ -61,7 +61,10 @@ uint64_t wide_divide(struct wide value, uint64_t divisor, uint64_t *remainder);
 /* value / divisor rounded to the nearest whole number, which must fit 64 bits; else as wide_divide. */
 uint64_t wide_divide_nearest(struct wide value, uint64_t divisor);
 
-/* The square root of value, rounded to the nearest whole number; value < 2^127. */
+/* factor * fraction / 2^32, rounded to the nearest. */
+uint64_t wide_scale(uint64_t factor, uint32_t fraction);
+
+/* The square root of value, rounded to the nearest whole number; value < 2^124. */
 uint64_t wide_root_nearest(struct wide value);
 
 #endif

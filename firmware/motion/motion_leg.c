@@ -2,14 +2,6 @@
 
 #include "step_scale.h"
 
-enum { FRACTION_BITS = 32 };
-
-/* factor * fraction / 2^32, rounded to the nearest. */
-static uint64_t scale_by_fraction(uint64_t factor, uint32_t fraction)
-{
-    return wide_divide_nearest(wide_multiply(factor, fraction), UINT64_C(1) << FRACTION_BITS);
-}
-
 /* (speed * STEP_SLOPE_PER_SPEED)^2, where STEP_SLOPE_PER_SPEED^2 = 2 * STEP_ACCEL_PER_ACCEL * STEP_QUANTA. */
 uint64_t motion_leg_slope(uint64_t twice_speed2)
 {
@@ -38,12 +30,12 @@ uint64_t motion_leg_pulses(const struct motion_leg *leg)
 /* Position and slope at `fraction` of a tick after a slow end with `slope`. */
 static uint64_t position_after(uint64_t slope, uint32_t accel, uint32_t fraction)
 {
-    return scale_by_fraction(slope + scale_by_fraction(accel, fraction), fraction);
+    return wide_scale(slope + wide_scale(accel, fraction), fraction);
 }
 
 static uint64_t slope_after(uint64_t slope, uint32_t accel, uint32_t fraction)
 {
-    return slope + scale_by_fraction(2U * (uint64_t)accel, fraction);
+    return slope + wide_scale(2U * (uint64_t)accel, fraction);
 }
 
 /* Cruise and acceleration: the slow end is the start; the segment's tick is the first whole one after it. */

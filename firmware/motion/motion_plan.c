@@ -85,7 +85,7 @@ static void look_forward(struct motion_plan *plan)
         uint64_t enter = motion_profile_enter(&way);
         uint64_t gain = motion_gain(way.accel_steps_per_s2, way.steps);
         uint64_t exit = lower(plan->exit_speed2[i], enter + gain);
-        bool too_fast = enter > gain && enter - gain > exit && enter - gain > motion_profile_floor(&way);
+        bool too_fast = enter > gain && enter - gain > motion_profile_floor(&way);
         speed2 = too_fast ? enter - gain : exit;
         plan->exit_speed2[i] = speed2;
     }

@@ -29,7 +29,7 @@ struct motion_point motion_point_of(const struct step_cursor *cursor, uint64_t n
     struct wide way = {.low = generator->slope - generator->residual};
     return (struct motion_point){
         .time = motion_time_add(before, way, generator->slope),
-        .step = cursor->pulses,
+        .step = step_cursor_pulse(cursor),
         .speed2 = speed2_at_step(generator, residual),
     };
 }

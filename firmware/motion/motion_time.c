@@ -21,11 +21,6 @@ uint64_t motion_time_up(struct motion_time time)
     return time.ticks + (time.fraction != 0 ? 1U : 0U);
 }
 
-uint64_t motion_time_down(struct motion_time time)
-{
-    return time.ticks;
-}
-
 struct wide motion_place_way(struct motion_place a, struct motion_place b)
 {
     struct wide way = wide_multiply(b.step - a.step, STEP_QUANTA);

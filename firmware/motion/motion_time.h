@@ -24,9 +24,8 @@ struct motion_place {
 /* time + dividend / divisor, rounded down to the fraction. The divisor is 1 to 2^63, the quotient below 2^64. */
 struct motion_time motion_time_add(struct motion_time time, struct wide dividend, uint64_t divisor);
 
-/* The whole tick at or after, and at or before, a time. */
+/* The whole tick at or after a time. */
 uint64_t motion_time_up(struct motion_time time);
-uint64_t motion_time_down(struct motion_time time);
 
 /* The way from place a to place b, not before a, in quanta. */
 struct wide motion_place_way(struct motion_place a, struct motion_place b);

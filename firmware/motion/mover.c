@@ -5,10 +5,8 @@
 #include "hal_step.h"
 #include "hal_time.h"
 
-enum {
-    CUT_SEGMENTS = 4,  /* handed over with a cut; the rest follows while they last */
-    REPLAN_TRIES = 8,  /* each gives the planner twice the time of the one before */
-};
+/* Handed over with a cut; the rest follows while they last. */
+enum { CUT_SEGMENTS = 4 };
 
 void mover_init(struct mover *mover, unsigned motor)
 {
@@ -70,12 +68,11 @@ static bool plan_anew(struct motion_plan *plan, const struct motion_point *at, u
 }
 
 /* Cuts the plan at the first pulse that leaves time enough, and hands over what follows. Where planning takes longer
- * than the backend said, the motor has gone past that pulse and the next try looks farther ahead. False if nothing is
- * left to change. */
+ * than the backend said, the motor has gone past that pulse and the next try looks twice as far ahead, up to a second.
+ * False if nothing is left to change. */
 static bool mover_replan(struct mover *mover, uint32_t speed_steps_per_s)
 {
-    uint32_t lead_ticks = hal_step_lead_ticks();
-    for (unsigned i = 0; i < REPLAN_TRIES; i++) {
+    for (uint32_t lead_ticks = hal_step_lead_ticks(); lead_ticks < TICK_HZ; lead_ticks = 2U * lead_ticks + TICKS_PER_US) {
         uint64_t now = hal_time_now();
         struct step_cursor at;
         struct step_segment segments[CUT_SEGMENTS];
@@ -96,7 +93,6 @@ static bool mover_replan(struct mover *mover, uint32_t speed_steps_per_s)
             mover_feed(mover);
             return true;
         }
-        lead_ticks *= 2U;
     }
     return false;
 }

@@ -12,42 +12,45 @@ static const struct step_segment *queue_slot(const struct step_channel *channel,
     return &channel->queue[count % STEP_QUEUE_SEGMENTS];
 }
 
-/* Moves a cursor to the next pulse. False if there is none. */
-static bool cursor_advance(struct step_cursor *cursor, const struct step_channel *channel, uint32_t head)
+/* Moves a cursor to the first pulse of the next segment in the queue. False if there is none. */
+static bool cursor_begin_segment(struct step_cursor *cursor, const struct step_channel *channel, uint32_t head)
 {
-    if (cursor->left == 0) {
-        if (cursor->tail == head) {
-            return false;
-        }
-        const struct step_segment *segment = queue_slot(channel, cursor->tail);
-        step_generator_load(&cursor->generator, segment);
-        cursor->left = segment->steps;
-        cursor->tail++;
+    if (cursor->tail == head) {
+        return false;
     }
-    cursor->left--;
-    cursor->pulses++;
+    const struct step_segment *segment = queue_slot(channel, cursor->tail);
+    step_generator_load(&cursor->generator, segment);
+    cursor->end += segment->steps;
+    cursor->left = segment->steps - 1U;
+    cursor->tail++;
     (void)step_generator_next(&cursor->generator);
     return true;
 }
 
-/* Arms the next pulse; the channel rests if there is none. True when a new segment was begun or none was left. */
-static bool channel_arm_next(struct step_channel *channel)
+static bool cursor_advance(struct step_cursor *cursor, const struct step_channel *channel, uint32_t head)
+{
+    if (cursor->left == 0) {
+        return cursor_begin_segment(cursor, channel, head);
+    }
+    cursor->left--;
+    (void)step_generator_next(&cursor->generator);
+    return true;
+}
+
+/* Arms the first pulse of the next segment; the channel rests if there is none. */
+static void channel_begin_segment(struct step_channel *channel)
 {
     uint32_t head = atomic_load_explicit(&channel->head, memory_order_acquire);
     uint32_t tail = channel->cursor.tail;
-    if (!cursor_advance(&channel->cursor, channel, head)) {
+    if (!cursor_begin_segment(&channel->cursor, channel, head)) {
         atomic_store_explicit(&channel->running, false, memory_order_release);
-        return true;
+        return;
     }
     hal_step_arm(channel->motor, channel->cursor.generator.tick);
-    if (channel->cursor.tail == tail) {
-        return false;
-    }
     if (queue_slot(channel, tail)->marked) {
         atomic_store_explicit(&channel->marked, true, memory_order_relaxed);
     }
     atomic_store_explicit(&channel->taken, channel->cursor.tail, memory_order_release);
-    return true;
 }
 
 void step_channel_init(struct step_channel *channel, unsigned motor)
@@ -57,8 +60,9 @@ void step_channel_init(struct step_channel *channel, unsigned motor)
 
 void step_channel_begin(struct step_channel *channel, uint32_t tick, bool backward)
 {
+    channel->origin = step_channel_position(channel);
     step_generator_start(&channel->cursor.generator, tick);
-    channel->cursor.pulses = 0;
+    channel->cursor.end = 0;
     channel->cursor.left = 0;
     channel->direction = backward ? -1 : 1;
     atomic_store_explicit(&channel->marked, false, memory_order_relaxed);
@@ -82,7 +86,7 @@ void step_channel_push(struct step_channel *channel, const struct step_segment *
 void step_channel_run(struct step_channel *channel)
 {
     atomic_store_explicit(&channel->running, true, memory_order_relaxed);
-    (void)channel_arm_next(channel);
+    channel_begin_segment(channel);
 }
 
 bool step_channel_is_running(const struct step_channel *channel)
@@ -103,20 +107,19 @@ bool step_channel_foresee(struct step_channel *channel, uint32_t tick, struct st
     return running;
 }
 
-/* Leaves of the queue what lies before pulse `pulses`, which is the armed one or a later one. */
-static void channel_truncate(struct step_channel *channel, uint64_t pulses)
+/* Leaves of the queue what lies before pulse `pulse`, which is the armed one or a later one. */
+static void channel_truncate(struct step_channel *channel, uint64_t pulse)
 {
-    uint64_t keep = pulses - channel->cursor.pulses;
-    uint32_t head = channel->cursor.tail;
-    if (keep <= channel->cursor.left) {
-        channel->cursor.left = (uint32_t)keep;
-    } else {
-        keep -= channel->cursor.left;
-        for (; keep > 0; head++) {
-            struct step_segment *segment = &channel->queue[head % STEP_QUEUE_SEGMENTS];
-            segment->steps = keep < segment->steps ? (uint32_t)keep : segment->steps;
-            keep -= segment->steps;
-        }
+    struct step_cursor *cursor = &channel->cursor;
+    uint32_t head = cursor->tail;
+    if (pulse <= cursor->end) {
+        cursor->left -= (uint32_t)(cursor->end - pulse);
+        cursor->end = pulse;
+    }
+    for (uint64_t keep = pulse - cursor->end; keep > 0; head++) {
+        struct step_segment *segment = &channel->queue[head % STEP_QUEUE_SEGMENTS];
+        segment->steps = keep < segment->steps ? (uint32_t)keep : segment->steps;
+        keep -= segment->steps;
     }
     atomic_store_explicit(&channel->head, head, memory_order_relaxed);
 }
@@ -125,9 +128,9 @@ bool step_channel_cut(struct step_channel *channel, const struct step_cursor *at
                       unsigned count)
 {
     hal_step_hold();
-    bool in_time = step_channel_is_running(channel) && channel->cursor.pulses <= at->pulses;
+    bool in_time = step_channel_is_running(channel) && step_cursor_pulse(&channel->cursor) <= step_cursor_pulse(at);
     if (in_time) {
-        channel_truncate(channel, at->pulses);
+        channel_truncate(channel, step_cursor_pulse(at));
         for (unsigned i = 0; i < count; i++) {
             step_channel_push(channel, &segments[i]);
         }
@@ -140,10 +143,9 @@ void step_channel_halt(struct step_channel *channel)
 {
     hal_step_hold();
     if (step_channel_is_running(channel)) {
-        channel->cursor.left = 0;
-        atomic_store_explicit(&channel->head, channel->cursor.tail, memory_order_relaxed);
+        channel_truncate(channel, step_cursor_pulse(&channel->cursor));
         if (hal_step_disarm(channel->motor)) {
-            channel->cursor.pulses--;
+            channel->cursor.end--;
             channel->cursor.generator.tick -= channel->cursor.generator.interval;
             atomic_store_explicit(&channel->running, false, memory_order_relaxed);
         }
@@ -154,22 +156,19 @@ void step_channel_halt(struct step_channel *channel)
 uint64_t step_channel_pulses(const struct step_channel *channel)
 {
     hal_step_hold();
-    uint64_t pulses = channel->cursor.pulses - (step_channel_is_running(channel) ? 1U : 0U);
+    uint64_t pulses = step_cursor_pulse(&channel->cursor) - (step_channel_is_running(channel) ? 1U : 0U);
     hal_step_release();
     return pulses;
 }
 
 int64_t step_channel_position(const struct step_channel *channel)
 {
-    hal_step_hold();
-    int64_t position = channel->position;
-    hal_step_release();
-    return position;
+    return channel->origin + channel->direction * (int64_t)step_channel_pulses(channel);
 }
 
 void step_channel_set_position(struct step_channel *channel, int64_t position_steps)
 {
-    channel->position = position_steps;
+    channel->origin += position_steps - step_channel_position(channel);
 }
 
 uint32_t step_channel_end_tick(const struct step_channel *channel)
@@ -184,6 +183,12 @@ bool step_channel_take_mark(struct step_channel *channel)
 
 bool step_channel_pulse_isr(struct step_channel *channel)
 {
-    channel->position += channel->direction;
-    return channel_arm_next(channel);
+    struct step_cursor *cursor = &channel->cursor;
+    if (cursor->left == 0) {
+        channel_begin_segment(channel);
+        return true;
+    }
+    cursor->left--;
+    hal_step_arm(channel->motor, step_generator_next(&cursor->generator));
+    return false;
 }

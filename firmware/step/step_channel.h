@@ -22,10 +22,16 @@ enum { STEP_QUEUE_SEGMENTS = 32 };
 /* How far the pulses have come: enough to foresee the pulses that follow. */
 struct step_cursor {
     struct step_generator generator;
-    uint64_t pulses;   /* ordinal in the move of the pulse that the generator stands on; 0 before the first */
+    uint64_t end;      /* ordinal in the move of the last pulse on the present segment */
     uint32_t left;     /* pulses still to come on the present segment */
     uint32_t tail;     /* count of segments taken from the queue */
 };
+
+/* The ordinal in the move of the pulse that a cursor stands on; 0 before the first. */
+static inline uint64_t step_cursor_pulse(const struct step_cursor *cursor)
+{
+    return cursor->end - cursor->left;
+}
 
 struct step_channel {
     struct step_cursor cursor; /* stands on the armed pulse while running, else on the last one made */
@@ -34,7 +40,7 @@ struct step_channel {
     _Atomic uint32_t taken;    /* count of segments taken; written by the interrupt: what main may overwrite */
     _Atomic bool running;      /* a pulse is armed */
     _Atomic bool marked;       /* a marked segment has begun; main clears it */
-    int64_t position;          /* steps, absolute */
+    int64_t origin;            /* absolute position at the start of the move, steps */
     int8_t direction;          /* +1 or -1 */
     uint8_t motor;             /* 0 to 3 */
 };

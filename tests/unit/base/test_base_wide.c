@@ -292,9 +292,9 @@ static const uint64_t sides[] = {
     1000,
     UINT32_MAX,
     UINT64_C(0x100000000),
-    UINT64_C(0x7FFFFFFFFFFFFFFF),
-    UINT64_C(0x8000000000000000),
-    UINT64_C(0xB504F333F9DE6484),
+    UINT64_C(0x1FFFFFFFFFFFFFFF),
+    UINT64_C(0x2000000000000000),
+    UINT64_C(0x3FFFFFFFFFFFFFFF),
 };
 
 void test_the_root_of_a_square_and_of_its_neighbours_is_its_side(void)
@@ -310,20 +310,26 @@ void test_the_root_of_a_square_and_of_its_neighbours_is_its_side(void)
 /* (side + 1/2)^2 = side^2 + side + 1/4. */
 void test_a_root_turns_at_the_half(void)
 {
-    for (unsigned i = 0; i < LENGTH(sides) - 1U; i++) {
+    for (unsigned i = 0; i < LENGTH(sides); i++) {
         struct wide below = wide_add(wide_multiply(sides[i], sides[i]), wide(0, sides[i]));
         TEST_ASSERT_EQUAL_HEX64(sides[i], wide_root_nearest(below));
         TEST_ASSERT_EQUAL_HEX64(sides[i] + 1U, wide_root_nearest(wide_add(below, wide(0, 1))));
     }
 }
 
-void test_roots_are_exact_up_to_2_to_the_127(void)
+void test_roots_are_exact_up_to_2_to_the_124(void)
 {
-    const uint64_t root = UINT64_C(0xB504F333F9DE6484); /* of 2^127 - 1 and of 2^127 - 2^64 alike */
-    TEST_ASSERT_EQUAL_HEX64(root, wide_root_nearest(wide(INT64_MAX, UINT64_MAX)));
-    TEST_ASSERT_EQUAL_HEX64(root, wide_root_nearest(wide(INT64_MAX, 0)));
-    TEST_ASSERT_EQUAL_HEX64(UINT64_C(10000000000000000000),
-                            wide_root_nearest(wide(UINT64_C(0x4B3B4CA85A86C47A), UINT64_C(0x98A224000000000))));
+    TEST_ASSERT_EQUAL_HEX64(UINT64_C(0x4000000000000000), wide_root_nearest(wide(UINT64_MAX >> 4U, UINT64_MAX)));
+    TEST_ASSERT_EQUAL_UINT64(UINT64_C(1000000000000000000),
+                             wide_root_nearest(wide(UINT64_C(0xC097CE7BC90715), UINT64_C(0xB34B9F1000000000))));
+}
+
+void test_scaling_rounds_to_the_nearest(void)
+{
+    TEST_ASSERT_EQUAL_UINT64(0, wide_scale(1, UINT32_C(0x7FFFFFFF)));
+    TEST_ASSERT_EQUAL_UINT64(1, wide_scale(1, UINT32_C(0x80000000)));
+    TEST_ASSERT_EQUAL_UINT64(2, wide_scale(3, UINT32_C(0x80000000)));
+    TEST_ASSERT_EQUAL_HEX64(UINT64_C(0xFFFFFFFEFFFFFFFF), wide_scale(UINT64_MAX, UINT32_MAX));
 }
 
 /* 2 * f^2 * 16 000 000 * 60 000: a whole ramp at the steepest acceleration. */

@@ -1,0 +1,178 @@
+"""The image of the board in QEMU's STM32F405: the line over TCP, the processor over gdb's protocol.
+
+The machine has no clock control, pins, flash controller or watchdog: their registers read 0 and
+ignore writes. So the image finds no crystal and all inputs at 0, that is every switch of S1 on: node 16.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import shutil
+import socket
+import subprocess
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from elftools.elf.elffile import ELFFile
+from elftools.elf.sections import SymbolTableSection
+
+MACHINE = "netduinoplus2"
+PROGRAM = "qemu-system-arm"
+NODE = 16
+FLAG, ESCAPE, ESCAPED = 0x7E, 0x7D, 0x20
+SP, PC = 13, 15
+TIMEOUT_SECONDS = 1
+INTERRUPTED = "T02"
+
+
+def missing() -> str:
+    """Why it cannot run here; empty if it can."""
+    return "" if shutil.which(PROGRAM) else f"{PROGRAM} is not installed: run tools/setup test"
+
+
+def symbols(image: Path) -> dict[str, int]:
+    """Names and addresses of the image."""
+    with image.open("rb") as file:
+        table = ELFFile(file).get_section_by_name(".symtab")
+        assert isinstance(table, SymbolTableSection)
+        return {symbol.name: int(symbol["st_value"]) for symbol in table.iter_symbols()}
+
+
+def fcs(data: bytes) -> int:
+    """FCS-16 of RFC 1662."""
+    register = 0xFFFF
+    for byte in data:
+        register ^= byte
+        for _ in range(8):
+            register = register >> 1 ^ (0x8408 if register & 1 else 0)
+    return register ^ 0xFFFF
+
+
+def frame(node: int, number: int, message: bytes) -> bytes:
+    """A request as the line carries it."""
+    inner = bytes([node, number]) + message
+    inner += fcs(inner).to_bytes(2, "little")
+    escaped = bytearray()
+    for byte in inner:
+        escaped += bytes([ESCAPE, byte ^ ESCAPED]) if byte in (FLAG, ESCAPE) else bytes([byte])
+    return bytes([FLAG, *escaped, FLAG])
+
+
+def unframe(received: bytes) -> bytes:
+    """The message of an answer, whose FCS must be right."""
+    inner = bytearray()
+    escaping = False
+    for byte in received.strip(bytes([FLAG])):
+        if byte == ESCAPE:
+            escaping = True
+            continue
+        inner.append(byte ^ ESCAPED if escaping else byte)
+        escaping = False
+    assert fcs(bytes(inner[:-2])) == int.from_bytes(inner[-2:], "little")
+    return bytes(inner[2:-2])
+
+
+class Gdb:
+    """As much of gdb's remote protocol as stops the processor and changes it."""
+
+    def __init__(self, connection: socket.socket) -> None:
+        self._socket = connection
+
+    def call(self, command: str) -> str:
+        """Send a packet and return the answer's content."""
+        self.send(command)
+        return self.receive()
+
+    def send(self, command: str) -> None:
+        data = command.encode()
+        self._socket.sendall(b"$%s#%02x" % (data, sum(data) % 256))
+
+    def receive(self) -> str:
+        """The next packet; acknowledged."""
+        data = b""
+        while not (b"#" in data and len(data.rpartition(b"#")[2]) == 2):
+            data += self._socket.recv(1)
+        self._socket.sendall(b"+")
+        return data[data.index(b"$") + 1 : data.rindex(b"#")].decode()
+
+    def stop(self) -> None:
+        """Stop the processor where it is; there may be older news to be read first."""
+        self._socket.sendall(b"\x03")
+        while not self.receive().startswith(INTERRUPTED):
+            pass
+
+    def go(self) -> None:
+        """Let it run again."""
+        self.send("c")
+
+    def set_register(self, number: int, value: int) -> None:
+        assert self.call(f"P{number:x}={value.to_bytes(4, 'little').hex()}") == "OK"
+
+    def read_words(self, address: int, count: int) -> list[int]:
+        data = bytes.fromhex(self.call(f"m{address:x},{4 * count:x}"))
+        return [int.from_bytes(data[i : i + 4], "little") for i in range(0, 4 * count, 4)]
+
+
+class Emulator:
+    """A running board."""
+
+    def __init__(self, line: socket.socket, gdb: Gdb) -> None:
+        self._line = line
+        self.gdb = gdb
+
+    def ask(self, message: bytes, number: int = 1, node: int = NODE) -> bytes:
+        """Send a request and return its answer; empty if none came in time."""
+        self._line.sendall(frame(node, number, message))
+        return self.answer()
+
+    def answer(self) -> bytes:
+        received = b""
+        with contextlib.suppress(TimeoutError):
+            while received.count(FLAG) < 2 or received[-1] != FLAG:
+                received += self._line.recv(1)
+        return unframe(received) if received else b""
+
+    def ask_until_answered(self, message: bytes, tries: int = 20) -> bytes:
+        """The same again and again, as long as the board is starting."""
+        for number in range(1, tries + 1):
+            if answer := self.ask(message, number):
+                return answer
+        return b""
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+def connect(port: int) -> socket.socket:
+    """Connect to a server that may be starting."""
+    for _ in range(100):
+        try:
+            connection = socket.create_connection(("127.0.0.1", port))
+            connection.settimeout(TIMEOUT_SECONDS)
+            return connection
+        except ConnectionRefusedError:
+            time.sleep(0.1)
+    raise TimeoutError(f"nobody listens at port {port}")
+
+
+@contextlib.contextmanager
+def emulator(image: Path, log: Path) -> Iterator[Emulator]:
+    """Start a board; it is running when this returns. `log` gets its accesses to missing parts."""
+    line_port, gdb_port = free_port(), free_port()
+    command = [
+        PROGRAM, "-M", MACHINE, "-display", "none", "-monitor", "none", "-kernel", str(image),
+        "-serial", f"tcp:127.0.0.1:{line_port},server=on,wait=off",
+        "-gdb", f"tcp:127.0.0.1:{gdb_port}", "-d", "guest_errors,unimp,int", "-D", str(log),
+    ]  # fmt: skip
+    with contextlib.ExitStack() as ending:
+        process = ending.enter_context(subprocess.Popen(command))
+        ending.callback(process.kill)
+        line = ending.enter_context(connect(line_port))
+        gdb = Gdb(ending.enter_context(connect(gdb_port)))
+        gdb.call("?")
+        gdb.go()
+        yield Emulator(line, gdb)

@@ -1,0 +1,128 @@
+#include "mover_bench.h"
+
+#include "base_tick.h"
+#include "hal_io.h"
+#include "unity.h"
+
+const struct motion_order mover_bench_trapezoid = {
+    .section = {{5000, 1000, 2000}},
+    .start_speed_steps_per_s = 100,
+    .sections = 1,
+};
+
+const struct motion_order mover_bench_slow = {
+    .section = {{100, 100, 2000}},
+    .start_speed_steps_per_s = 100,
+    .sections = 1,
+};
+
+static void traced(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
+{
+    struct mover_bench *bench = context;
+    (void)tick;
+    TEST_ASSERT_EQUAL_UINT(MOVER_BENCH_MOTOR + 1, motor);
+    TEST_ASSERT_LESS_THAN_UINT(MOVER_BENCH_EVENTS_MAX, bench->event_count);
+    bench->events[bench->event_count++] = (struct mover_bench_event){event, value};
+}
+
+static void stepped(void *context, uint64_t tick, unsigned motor, bool backward)
+{
+    struct mover_bench *bench = context;
+    (void)motor;
+    (void)backward;
+    bench->last_edge_tick = tick;
+}
+
+static bool step_isr(void *context, unsigned motor)
+{
+    struct mover_bench *bench = context;
+    TEST_ASSERT_EQUAL_UINT(MOVER_BENCH_MOTOR, motor);
+    return mover_pulse_isr(&bench->mover);
+}
+
+static void tick_isr(void *context)
+{
+    struct mover_bench *bench = context;
+    bench->stops_sensed += mover_sense_isr(&bench->mover, hal_io_read_inputs()) ? 1U : 0U;
+}
+
+static uint64_t main_pass(void *context)
+{
+    struct mover_bench *bench = context;
+    mover_poll(&bench->mover);
+    return TICK_NEVER;
+}
+
+void mover_bench_init(struct mover_bench *bench)
+{
+    const struct hal_client client = {.context = bench, .step_isr = step_isr, .tick_isr = tick_isr};
+    host_machine_init(&bench->machine, MOVER_BENCH_EPOCH);
+    bench->machine.listener = (struct host_listener){.context = bench, .trace = traced, .step = stepped};
+    host_machine_select(&bench->machine);
+    hal_run_start(&client);
+    mover_init(&bench->mover, MOVER_BENCH_MOTOR);
+    bench->event_count = 0;
+    bench->stops_sensed = 0;
+    bench->last_edge_tick = 0;
+}
+
+void mover_bench_start(struct mover_bench *bench, const struct motion_order *order, struct mover_guards guards,
+                       uint8_t inputs)
+{
+    mover_start(&bench->mover, order, false, MOVER_BENCH_EPOCH, &guards, inputs);
+}
+
+void mover_bench_set_inputs(struct mover_bench *bench, uint8_t levels, uint8_t changed, uint64_t ms)
+{
+    uint8_t number = 1;
+    while ((1U << (number - 1U)) != changed) {
+        number++;
+    }
+    bench->machine.inputs = levels;
+    bench->input = (struct host_input){
+        .tick = ms * TICKS_PER_MS,
+        .input = number,
+        .level = (levels & changed) == 0,
+    };
+    host_machine_set_script(&bench->machine, &bench->input, 1);
+}
+
+void mover_bench_run_until(struct mover_bench *bench, uint64_t tick)
+{
+    host_machine_run(&bench->machine, tick, main_pass, NULL, bench);
+}
+
+void mover_bench_run(struct mover_bench *bench)
+{
+    host_machine_run(&bench->machine, TICK_NEVER, main_pass, NULL, bench);
+    TEST_ASSERT_FALSE(mover_is_moving(&bench->mover));
+}
+
+void mover_bench_assert_steps(const struct mover_bench *bench, int64_t steps)
+{
+    TEST_ASSERT_EQUAL_UINT64(steps < 0 ? -steps : steps, bench->machine.pulses);
+    TEST_ASSERT_EQUAL_INT64(steps, mover_position_steps(&bench->mover));
+}
+
+void mover_bench_assert_only_event(const struct mover_bench *bench, enum hal_trace_event event, int64_t value)
+{
+    TEST_ASSERT_EQUAL_UINT(1, bench->event_count);
+    TEST_ASSERT_EQUAL_INT(event, bench->events[0].event);
+    TEST_ASSERT_EQUAL_INT64(value, bench->events[0].value);
+}
+
+void mover_bench_assert_cause(const struct mover_bench *bench, enum hal_trace_stop cause)
+{
+    TEST_ASSERT_EQUAL_INT(cause, mover_stop_cause(&bench->mover));
+    if (cause == HAL_TRACE_STOP_NONE) {
+        TEST_ASSERT_EQUAL_UINT(0, bench->event_count);
+    } else {
+        mover_bench_assert_only_event(bench, HAL_TRACE_STOP, cause);
+    }
+}
+
+void mover_bench_check(const struct mover_bench *bench)
+{
+    TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, bench->machine.late_steps, "late pulses");
+    TEST_ASSERT_LESS_OR_EQUAL_UINT64_MESSAGE(bench->machine.pulses, mover_steps_made(&bench->mover), "steps made");
+}

@@ -1,0 +1,270 @@
+#include "base_tick.h"
+#include "mock_hal_run.h"
+#include "mock_hal_step.h"
+#include "mock_hal_time.h"
+#include "mock_hal_trace.h"
+#include "mover.h"
+#include "unity.h"
+
+/* A mover on a backend whose clock runs while main works: planning takes ticks, which pass before the step
+ * interrupt is held off to cut the queue, and in which the motor goes on. */
+
+static struct mover mover;
+static uint64_t now;
+static uint64_t armed;
+static bool is_armed;
+static uint32_t lead_ticks;
+static uint64_t planning_ticks; /* that pass until the cut */
+static uint64_t handing_ticks;  /* that pass after the cut */
+static unsigned holds;          /* since planning began: the first foresees, the second cuts */
+static unsigned cuts_tried;
+static uint64_t pulses;
+static unsigned changes_traced;
+
+/* Pulse k stands at k * 5250 ticks. */
+static const struct motion_order fast = {
+    .section = {{1000, 16000, 60000}},
+    .start_speed_steps_per_s = 16000,
+    .sections = 1,
+};
+
+static void make_pulses_until(uint64_t tick)
+{
+    while (is_armed && armed <= tick) {
+        now = armed > now ? armed : now;
+        is_armed = false;
+        pulses++;
+        (void)mover_pulse_isr(&mover);
+    }
+    now = tick > now ? tick : now;
+}
+
+static void arm_seen(unsigned motor, uint32_t tick, int calls)
+{
+    (void)motor;
+    (void)calls;
+    TEST_ASSERT_FALSE(is_armed);
+    armed = tick_extend(tick, now);
+    is_armed = true;
+}
+
+static void hold_seen(int calls)
+{
+    (void)calls;
+    holds++;
+    if (holds % 2U == 0) {
+        cuts_tried++;
+        make_pulses_until(now + planning_ticks);
+    }
+}
+
+static void release_seen(int calls)
+{
+    (void)calls;
+    if (holds % 2U == 0 && handing_ticks != 0) {
+        make_pulses_until(now + handing_ticks);
+    }
+}
+
+static void traced(uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value, int calls)
+{
+    (void)tick;
+    (void)motor;
+    (void)value;
+    (void)calls;
+    changes_traced += event == HAL_TRACE_SPEED ? 1U : 0U;
+}
+
+static uint64_t tell_time(int calls)
+{
+    (void)calls;
+    return now;
+}
+
+static uint32_t tell_lead(int calls)
+{
+    (void)calls;
+    holds = 0;
+    return lead_ticks;
+}
+
+void setUp(void)
+{
+    now = UINT64_C(1) << 40;
+    is_armed = false;
+    lead_ticks = 0;
+    planning_ticks = 0;
+    handing_ticks = 0;
+    holds = 0;
+    cuts_tried = 0;
+    pulses = 0;
+    changes_traced = 0;
+    hal_step_set_direction_Ignore();
+    hal_step_arm_Stub(arm_seen);
+    hal_step_hold_Stub(hold_seen);
+    hal_step_release_Stub(release_seen);
+    hal_step_lead_ticks_Stub(tell_lead);
+    hal_time_now_Stub(tell_time);
+    hal_run_hold_tick_Ignore();
+    hal_run_release_tick_Ignore();
+    hal_trace_Stub(traced);
+    mover_init(&mover, 0);
+}
+
+void tearDown(void)
+{
+}
+
+/* Starts and makes some pulses, so that the next one is due in 5250 ticks. */
+static void start(const struct motion_order *order, unsigned made)
+{
+    static const struct mover_guards none = {0};
+    mover_start(&mover, order, false, now, &none, 0);
+    for (unsigned i = 0; i < made; i++) {
+        make_pulses_until(armed);
+    }
+    TEST_ASSERT_EQUAL_UINT64(made, pulses);
+}
+
+static void run_to_the_end(void)
+{
+    planning_ticks = 0;
+    handing_ticks = 0;
+    for (mover_poll(&mover); mover_is_moving(&mover); mover_poll(&mover)) {
+        TEST_ASSERT_TRUE(is_armed);
+        make_pulses_until(armed);
+    }
+    TEST_ASSERT_EQUAL_UINT64(pulses, mover_steps_made(&mover));
+}
+
+void test_without_a_lead_a_stop_takes_effect_at_the_next_pulse(void)
+{
+    start(&fast, 10);
+
+    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT64(11, pulses);
+}
+
+void test_a_stop_takes_effect_at_the_first_pulse_that_leaves_the_lead(void)
+{
+    start(&fast, 10);
+    lead_ticks = 2 * 5250 + 1;
+
+    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT64(13, pulses);
+}
+
+void test_planning_within_the_lead_is_in_time_at_the_first_try(void)
+{
+    start(&fast, 10);
+    lead_ticks = 2 * 5250 + 1;
+    planning_ticks = 2 * 5250;
+
+    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT64(13, pulses);
+    TEST_ASSERT_EQUAL_UINT(1, cuts_tried);
+}
+
+/* The lead ends at pulse 12, planning lasts nearly until pulse 13; the second lead, twice as long and 1 us, ends just after pulse 16. */
+void test_planning_that_takes_longer_than_the_lead_is_tried_again_with_twice_the_lead(void)
+{
+    start(&fast, 10);
+    lead_ticks = 5250 + 2625;
+    planning_ticks = 3 * 5250 - 1;
+
+    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT64(17, pulses);
+    TEST_ASSERT_EQUAL_UINT(2, cuts_tried);
+    TEST_ASSERT_EQUAL_INT(HAL_TRACE_STOP_COMMAND, mover_stop_cause(&mover));
+}
+
+void test_a_change_of_speed_that_was_tried_again_keeps_the_target(void)
+{
+    start(&fast, 10);
+    lead_ticks = 5250 + 2625;
+    planning_ticks = 3 * 5250 - 1;
+
+    mover_change_speed(&mover, 8000);
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT64(1000, pulses);
+    TEST_ASSERT_EQUAL_UINT(2, cuts_tried);
+    TEST_ASSERT_EQUAL_UINT(1, changes_traced);
+}
+
+void test_a_change_that_is_planned_after_the_end_of_the_move_changes_nothing(void)
+{
+    start(&fast, 10);
+    lead_ticks = 1;
+    planning_ticks = 1000 * 5250;
+
+    mover_change_speed(&mover, 8000);
+
+    TEST_ASSERT_EQUAL_UINT(1, cuts_tried);
+    TEST_ASSERT_EQUAL_UINT(0, changes_traced);
+    run_to_the_end();
+    TEST_ASSERT_EQUAL_UINT64(1000, pulses);
+}
+
+void test_a_stop_that_the_move_ends_before_changes_nothing(void)
+{
+    start(&fast, 998);
+    lead_ticks = 3 * 5250;
+
+    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
+
+    TEST_ASSERT_EQUAL_UINT(0, cuts_tried);
+    run_to_the_end();
+    TEST_ASSERT_EQUAL_UINT64(1000, pulses);
+}
+
+void test_a_change_of_speed_that_the_move_ends_before_is_not_traced(void)
+{
+    start(&fast, 998);
+    lead_ticks = 3 * 5250;
+
+    mover_change_speed(&mover, 8000);
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT(0, changes_traced);
+    TEST_ASSERT_EQUAL_UINT64(1000, pulses);
+}
+
+void test_a_move_that_ends_while_its_stop_is_planned_has_ended(void)
+{
+    start(&fast, 995);
+    lead_ticks = 5250 + 2625;
+    planning_ticks = 10 * 5250;
+
+    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
+
+    TEST_ASSERT_EQUAL_UINT(1, cuts_tried);
+    run_to_the_end();
+    TEST_ASSERT_EQUAL_UINT64(1000, pulses);
+}
+
+/* Ten sections of one step: a cut hands over the first four, and before main comes to the rest they are all used up. */
+void test_a_queue_that_ran_dry_behind_a_cut_is_filled_and_goes_on(void)
+{
+    struct motion_order order = {.start_speed_steps_per_s = 16000, .sections = MOTION_SECTIONS};
+    for (unsigned i = 0; i < MOTION_SECTIONS; i++) {
+        order.section[i] = (struct motion_section){1, 16000, 60000};
+    }
+    start(&order, 1);
+    handing_ticks = 6 * 5250;
+
+    mover_change_speed(&mover, 15999);
+    TEST_ASSERT_FALSE(is_armed);
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT64(MOTION_SECTIONS, pulses);
+    TEST_ASSERT_EQUAL_INT64(MOTION_SECTIONS, mover_position_steps(&mover));
+}

@@ -1,0 +1,283 @@
+#include <string.h>
+
+#include "mock_hal_step.h"
+#include "step_channel.h"
+#include "unity.h"
+
+#include "channel_rig.h"
+
+/* What ends or changes the pulses that are queued. */
+
+void setUp(void)
+{
+    channel_rig_init();
+}
+
+void tearDown(void)
+{
+    channel_rig_check();
+}
+
+/* Twice as fast. */
+static struct step_segment fast_behind(uint32_t pulse, uint32_t steps)
+{
+    struct step_segment segment = segment_behind(pulse, steps);
+    segment.slope *= 2U;
+    segment.interval_ticks /= 2U;
+    return segment;
+}
+
+static struct step_cursor foresee_pulse(uint32_t pulse)
+{
+    struct step_cursor cursor;
+    TEST_ASSERT_TRUE(step_channel_foresee(&channel, START + pulse * INTERVAL, &cursor));
+    TEST_ASSERT_EQUAL_UINT64(pulse, step_cursor_pulse(&cursor));
+    return cursor;
+}
+
+void test_a_resting_channel_foresees_nothing(void)
+{
+    struct step_cursor cursor;
+    step_channel_begin(&channel, START, false);
+
+    TEST_ASSERT_FALSE(step_channel_foresee(&channel, START, &cursor));
+}
+
+void test_the_armed_pulse_is_foreseen_where_no_time_is_needed(void)
+{
+    struct step_cursor cursor;
+    begin_move(5);
+    make_pulses(1);
+
+    TEST_ASSERT_TRUE(step_channel_foresee(&channel, START + INTERVAL, &cursor));
+    TEST_ASSERT_EQUAL_UINT64(2, step_cursor_pulse(&cursor));
+    TEST_ASSERT_EQUAL_UINT32(START + 2 * INTERVAL, cursor.generator.tick);
+}
+
+void test_a_pulse_that_is_due_at_the_tick_itself_is_foreseen(void)
+{
+    struct step_cursor cursor;
+    begin_move(5);
+
+    TEST_ASSERT_TRUE(step_channel_foresee(&channel, START + 3 * INTERVAL, &cursor));
+    TEST_ASSERT_EQUAL_UINT64(3, step_cursor_pulse(&cursor));
+    TEST_ASSERT_TRUE(step_channel_foresee(&channel, START + 3 * INTERVAL + 1, &cursor));
+    TEST_ASSERT_EQUAL_UINT64(4, step_cursor_pulse(&cursor));
+}
+
+void test_pulses_of_later_segments_are_foreseen(void)
+{
+    begin_two(2, 5);
+
+    struct step_cursor cursor = foresee_pulse(6);
+
+    TEST_ASSERT_EQUAL_UINT32(START + 6 * INTERVAL, cursor.generator.tick);
+}
+
+void test_nothing_is_foreseen_behind_the_last_pulse(void)
+{
+    struct step_cursor cursor;
+    begin_two(2, 3);
+
+    TEST_ASSERT_TRUE(step_channel_foresee(&channel, START + 5 * INTERVAL, &cursor));
+    TEST_ASSERT_FALSE(step_channel_foresee(&channel, START + 5 * INTERVAL + 1, &cursor));
+}
+
+void test_foreseeing_changes_nothing(void)
+{
+    begin_two(2, 5);
+
+    (void)foresee_pulse(6);
+
+    TEST_ASSERT_EQUAL_UINT(7, run_to_the_end());
+    TEST_ASSERT_EQUAL_UINT(7, arms);
+}
+
+/* Foresees, cuts there, and lets two fast pulses follow. */
+static bool cut_at(const struct step_cursor *cursor)
+{
+    struct step_segment segment = fast_behind((uint32_t)step_cursor_pulse(cursor), 2);
+    return step_channel_cut(&channel, cursor, &segment, 1);
+}
+
+static void assert_cut_behind(uint32_t pulse)
+{
+    (void)run_to_the_end();
+    TEST_ASSERT_EQUAL_UINT64(pulse + 2U, step_channel_pulses(&channel));
+    TEST_ASSERT_EQUAL_UINT32(START + (pulse + 1U) * INTERVAL, step_channel_end_tick(&channel));
+}
+
+void test_a_cut_at_the_armed_pulse_takes_effect_behind_it(void)
+{
+    begin_two(4, 4);
+    make_pulses(1);
+    struct step_cursor cursor = foresee_pulse(2);
+
+    TEST_ASSERT_TRUE(cut_at(&cursor));
+
+    assert_cut_behind(2);
+}
+
+void test_a_cut_at_a_later_pulse_keeps_the_pulses_before_it(void)
+{
+    begin_two(4, 4);
+    struct step_cursor cursor = foresee_pulse(3);
+
+    TEST_ASSERT_TRUE(cut_at(&cursor));
+
+    assert_cut_behind(3);
+}
+
+void test_a_cut_at_the_last_pulse_of_a_segment_drops_the_next_one(void)
+{
+    begin_two(4, 4);
+    struct step_cursor cursor = foresee_pulse(4);
+
+    TEST_ASSERT_TRUE(cut_at(&cursor));
+
+    assert_cut_behind(4);
+}
+
+void test_a_cut_inside_a_later_segment_shortens_it(void)
+{
+    begin_two(4, 4);
+    struct step_cursor cursor = foresee_pulse(5);
+
+    TEST_ASSERT_TRUE(cut_at(&cursor));
+
+    assert_cut_behind(5);
+}
+
+void test_a_cut_behind_several_segments_keeps_them_whole(void)
+{
+    begin_two(2, 2);
+    push(4, 3);
+    push(7, 3);
+    struct step_cursor cursor = foresee_pulse(7);
+
+    TEST_ASSERT_TRUE(cut_at(&cursor));
+
+    assert_cut_behind(7);
+}
+
+void test_a_cut_is_in_time_until_the_foreseen_pulse_has_been_made(void)
+{
+    begin_two(4, 4);
+    struct step_cursor cursor = foresee_pulse(6);
+    make_pulses(5);
+
+    TEST_ASSERT_TRUE(cut_at(&cursor));
+
+    assert_cut_behind(6);
+}
+
+void test_a_cut_that_comes_too_late_is_refused_and_changes_nothing(void)
+{
+    begin_two(4, 4);
+    struct step_cursor cursor = foresee_pulse(3);
+    make_pulses(3);
+    struct step_channel before;
+    memcpy(&before, &channel, sizeof before);
+
+    TEST_ASSERT_FALSE(cut_at(&cursor));
+
+    TEST_ASSERT_EQUAL_MEMORY(&before, &channel, sizeof before);
+    TEST_ASSERT_EQUAL_UINT(5, run_to_the_end());
+}
+
+void test_a_cut_behind_the_end_is_refused(void)
+{
+    begin_move(3);
+    struct step_cursor cursor = foresee_pulse(3);
+    (void)run_to_the_end();
+
+    TEST_ASSERT_FALSE(cut_at(&cursor));
+
+    TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS, step_channel_room(&channel));
+}
+
+void test_a_cut_without_new_segments_ends_the_move_there(void)
+{
+    begin_two(4, 4);
+    struct step_cursor cursor = foresee_pulse(6);
+
+    TEST_ASSERT_TRUE(step_channel_cut(&channel, &cursor, NULL, 0));
+
+    TEST_ASSERT_EQUAL_UINT(6, run_to_the_end());
+}
+
+void test_a_cut_gives_the_room_of_what_it_dropped_back(void)
+{
+    step_channel_begin(&channel, START, false);
+    for (uint32_t i = 0; i < STEP_QUEUE_SEGMENTS; i++) {
+        push(i, 1);
+    }
+    step_channel_run(&channel);
+    struct step_cursor cursor = foresee_pulse(1);
+
+    TEST_ASSERT_TRUE(cut_at(&cursor));
+
+    TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS - 1, step_channel_room(&channel));
+}
+
+void test_a_halt_takes_the_armed_pulse_back(void)
+{
+    begin_two(4, 4);
+    make_pulses(2);
+
+    step_channel_halt(&channel);
+
+    TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+    TEST_ASSERT_EQUAL_UINT64(2, step_channel_pulses(&channel));
+    TEST_ASSERT_EQUAL_INT64(2, step_channel_position(&channel));
+    TEST_ASSERT_EQUAL_UINT32(START + 2 * INTERVAL, step_channel_end_tick(&channel));
+}
+
+void test_a_halt_before_the_first_pulse_ends_at_the_start(void)
+{
+    begin_move(4);
+
+    step_channel_halt(&channel);
+
+    TEST_ASSERT_EQUAL_UINT64(0, step_channel_pulses(&channel));
+    TEST_ASSERT_EQUAL_UINT32(START, step_channel_end_tick(&channel));
+}
+
+void test_a_halt_drops_what_is_queued(void)
+{
+    begin_two(4, 4);
+
+    step_channel_halt(&channel);
+    step_channel_run(&channel);
+
+    TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+    TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS, step_channel_room(&channel));
+}
+
+/* The hardware has made the edge when it is asked to take it back; its interrupt is due. */
+void test_a_halt_that_finds_the_pulse_made_ends_with_it(void)
+{
+    begin_two(4, 4);
+    make_pulses(2);
+    disarm_answer = false;
+
+    step_channel_halt(&channel);
+    TEST_ASSERT_TRUE(step_channel_is_running(&channel));
+    make_pulses(1);
+
+    TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+    TEST_ASSERT_EQUAL_INT64(3, step_channel_position(&channel));
+    TEST_ASSERT_EQUAL_UINT32(START + 3 * INTERVAL, step_channel_end_tick(&channel));
+}
+
+void test_a_halt_at_rest_does_nothing(void)
+{
+    begin_move(2);
+    (void)run_to_the_end();
+    hal_step_disarm_Stub(NULL);
+
+    step_channel_halt(&channel);
+
+    TEST_ASSERT_EQUAL_UINT64(2, step_channel_pulses(&channel));
+    TEST_ASSERT_EQUAL_UINT32(START + 2 * INTERVAL, step_channel_end_tick(&channel));
+}

@@ -1,0 +1,163 @@
+#include "base_tick.h"
+#include "hal_run.h"
+#include "host_machine.h"
+#include "step_channel.h"
+#include "step_scale.h"
+#include "unity.h"
+
+/* Channels on the host machine: what arrives at the pins. */
+
+enum { INTERVAL = 84000, EDGES_MAX = 64, MOTOR = 1 };
+
+static struct host_machine machine;
+static struct step_channel channels[UNIT_MOTORS];
+static uint64_t edge_ticks[EDGES_MAX];
+static bool edge_backward[EDGES_MAX];
+static unsigned edges;
+
+static void edge_seen(void *context, uint64_t tick, unsigned motor, bool backward)
+{
+    (void)context;
+    (void)motor;
+    TEST_ASSERT_LESS_THAN_UINT(EDGES_MAX, edges);
+    edge_ticks[edges] = tick;
+    edge_backward[edges] = backward;
+    edges++;
+}
+
+static bool step_isr(void *context, unsigned motor)
+{
+    (void)context;
+    return step_channel_pulse_isr(&channels[motor]);
+}
+
+/* A limit switch: any input ends the move. */
+static void tick_isr(void *context)
+{
+    (void)context;
+    step_channel_halt(&channels[MOTOR]);
+}
+
+static uint64_t main_pass(void *context)
+{
+    (void)context;
+    return TICK_NEVER;
+}
+
+static void start_machine(uint64_t epoch)
+{
+    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr};
+    host_machine_init(&machine, epoch);
+    machine.listener.step = edge_seen;
+    host_machine_select(&machine);
+    hal_run_start(&client);
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        step_channel_init(&channels[motor], motor);
+    }
+}
+
+static void begin_move(unsigned motor, uint32_t interval_ticks, uint32_t steps, bool backward)
+{
+    const struct step_segment segment = {
+        .slope = STEP_QUANTA / interval_ticks,
+        .tick = (uint32_t)machine.epoch,
+        .interval_ticks = interval_ticks,
+        .steps = steps,
+    };
+    step_channel_begin(&channels[motor], (uint32_t)machine.epoch, backward);
+    step_channel_push(&channels[motor], &segment);
+    step_channel_run(&channels[motor]);
+}
+
+static void run(void)
+{
+    host_machine_run(&machine, TICK_NEVER, main_pass, NULL, NULL);
+}
+
+void setUp(void)
+{
+    edges = 0;
+    start_machine(0);
+}
+
+void tearDown(void)
+{
+    TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, machine.late_steps, "late pulses");
+}
+
+static void assert_edges(unsigned count, uint64_t interval_ticks)
+{
+    TEST_ASSERT_EQUAL_UINT(count, edges);
+    for (unsigned i = 0; i < count; i++) {
+        TEST_ASSERT_EQUAL_UINT64((i + 1U) * interval_ticks, edge_ticks[i]);
+    }
+}
+
+void test_pulses_come_at_their_ticks(void)
+{
+    begin_move(MOTOR, INTERVAL, 20, false);
+
+    run();
+
+    assert_edges(20, INTERVAL);
+}
+
+void test_pulses_come_at_their_ticks_where_the_counter_wraps(void)
+{
+    start_machine((UINT64_C(7) << 32) - 5U * INTERVAL - 1U);
+    begin_move(MOTOR, INTERVAL, 20, false);
+
+    run();
+
+    assert_edges(20, INTERVAL);
+}
+
+void test_the_direction_is_at_the_pin_with_every_pulse(void)
+{
+    begin_move(MOTOR, INTERVAL, 3, true);
+
+    run();
+
+    TEST_ASSERT_TRUE(edge_backward[0] && edge_backward[1] && edge_backward[2]);
+    TEST_ASSERT_EQUAL_INT64(-3, step_channel_position(&channels[MOTOR]));
+}
+
+void test_four_channels_run_side_by_side(void)
+{
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        begin_move(motor, INTERVAL / (motor + 1U), 10 + motor, motor % 2U == 1U);
+    }
+
+    run();
+
+    TEST_ASSERT_EQUAL_UINT(10 + 11 + 12 + 13, edges);
+    TEST_ASSERT_EQUAL_INT64(10, step_channel_position(&channels[0]));
+    TEST_ASSERT_EQUAL_INT64(-13, step_channel_position(&channels[3]));
+}
+
+void test_a_halt_ends_the_pulses_at_once(void)
+{
+    static const struct host_input script[] = {{.tick = 5 * INTERVAL + 1, .input = 1, .level = true}};
+    host_machine_set_script(&machine, script, 1);
+    begin_move(MOTOR, INTERVAL, 20, false);
+
+    run();
+
+    assert_edges(5, INTERVAL);
+    TEST_ASSERT_EQUAL_INT64(5, step_channel_position(&channels[MOTOR]));
+    TEST_ASSERT_EQUAL_UINT32(5 * INTERVAL, step_channel_end_tick(&channels[MOTOR]));
+}
+
+void test_a_halt_between_a_pulse_and_its_late_interrupt_counts_the_pulse(void)
+{
+    static const struct host_input script[] = {{.tick = 5 * INTERVAL + 10, .input = 1, .level = true}};
+    machine.faults.late_step_ticks = 20;
+    host_machine_set_script(&machine, script, 1);
+    begin_move(MOTOR, INTERVAL, 20, false);
+
+    run();
+
+    assert_edges(5, INTERVAL);
+    TEST_ASSERT_FALSE(step_channel_is_running(&channels[MOTOR]));
+    TEST_ASSERT_EQUAL_INT64(5, step_channel_position(&channels[MOTOR]));
+}
