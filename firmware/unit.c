@@ -1,12 +1,17 @@
 #include "unit.h"
 
+#include <assert.h>
+
 #include "base_tick.h"
 #include "hal_io.h"
 #include "hal_time.h"
 #include "program_parser.h"
+#include "unit_line.h"
 
 /* A blinking LED is on for half a second and off for half a second. */
 #define BLINK_TICKS ((uint64_t)TICK_HZ / 2U)
+
+static_assert((uint32_t)PROTOCOL_ANSWER_BYTES_MAX >= (uint32_t)STORE_TEXT_BYTES_MAX, "a stored program must fit");
 
 static bool unit_step_isr(void *context, unsigned motor)
 {
@@ -53,11 +58,11 @@ void unit_init(struct unit *unit)
 static void unit_start_program(struct unit *unit, unsigned motor, uint64_t now_ticks)
 {
     struct interpreter *interpreter = &unit->interpreter[motor];
-    uint32_t length = store_load(&unit->store, motor, unit->text);
-    bool good = !store_is_damaged(&unit->store, motor) && program_check(unit->text, length).status == PROGRAM_OK;
+    uint32_t length = store_load(&unit->store, motor, unit->answer);
+    bool good = !store_is_damaged(&unit->store, motor) && program_check(unit->answer, length).status == PROGRAM_OK;
 
     if (good) {
-        (void)interpreter_take(interpreter, unit->text, length, now_ticks);
+        (void)interpreter_take(interpreter, unit->answer, length, now_ticks);
     } else {
         interpreter_fail(interpreter, INTERPRETER_ERROR_STORED_PROGRAM, now_ticks);
     }
@@ -67,9 +72,11 @@ void unit_start(struct unit *unit)
 {
     hal_run_start(&unit->client);
     uint64_t now = hal_time_now();
+    unit->polled_tick = now;
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         unit_start_program(unit, motor, now);
     }
+    unit_line_start(unit);
 }
 
 /* Shows an input to programs and movers at once, not only at the next tick interrupt. */
@@ -115,10 +122,11 @@ static uint64_t unit_poll_led(struct unit *unit, unsigned motor, uint64_t now_ti
 uint64_t unit_poll(struct unit *unit)
 {
     uint16_t variables = unit->io.variables;
-    uint64_t wake = TICK_NEVER;
+    uint64_t wake = unit_line_poll(unit);
 
     unit_sample(unit);
     uint64_t now = hal_time_now();
+    unit->polled_tick = now;
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         uint64_t program = interpreter_poll(&unit->interpreter[motor], now);
         uint64_t led = unit_poll_led(unit, motor, now);

@@ -1,8 +1,8 @@
 /*
  * The unit: all stages put together for four motors. A backend and a main loop are all it needs.
  *
- * Main calls unit_init, unit_start and then unit_poll for ever, and unit_message for each message from the line. The
- * backend calls the interrupt entries that unit_start hands to it. About 40 kB.
+ * Main calls unit_init, unit_start and then unit_poll for ever, which serves the line too. Who has messages without a
+ * line calls unit_message. The backend calls the interrupt entries that unit_start hands to it. About 57 kB.
  */
 #ifndef UNIT_H
 #define UNIT_H
@@ -14,6 +14,7 @@
 #include "hal_run.h"
 #include "interpreter.h"
 #include "io.h"
+#include "link.h"
 #include "mover.h"
 #include "protocol.h"
 #include "store.h"
@@ -36,21 +37,25 @@ struct unit {
     struct protocol protocol;
     struct hal_client client;
     struct unit_led led[UNIT_MOTORS];
-    uint8_t text[STORE_TEXT_BYTES_MAX]; /* a stored program on its way into program memory */
+    struct link link;
+    uint64_t polled_tick;                      /* the now of the last pass */
+    uint8_t answer[PROTOCOL_ANSWER_BYTES_MAX]; /* to the last request of the line; at the start, before there is one, a
+                                                  stored program on its way into program memory */
 };
 
 /* Start values; nothing moves. */
 void unit_init(struct unit *unit);
 
-/* Starts the interrupts and the stored programs. A program that cannot be trusted is not run: its motor has failed. */
+/* Starts the interrupts, the stored programs and the line. A program that cannot be trusted is not run: its motor has
+ * failed. */
 void unit_start(struct unit *unit);
 
-/* One pass of the main loop: bounded work for each motor, all at the same now. Returns the tick at which to call again
- * at the latest: now or before if there is more to do at once, TICK_NEVER if only an interrupt or a message brings
- * more. */
+/* One pass of the main loop: at most one request of the line, and bounded work for each motor, all at the same now.
+ * Returns the tick at which to call again at the latest: now or before if there is more to do at once, TICK_NEVER if
+ * only an interrupt, the line or a message brings more. */
 uint64_t unit_poll(struct unit *unit);
 
-/* Answers one message; returns the answer's length, 0 for none. */
+/* Answers one message that did not come by the line; returns the answer's length, 0 for none. */
 uint32_t unit_message(struct unit *unit, const uint8_t *request, uint32_t length,
                       uint8_t answer[PROTOCOL_ANSWER_BYTES_MAX]);
 

@@ -15,8 +15,10 @@ void host_machine_init(struct host_machine *machine, uint64_t epoch)
     machine->epoch = epoch;
     machine->wake = TICK_NEVER;
     memset(machine->flash, ERASED, sizeof machine->flash);
+    host_machine_set_node(machine, 1);
     host_step_reset(machine);
     host_io_reset(machine);
+    host_line_reset(machine);
 }
 
 void host_machine_select(struct host_machine *machine)
@@ -45,6 +47,7 @@ void host_machine_restart(struct host_machine *machine)
     machine->flash_operations = 0;
     host_step_reset(machine);
     host_io_reset(machine);
+    host_line_reset(machine);
 }
 
 static void wake_main(struct host_machine *machine, uint64_t tick)
@@ -120,6 +123,14 @@ static void input_event(struct host_machine *machine, uint64_t tick)
     wake_main(machine, tick);
 }
 
+static void line_event(struct host_machine *machine)
+{
+    machine->now = machine->line.next_tick;
+    if (host_line_event(machine)) {
+        wake_main(machine, machine->now);
+    }
+}
+
 static void main_event(struct host_machine *machine, host_main_pass *pass, void *context)
 {
     machine->now = machine->wake;
@@ -143,10 +154,13 @@ void host_machine_run(struct host_machine *machine, uint64_t until, host_main_pa
         unsigned motor = first_motor(machine);
         uint64_t pulse = machine->armed[motor];
         uint64_t input = next_input_tick(machine);
-        if (pulse < until && pulse <= input && pulse <= machine->wake) {
+        uint64_t line = machine->line.next_tick;
+        if (pulse < until && pulse <= input && pulse <= line && pulse <= machine->wake) {
             pulse_event(machine, motor);
-        } else if (input < until && input <= machine->wake) {
+        } else if (input < until && input <= line && input <= machine->wake) {
             input_event(machine, input);
+        } else if (line < until && line <= machine->wake) {
+            line_event(machine);
         } else if (machine->wake < until) {
             main_event(machine, pass, context);
             if (done != NULL && done(context)) {

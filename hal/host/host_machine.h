@@ -1,10 +1,11 @@
 /*
  * The host backend: a deterministic machine with virtual time on which the unmodified firmware runs.
  *
- * Comes in: a script of input levels, flash contents, switches for misbehaviour. Goes out: an edge log through a
- * listener. Time jumps from event to event; when nothing happens nothing is spent. The same run twice gives the same
- * calls in the same order. A machine belongs to its caller; the hal functions work on the one that was selected last.
- * What the headers of the seam forbid (arming a motor twice, holding an interrupt twice, ...) ends in an assertion.
+ * Comes in: scripts of input levels and of the line, flash contents, switches for misbehaviour. Goes out: an edge
+ * log through a listener. Time jumps from event to event; when nothing happens nothing is spent. The same run twice
+ * gives the same calls in the same order. A machine belongs to its caller; the hal functions work on the one that was
+ * selected last. What the headers of the seam forbid (arming a motor twice, holding an interrupt twice, ...) ends in
+ * an assertion.
  */
 #ifndef HOST_MACHINE_H
 #define HOST_MACHINE_H
@@ -14,6 +15,7 @@
 
 #include "base_limits.h"
 #include "hal_flash.h"
+#include "hal_line.h"
 #include "hal_run.h"
 #include "hal_trace.h"
 
@@ -22,6 +24,14 @@
 
 /* Ticks of one pass of the main loop while there is more to run at once: 20 us. */
 #define HOST_PASS_TICKS UINT32_C(1680)
+
+/* Ticks of a byte on the line: ten bits at 19 200 Bd. */
+#define HOST_LINE_BYTE_TICKS UINT32_C(43750)
+
+enum {
+    HOST_LINE_HEARD_MAX = 256,  /* bytes received and not yet read, the last one broken; what comes beyond is lost */
+    HOST_LINE_TO_SEND_MAX = 64, /* bytes given and not yet sent */
+};
 
 /* What the machine tells, in order of time; ticks count from the start of the machine, not from its epoch. Entries
  * may be null. Of levels and directions only changes at the pins are told. */
@@ -33,12 +43,36 @@ struct host_listener {
     void (*input)(void *context, uint64_t tick, uint8_t levels);
     void (*output)(void *context, uint64_t tick, uint8_t levels);
     void (*trace)(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value);
+    void (*line)(void *context, uint64_t tick, uint8_t value); /* a byte has been sent; the end of its stop bit */
 };
 
 struct host_input {
     uint64_t tick;   /* from the start of the machine */
     uint8_t input;   /* 1 to 8 */
     bool level;
+};
+
+/* A byte that comes to the unit by the line; the end of its stop bit. */
+struct host_line_byte {
+    uint64_t tick; /* from the start of the machine */
+    uint8_t value;
+    bool broken;
+};
+
+struct host_line {
+    const struct host_line_byte *script; /* sorted by tick */
+    uint32_t script_length;
+    uint32_t script_next;
+    struct hal_line_byte heard[HOST_LINE_HEARD_MAX]; /* a ring */
+    uint32_t heard_first;
+    uint32_t heard_count;
+    uint8_t to_send[HOST_LINE_TO_SEND_MAX];    /* a ring; the first is on the bus */
+    uint32_t to_send_first;
+    uint32_t to_send_count;
+    bool refused;                              /* main wants to give more than there was room for */
+    uint64_t sent_tick;                        /* the end of the byte on the bus; TICK_NEVER: the bus is free */
+    uint64_t next_tick;                        /* the next event of script or bus; TICK_NEVER: none */
+    uint8_t node;
 };
 
 /* What of its word or area a flash operation gets done when it goes wrong. */
@@ -78,6 +112,7 @@ struct host_machine {
     bool tick_held;
     uint8_t inputs;
     uint8_t outputs;
+    struct host_line line;
     uint64_t late_steps;               /* pulses armed for a tick that had gone by; 0 in every good run */
     uint64_t pulses;                   /* armed pulses made, connected or not */
     uint32_t flash_operations;         /* words and erases since the start or restart */
@@ -85,7 +120,7 @@ struct host_machine {
     uint8_t flash[HAL_FLASH_AREAS][HAL_FLASH_AREA_BYTES];
 };
 
-/* A machine at time 0 (hal_time_now gives `epoch`), erased flash, no script, no faults, no listener. */
+/* A machine at time 0 (hal_time_now gives `epoch`), erased flash, node 1, no script, no faults, no listener. */
 void host_machine_init(struct host_machine *machine, uint64_t epoch);
 
 /* Makes this machine the one that the hal functions work on. */
@@ -95,8 +130,15 @@ void host_machine_select(struct host_machine *machine);
  * comes at once. */
 void host_machine_set_script(struct host_machine *machine, const struct host_input *script, uint32_t length);
 
-/* Turns the power off and on: pins at 0, interrupts stopped, faults cleared; flash, inputs and time stay. The firmware
- * starts again when the caller initialises it again. */
+/* Gives the machine what it hears on the line, sorted by tick, in place of what was left of the script before; the
+ * array must outlive the run. What is already past comes at once. */
+void host_machine_set_line(struct host_machine *machine, const struct host_line_byte *script, uint32_t length);
+
+/* Sets what switch S1 shows. */
+void host_machine_set_node(struct host_machine *machine, uint8_t node);
+
+/* Turns the power off and on: pins at 0, interrupts stopped, faults cleared, bytes of the line that are in the machine
+ * lost; flash, inputs, scripts, node and time stay. The firmware starts again when the caller initialises it again. */
 void host_machine_restart(struct host_machine *machine);
 
 /* The main loop's body, as the machine calls it: does one pass and returns the tick of the unit's time at which it
@@ -106,8 +148,9 @@ typedef uint64_t host_main_pass(void *context);
 /* Selects the machine and runs main and interrupts: all that happens before `until` ticks from the start, where time
  * then stands, or up to the pass after which `done` (may be null) says so. With TICK_NEVER for `until` it ends, at the
  * last event, when nothing is left to happen. Main makes a pass at once, and again whenever its wake-up is due, an
- * interrupt has work for it or an input has changed. Of what falls on the same tick, pulses come first, in the order
- * of the motors, then inputs, then main. */
+ * interrupt has work for it, an input has changed, a byte has come by the line, or there is room again for bytes that
+ * the line did not take. Of what falls on the same tick, pulses come first, in the order of the motors, then inputs,
+ * then the line, then main. */
 void host_machine_run(struct host_machine *machine, uint64_t until, host_main_pass *pass, bool (*done)(void *context),
                       void *context);
 

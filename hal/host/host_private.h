@@ -28,4 +28,10 @@ static inline uint64_t host_unit_time(const struct host_machine *machine)
 void host_step_reset(struct host_machine *machine);
 void host_io_reset(struct host_machine *machine);
 
+/* No byte in the machine, the bus free. */
+void host_line_reset(struct host_machine *machine);
+
+/* What is due at `line.next_tick`, which is now. True: main has something to do. */
+bool host_line_event(struct host_machine *machine);
+
 #endif

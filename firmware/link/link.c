@@ -1,0 +1,114 @@
+#include "link.h"
+
+#include <string.h>
+
+void link_init(struct link *link, uint8_t node, const uint8_t *answer)
+{
+    link->receiving = 0;
+    link_receiver_init(&link->receiver, node, link->buffers[link->receiving]);
+    link_sender_init(&link->sender);
+    link->answer = answer;
+    link->ready_tick = TICK_NEVER;
+    link->repeats = 0;
+    link->unsent = 0;
+    link->answer_number = LINK_NUMBER_NONE;
+    link_forget(link);
+}
+
+static bool is_repeat(const struct link *link)
+{
+    const struct link_receiver *receiver = &link->receiver;
+    return receiver->address != LINK_NODE_BROADCAST && link->answered_number != LINK_NUMBER_NONE &&
+           receiver->number == link->answered_number && receiver->length == link->answered_length &&
+           memcmp(receiver->message, link->buffers[1U - link->receiving], receiver->length) == 0;
+}
+
+/* The answer is to be sent from now on. */
+static void ready_answer(struct link *link)
+{
+    link->waiting = true;
+    link->ready_tick = TICK_NEVER;
+}
+
+bool link_take(struct link *link, const struct hal_line_byte *byte, struct link_request *request)
+{
+    const struct link_receiver *receiver = &link->receiver;
+    if (!link_receiver_take(&link->receiver, byte)) {
+        return false;
+    }
+    link->unsent += link->waiting ? 1U : 0U;
+    link->waiting = false;
+    if (is_repeat(link)) {
+        link->repeats++;
+        ready_answer(link);
+        return false;
+    }
+    *request = (struct link_request){
+        .message = receiver->message,
+        .length = receiver->length,
+        .end_tick = byte->tick,
+        .broadcast = receiver->address == LINK_NODE_BROADCAST,
+    };
+    return true;
+}
+
+void link_answer(struct link *link, uint32_t length)
+{
+    link->answer_length = length;
+    link->answer_number = link->receiver.number;
+    link->answered_number = link->receiver.number;
+    link->answered_length = link->receiver.length;
+    link->receiving = (uint8_t)(1U - link->receiving);
+    link->receiver.message = link->buffers[link->receiving];
+    ready_answer(link);
+}
+
+uint32_t link_kept_bytes(const struct link *link)
+{
+    return link->answered_number == LINK_NUMBER_NONE ? 0 : link->answer_length;
+}
+
+void link_forget(struct link *link)
+{
+    link->waiting = false;
+    link->answered_number = LINK_NUMBER_NONE;
+    link->answered_length = 0;
+    link->answer_length = 0;
+}
+
+uint64_t link_poll(struct link *link, uint64_t now_ticks)
+{
+    uint64_t begin = link->receiver.tick + LINK_SILENCE_TICKS;
+    if (!link->waiting) {
+        return TICK_NEVER;
+    }
+    if (now_ticks < link->ready_tick) {
+        link->ready_tick = now_ticks;
+    }
+    if (now_ticks < begin) {
+        return begin;
+    }
+    link->waiting = false;
+    if (now_ticks > link->ready_tick + LINK_PATIENCE_TICKS) {
+        link->unsent++;
+        return TICK_NEVER;
+    }
+    link_sender_start(&link->sender, link->receiver.node | LINK_ADDRESS_ANSWER, link->answer_number, link->answer,
+                      link->answer_length);
+    return TICK_NEVER;
+}
+
+bool link_is_sending(const struct link *link)
+{
+    return !link_sender_is_done(&link->sender);
+}
+
+uint8_t link_byte(const struct link *link)
+{
+    return link_sender_byte(&link->sender);
+}
+
+void link_advance(struct link *link)
+{
+    link_sender_advance(&link->sender);
+}

@@ -1,0 +1,118 @@
+/* Requests that come again: at most one execution, the same answer (firmware/docs/line.md, "Repeats"). */
+#include <stdio.h>
+#include <string.h>
+
+#include "line_bench.h"
+#include "unity.h"
+
+enum { NODE = LINE_BENCH_NODE };
+
+static struct bench bench;
+static struct line_bench line;
+
+void setUp(void)
+{
+    bench_init(&bench);
+    line_init(&line, &bench);
+}
+
+void tearDown(void)
+{
+    bench_check(&bench);
+}
+
+static void assert_done(const char *text)
+{
+    TEST_ASSERT_NOT_NULL(text);
+    TEST_ASSERT_EQUAL_MEMORY("1\0\0", text, 3);
+}
+
+void test_a_repeated_request_is_not_executed_and_answered_again(void)
+{
+    for (unsigned i = 0; i < 4; i++) {
+        line_request(&line, NODE, 7, PROTOCOL_SET_COMMAND, "1S1000F3R");
+        assert_done(line_answer(&line, 7));
+    }
+    bench_run_idle(&bench);
+    TEST_ASSERT_EQUAL_UINT32(3, bench_pulses(&bench, 1));
+}
+
+void test_the_stored_answer_is_sent_and_not_a_new_one(void)
+{
+    line_request(&line, NODE, 7, PROTOCOL_GET_POSITION, "1");
+    TEST_ASSERT_EQUAL_STRING("1\x0a         0", line_answer(&line, 7));
+    bench_do(&bench, 1, "=5");
+    line_request(&line, NODE, 7, PROTOCOL_GET_POSITION, "1");
+    TEST_ASSERT_EQUAL_STRING("1\x0a         0", line_answer(&line, 7));
+    line_request(&line, NODE, 8, PROTOCOL_GET_POSITION, "1");
+    TEST_ASSERT_EQUAL_STRING("1\x0a         5", line_answer(&line, 8));
+}
+
+void test_without_a_number_every_request_is_executed(void)
+{
+    for (unsigned i = 0; i < 3; i++) {
+        line_request(&line, NODE, 0, PROTOCOL_SET_COMMAND, "1S1000F3R");
+        assert_done(line_answer(&line, 0));
+        bench_run_idle(&bench);
+    }
+    TEST_ASSERT_EQUAL_UINT32(9, bench_pulses(&bench, 1));
+}
+
+void test_after_a_reset_of_the_unit_a_repeat_is_a_new_request(void)
+{
+    line_request(&line, NODE, 7, PROTOCOL_SET_COMMAND, "1T01");
+    assert_done(line_answer(&line, 7));
+    bench_restart(&bench);
+    line_request(&line, NODE, 7, PROTOCOL_SET_COMMAND, "1T01");
+    assert_done(line_answer(&line, 7));
+    TEST_ASSERT_TRUE(bench_output(&bench, 1));
+}
+
+/* A damaged repeat and two broadcasts, one of which uses the buffer of the answers, come in between. */
+void test_a_repeat_is_known_after_damaged_frames_and_broadcasts(void)
+{
+    uint32_t length = frame_write(line.frame, NODE, 7, "\002" "1S1000F3R", 10);
+    line_request(&line, NODE, 7, PROTOCOL_SET_COMMAND, "1S1000F3R");
+    assert_done(line_answer(&line, 7));
+    (void)frame_write(line.frame, NODE, 7, "\002" "1S1000F3R", 10);
+    line.frame[5] ^= 4U;
+    line_plan(&line, line.frame, length);
+    line_request(&line, 0, 0, PROTOCOL_SET_COMMAND, "2T02?");
+    line_request(&line, 0, 0, PROTOCOL_STORE_FLASH, "1");
+    TEST_ASSERT_NULL(line_answer(&line, 0));
+    line_request(&line, NODE, 7, PROTOCOL_SET_COMMAND, "1S1000F3R");
+    assert_done(line_answer(&line, 7));
+    TEST_ASSERT_EQUAL_UINT32(3, bench_pulses(&bench, 1));
+    TEST_ASSERT_EQUAL_UINT32(1, bench.unit.link.receiver.counts[LINK_COUNT_FCS]);
+}
+
+/* Get Position of all motors. */
+void test_the_longest_kept_answer_outlives_a_broadcast(void)
+{
+    char first[100];
+    bench_do(&bench, 0, "=-2000000000");
+    line_request(&line, NODE, 7, PROTOCOL_GET_POSITION, "0");
+    (void)snprintf(first, sizeof first, "%s", line_answer(&line, 7));
+    line_request(&line, 0, 0, PROTOCOL_SET_COMMAND, "0=0");
+    line_request(&line, 0, 0, PROTOCOL_STORE_FLASH, "0");
+    line_request(&line, NODE, 7, PROTOCOL_GET_POSITION, "0");
+    TEST_ASSERT_EQUAL_STRING(first, line_answer(&line, 7));
+}
+
+/* Its request changes nothing, so it may be executed again. */
+void test_a_longer_answer_does_not(void)
+{
+    char longer[100];
+    memset(longer, 'R', sizeof longer - 1);
+    longer[0] = '\\';
+    longer[sizeof longer - 1] = '\0';
+    bench_send(&bench, 1, longer);
+    line_request(&line, NODE, 7, PROTOCOL_GET_COMMAND, "1");
+    TEST_ASSERT_EQUAL_size_t(sizeof longer - 1, strlen(line_answer(&line, 7)));
+    bench_send(&bench, 1, "R");
+    line_request(&line, NODE, 7, PROTOCOL_GET_COMMAND, "1");
+    TEST_ASSERT_EQUAL_size_t(sizeof longer - 1, strlen(line_answer(&line, 7)));
+    line_request(&line, 0, 0, PROTOCOL_VERSION, "");
+    line_request(&line, NODE, 7, PROTOCOL_GET_COMMAND, "1");
+    TEST_ASSERT_EQUAL_size_t(sizeof longer, strlen(line_answer(&line, 7)));
+}
