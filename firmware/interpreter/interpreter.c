@@ -101,7 +101,7 @@ static bool advance_running(struct interpreter *interpreter, uint64_t now_ticks)
         interpreter_trace(interpreter, now_ticks, HAL_TRACE_END, 0);
         return false;
     }
-    struct program_instruction instruction = *program_memory_at(memory, interpreter->next);
+    struct program_instruction instruction = program_memory_at(memory, interpreter->next);
     interpreter->next++;
     interpreter->place = interpreter->next;
     interpreter_run(interpreter, &instruction, now_ticks);

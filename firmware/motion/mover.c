@@ -5,8 +5,10 @@
 #include "hal_step.h"
 #include "hal_time.h"
 
-/* Handed over with a cut; the rest follows while they last. */
-enum { CUT_SEGMENTS = 4 };
+enum {
+    START_SEGMENTS = 2, /* laid before the first pulse is armed: they must last while the others are laid */
+    CUT_SEGMENTS = 2,   /* handed over with a cut, likewise */
+};
 
 void mover_init(struct mover *mover, unsigned motor)
 {
@@ -14,11 +16,25 @@ void mover_init(struct mover *mover, unsigned motor)
     step_channel_init(&mover->channel, motor);
 }
 
-static void mover_feed(struct mover *mover)
+/* Lays the next segment, which takes a Cortex-M4 50 us. False if there is none, or no room for it now. */
+static bool feed_segment(struct mover *mover)
 {
     struct step_segment segment;
-    while (step_channel_room(&mover->channel) > 0 && motion_plan_next(&mover->plan, &segment)) {
+    bool fed = step_channel_room(&mover->channel) > 0 && motion_plan_next(&mover->plan, &segment);
+    if (fed) {
         step_channel_push(&mover->channel, &segment);
+    }
+    return fed;
+}
+
+/* Lays what is left, and lets the tick interrupt in between the segments. */
+static void feed_rest(struct mover *mover)
+{
+    bool fed = true;
+    while (fed) {
+        hal_run_hold_tick();
+        fed = feed_segment(mover);
+        hal_run_release_tick();
     }
 }
 
@@ -54,11 +70,16 @@ void mover_start(struct mover *mover, const struct motion_order *order, bool bac
         set_cause(mover, cause, start_tick);
     } else {
         motion_plan_begin(&mover->plan, order, start_tick);
-        mover_feed(mover);
+        for (unsigned i = 0; i < START_SEGMENTS; i++) {
+            (void)feed_segment(mover);
+        }
         mover->moving = true;
         step_channel_run(&mover->channel);
     }
     hal_run_release_tick();
+    if (mover->moving) {
+        feed_rest(mover);
+    }
 }
 
 /* A copy of the plan, laid anew at a point: a stop, or with a speed a change of speed. */
@@ -90,7 +111,6 @@ static bool mover_replan(struct mover *mover, uint32_t speed_steps_per_s)
         }
         if (step_channel_cut(&mover->channel, &at, segments, count)) {
             mover->plan = plan;
-            mover_feed(mover);
             return true;
         }
     }
@@ -116,6 +136,7 @@ void mover_stop(struct mover *mover, enum hal_trace_stop cause)
     hal_run_hold_tick();
     stop_locked(mover, cause);
     hal_run_release_tick();
+    feed_rest(mover);
 }
 
 void mover_change_speed(struct mover *mover, uint32_t speed_steps_per_s)
@@ -126,6 +147,7 @@ void mover_change_speed(struct mover *mover, uint32_t speed_steps_per_s)
         hal_trace(hal_time_now(), mover->motor + 1U, HAL_TRACE_SPEED, speed_steps_per_s);
     }
     hal_run_release_tick();
+    feed_rest(mover);
 }
 
 /* The step interrupt rests when the queue is empty. If the planner was late there is more now: then the motor goes on,
@@ -135,8 +157,8 @@ void mover_poll(struct mover *mover)
     if (!mover->moving) {
         return;
     }
+    feed_rest(mover);
     hal_run_hold_tick();
-    mover_feed(mover);
     if (!step_channel_is_running(&mover->channel)) {
         if (step_channel_room(&mover->channel) < STEP_QUEUE_SEGMENTS) {
             step_channel_run(&mover->channel);

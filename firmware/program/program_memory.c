@@ -4,7 +4,11 @@
 
 #include "program_listing.h"
 
+/* What the number of an input or variable counts in the value of a conditional jump. */
+#define IO_UNIT 256
+
 static_assert(PROGRAM_COMMANDS_MAX > 0, "the ring has a place to overwrite");
+static_assert(PROGRAM_LABEL_MAX < IO_UNIT, "a label must leave the number of an input alone");
 
 void program_memory_clear(struct program_memory *memory)
 {
@@ -21,7 +25,9 @@ bool program_memory_append(struct program_memory *memory, const struct program_i
     if ((full && locked) || memory->written == UINT32_MAX) {
         return false;
     }
-    memory->ring[memory->written % PROGRAM_COMMANDS_MAX] = *instruction;
+    uint32_t place = memory->written % PROGRAM_COMMANDS_MAX;
+    memory->opcode[place] = instruction->opcode;
+    memory->value[place] = instruction->value + instruction->io * IO_UNIT;
     memory->written++;
     if (instruction->opcode == PROGRAM_LABEL) {
         memory->label_next[instruction->value] = memory->written;
@@ -36,9 +42,17 @@ uint32_t program_memory_oldest(const struct program_memory *memory)
     return memory->written > PROGRAM_COMMANDS_MAX ? memory->written - PROGRAM_COMMANDS_MAX : 0;
 }
 
-const struct program_instruction *program_memory_at(const struct program_memory *memory, uint32_t ordinal)
+struct program_instruction program_memory_at(const struct program_memory *memory, uint32_t ordinal)
 {
-    return &memory->ring[ordinal % PROGRAM_COMMANDS_MAX];
+    uint32_t place = ordinal % PROGRAM_COMMANDS_MAX;
+    uint8_t opcode = memory->opcode[place];
+    int32_t value = memory->value[place];
+    bool has_io = opcode == PROGRAM_JUMP_IF_HIGH || opcode == PROGRAM_JUMP_IF_LOW;
+    return (struct program_instruction){
+        .value = has_io ? value % IO_UNIT : value,
+        .opcode = opcode,
+        .io = has_io ? (uint8_t)(value / IO_UNIT) : 0,
+    };
 }
 
 /* Where the youngest `@` has been overwritten, all older ones have been too. */
@@ -62,7 +76,8 @@ uint32_t program_memory_list(const struct program_memory *memory, uint8_t *text,
     uint32_t length = 0;
     uint32_t ordinal = program_memory_oldest(memory);
     while (ordinal < memory->written && capacity - length >= PROGRAM_COMMAND_BYTES_MAX) {
-        length += program_list_instruction(program_memory_at(memory, ordinal), &text[length]);
+        struct program_instruction instruction = program_memory_at(memory, ordinal);
+        length += program_list_instruction(&instruction, &text[length]);
         ordinal++;
     }
     return length;

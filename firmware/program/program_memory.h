@@ -3,7 +3,8 @@
  *
  * Each command has an ordinal, counted from 0 at the first command after the last reset. When the ring is full the
  * oldest commands are overwritten, or, if locked, new ones are refused. At the last ordinal of 32 bits, weeks of
- * commands at the speed of the line, all are refused until the next reset. Main only. 6 kB.
+ * commands at the speed of the line, all are refused until the next reset. Main only. 4 kB: five bytes a command, as
+ * RAM is what a board has least of.
  */
 #ifndef PROGRAM_MEMORY_H
 #define PROGRAM_MEMORY_H
@@ -23,7 +24,8 @@ enum {
 };
 
 struct program_memory {
-    struct program_instruction ring[PROGRAM_COMMANDS_MAX];
+    int32_t value[PROGRAM_COMMANDS_MAX];       /* ring: of a conditional jump io * 256 + label, else the number */
+    uint8_t opcode[PROGRAM_COMMANDS_MAX];      /* ring: enum program_opcode */
     uint32_t written;                           /* ordinal of the next command to be written */
     uint32_t released;                          /* ordinal of the youngest `]`, plus 1; 0: none */
     uint32_t label_next[PROGRAM_LABEL_MAX + 1]; /* per label: ordinal of its youngest `@`, plus 1; 0: none */
@@ -40,7 +42,7 @@ bool program_memory_append(struct program_memory *memory, const struct program_i
 uint32_t program_memory_oldest(const struct program_memory *memory);
 
 /* The command with this ordinal, which must be stored. */
-const struct program_instruction *program_memory_at(const struct program_memory *memory, uint32_t ordinal);
+struct program_instruction program_memory_at(const struct program_memory *memory, uint32_t ordinal);
 
 /* Finds the youngest `@label` (1 to 80) that is stored. False: there is none. */
 bool program_memory_find_label(const struct program_memory *memory, uint32_t label, uint32_t *ordinal);

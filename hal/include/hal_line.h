@@ -13,13 +13,13 @@
 struct hal_line_byte {
     uint64_t tick;  /* the unit's time at which the byte was complete */
     uint8_t value;
-    bool broken;    /* a framing, noise or overrun error: bytes are wrong or missing here */
+    bool broken;    /* a framing or noise error in this byte, or bytes after it were lost in an overrun */
 };
 
 /* Takes the oldest received byte; false if there is none. */
 bool hal_line_read(struct hal_line_byte *byte);
 
-/* Gives a byte to be sent; false if there is no room now. */
+/* Gives a byte to be sent; false if there is no room now: then main gets a pass when there is. */
 bool hal_line_write(uint8_t byte);
 
 /* Whether all that was given has been sent and the bus is let go. */

@@ -183,7 +183,7 @@ void test_with_the_memory_locked_the_commands_stay(void)
         take("V5");
     }
     TEST_ASSERT_TRUE(take("T01"));
-    TEST_ASSERT_EQUAL_UINT8(PROGRAM_FUNCTION_ON, program_memory_at(&interpreter.memory, 0)->opcode);
+    TEST_ASSERT_EQUAL_UINT8(PROGRAM_FUNCTION_ON, program_memory_at(&interpreter.memory, 0).opcode);
 }
 
 TEST_CASE("T01", true)

@@ -56,8 +56,8 @@ void test_a_command_is_found_by_its_ordinal(void)
     TEST_ASSERT_TRUE(append(PROGRAM_STEPS_FORWARD, 500, false));
     TEST_ASSERT_TRUE(append(PROGRAM_MOVE, 0, false));
     TEST_ASSERT_EQUAL_UINT32(2, memory.written);
-    TEST_ASSERT_EQUAL_INT32(500, program_memory_at(&memory, 0)->value);
-    TEST_ASSERT_EQUAL_UINT8(PROGRAM_MOVE, program_memory_at(&memory, 1)->opcode);
+    TEST_ASSERT_EQUAL_INT32(500, program_memory_at(&memory, 0).value);
+    TEST_ASSERT_EQUAL_UINT8(PROGRAM_MOVE, program_memory_at(&memory, 1).opcode);
 }
 
 void test_the_last_place_takes_a_command_without_a_loss(void)
@@ -65,7 +65,7 @@ void test_the_last_place_takes_a_command_without_a_loss(void)
     append_steps(1, PROGRAM_COMMANDS_MAX - 1);
     TEST_ASSERT_TRUE(append(PROGRAM_MOVE, 0, false));
     TEST_ASSERT_EQUAL_UINT32(0, program_memory_oldest(&memory));
-    TEST_ASSERT_EQUAL_INT32(1, program_memory_at(&memory, 0)->value);
+    TEST_ASSERT_EQUAL_INT32(1, program_memory_at(&memory, 0).value);
 }
 
 void test_one_command_more_overwrites_the_oldest_and_tells_it(void)
@@ -73,8 +73,8 @@ void test_one_command_more_overwrites_the_oldest_and_tells_it(void)
     append_steps(1, PROGRAM_COMMANDS_MAX);
     TEST_ASSERT_FALSE(append(PROGRAM_MOVE, 0, false));
     TEST_ASSERT_EQUAL_UINT32(1, program_memory_oldest(&memory));
-    TEST_ASSERT_EQUAL_INT32(2, program_memory_at(&memory, 1)->value);
-    TEST_ASSERT_EQUAL_UINT8(PROGRAM_MOVE, program_memory_at(&memory, PROGRAM_COMMANDS_MAX)->opcode);
+    TEST_ASSERT_EQUAL_INT32(2, program_memory_at(&memory, 1).value);
+    TEST_ASSERT_EQUAL_UINT8(PROGRAM_MOVE, program_memory_at(&memory, PROGRAM_COMMANDS_MAX).opcode);
 }
 
 void test_the_last_place_takes_a_command_when_locked(void)
@@ -89,8 +89,8 @@ void test_a_full_memory_that_is_locked_ignores_a_command_and_tells_it(void)
     append_steps(1, PROGRAM_COMMANDS_MAX);
     TEST_ASSERT_FALSE(append(PROGRAM_MOVE, 0, true));
     TEST_ASSERT_EQUAL_UINT32(PROGRAM_COMMANDS_MAX, memory.written);
-    TEST_ASSERT_EQUAL_INT32(1, program_memory_at(&memory, 0)->value);
-    TEST_ASSERT_EQUAL_INT32(PROGRAM_COMMANDS_MAX, program_memory_at(&memory, PROGRAM_COMMANDS_MAX - 1)->value);
+    TEST_ASSERT_EQUAL_INT32(1, program_memory_at(&memory, 0).value);
+    TEST_ASSERT_EQUAL_INT32(PROGRAM_COMMANDS_MAX, program_memory_at(&memory, PROGRAM_COMMANDS_MAX - 1).value);
 }
 
 void test_a_label_that_a_locked_memory_ignores_is_not_found(void)
@@ -106,7 +106,7 @@ void test_every_command_stays_until_the_ring_comes_round_to_it(void)
     for (int32_t value = 1; value <= 3 * PROGRAM_COMMANDS_MAX; value++) {
         append_steps(value, 1);
         for (uint32_t at = program_memory_oldest(&memory); at < memory.written; at++) {
-            TEST_ASSERT_EQUAL_INT32((int32_t)at + 1, program_memory_at(&memory, at)->value);
+            TEST_ASSERT_EQUAL_INT32((int32_t)at + 1, program_memory_at(&memory, at).value);
         }
     }
 }
@@ -277,5 +277,5 @@ void test_behind_the_last_ordinal_all_commands_are_ignored(void)
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, memory.written);
     TEST_ASSERT_FALSE(append(PROGRAM_STEPS_FORWARD, 9, false));
     TEST_ASSERT_EQUAL_UINT32(UINT32_MAX, memory.written);
-    TEST_ASSERT_EQUAL_INT32(8, program_memory_at(&memory, UINT32_MAX - 1U)->value);
+    TEST_ASSERT_EQUAL_INT32(8, program_memory_at(&memory, UINT32_MAX - 1U).value);
 }
