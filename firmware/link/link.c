@@ -1,11 +1,10 @@
 #include "link.h"
 
-#include <string.h>
+#include "base_crc32.h"
 
 void link_init(struct link *link, uint8_t node, const uint8_t *answer)
 {
-    link->receiving = 0;
-    link_receiver_init(&link->receiver, node, link->buffers[link->receiving]);
+    link_receiver_init(&link->receiver, node, link->message);
     link_sender_init(&link->sender);
     link->answer = answer;
     link->ready_tick = TICK_NEVER;
@@ -20,7 +19,7 @@ static bool is_repeat(const struct link *link)
     const struct link_receiver *receiver = &link->receiver;
     return receiver->address != LINK_NODE_BROADCAST && link->answered_number != LINK_NUMBER_NONE &&
            receiver->number == link->answered_number && receiver->length == link->answered_length &&
-           memcmp(receiver->message, link->buffers[1U - link->receiving], receiver->length) == 0;
+           crc32_append(0, receiver->message, receiver->length) == link->answered_crc;
 }
 
 /* The answer is to be sent from now on. */
@@ -58,8 +57,7 @@ void link_answer(struct link *link, uint32_t length)
     link->answer_number = link->receiver.number;
     link->answered_number = link->receiver.number;
     link->answered_length = link->receiver.length;
-    link->receiving = (uint8_t)(1U - link->receiving);
-    link->receiver.message = link->buffers[link->receiving];
+    link->answered_crc = crc32_append(0, link->receiver.message, link->receiver.length);
     ready_answer(link);
 }
 

@@ -2,9 +2,8 @@
  * The link of one unit: bytes of the line in, requests out to be executed; answers in, bytes for the line out.
  *
  * It holds the session (line.md, "Repeats"): a request with the number and the message of the one answered last is not
- * executed but answered again. To say so for certain it keeps that request whole, in one of two buffers that take
- * turns: the receiver never writes over it, whatever comes in. The answer stays in a buffer of the owner's. It listens
- * or sends, never both. Main only. About 16.6 kB.
+ * executed but answered again. Of that request it keeps the length and a CRC-32; the answer stays in a buffer of the
+ * owner's. It listens or sends, never both. Main only. About 8.4 kB.
  */
 #ifndef LINK_H
 #define LINK_H
@@ -30,14 +29,14 @@ struct link {
     const uint8_t *answer;       /* to the request below */
     uint32_t answer_length;
     uint32_t answered_length;    /* bytes of the request answered last */
+    uint32_t answered_crc;       /* its CRC-32 */
     uint64_t ready_tick;         /* when link_poll first saw an answer to be sent; TICK_NEVER: not yet */
     uint32_t repeats;            /* requests that were not executed again; modulo 2^32 */
     uint32_t unsent;             /* answers not begun, as the line was not silent; modulo 2^32 */
     uint8_t answered_number;     /* its number; 0: no request is known again */
     uint8_t answer_number;       /* the number that the answer carries */
     bool waiting;                /* the answer is to be sent */
-    uint8_t receiving;           /* index of the receiver's buffer; the other has the request answered last */
-    uint8_t buffers[2][LINK_BUFFER_BYTES];
+    uint8_t message[LINK_BUFFER_BYTES];
 };
 
 /* No session, silence. `node` is 1 to 16; `answer` is where link_answer finds the answers. */
