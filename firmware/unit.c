@@ -3,6 +3,7 @@
 #include <assert.h>
 
 #include "base_tick.h"
+#include "hal_board.h"
 #include "hal_io.h"
 #include "hal_time.h"
 #include "program_parser.h"
@@ -73,7 +74,7 @@ void unit_start(struct unit *unit)
     hal_run_start(&unit->client);
     uint64_t now = hal_time_now();
     unit->polled_tick = now;
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+    for (unsigned motor = 0; hal_board_may_start_programs() && motor < UNIT_MOTORS; motor++) {
         unit_start_program(unit, motor, now);
     }
     unit_line_start(unit);

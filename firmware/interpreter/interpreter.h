@@ -38,7 +38,8 @@ enum {
     X(SECTIONS, "more than 10 sections")                                                                               \
     X(DIRECTION, "change of direction inside a compound move")                                                        \
     X(NO_STEPS, "Y without F or B")                                                                                    \
-    X(STORED_PROGRAM, "the stored program is damaged")
+    X(STORED_PROGRAM, "the stored program is damaged")                                                                 \
+    X(NO_CRYSTAL, "no motion without the crystal")
 
 enum interpreter_error {
 #define X(name, text) INTERPRETER_ERROR_##name,

@@ -1,5 +1,6 @@
 #include "interpreter_private.h"
 
+#include "hal_board.h"
 #include "hal_trace.h"
 
 void interpreter_order_section(struct interpreter *interpreter, uint64_t steps, uint32_t speed_steps_per_s)
@@ -49,6 +50,10 @@ static void start_order(struct interpreter *interpreter, uint64_t now_ticks)
     struct mover *mover = interpreter->mover;
     int64_t steps = order_is_endless(&interpreter->order) ? 0 : order_steps(&interpreter->order);
 
+    if (!hal_board_may_move()) {
+        interpreter_fail(interpreter, INTERPRETER_ERROR_NO_CRYSTAL, now_ticks);
+        return;
+    }
     interpreter_align_clock(interpreter, now_ticks);
     interpreter->state = INTERPRETER_MOVING;
     interpreter->under_way = true;

@@ -91,6 +91,8 @@ struct host_faults {
     uint32_t flash_silent_at; /* this flash operation goes wrong and reports success; 0: never */
     enum host_flash_done flash_done; /* of the operation that goes wrong */
     uint32_t late_step_ticks; /* every step interrupt comes this much after the edge */
+    bool no_crystal;          /* the board allows no motion */
+    bool bad_start;           /* the board has started behind its watchdog or a fault */
 };
 
 struct host_machine {

@@ -136,3 +136,12 @@ void test_the_led_is_on_while_a_failed_motor_brakes_and_blinks_then(void)
     uint64_t stand = bench_event(&bench, 1, HAL_TRACE_DONE, 0)->tick;
     TEST_ASSERT_UINT64_WITHIN(TICKS_PER_MS, stand + 500 * TICKS_PER_MS, bench_led_tick(&bench, 1, 2));
 }
+
+void test_without_the_crystal_a_move_is_an_error_and_makes_no_pulse(void)
+{
+    bench.machine.faults.no_crystal = true;
+    bench_do(&bench, 1, "T02 F10 R C02");
+    TEST_ASSERT_EQUAL_UINT32(0, bench_pulses(&bench, 1));
+    TEST_ASSERT_EQUAL_INT64(INTERPRETER_ERROR_NO_CRYSTAL, bench_event(&bench, 1, HAL_TRACE_ERROR, 0)->value);
+    TEST_ASSERT_EQUAL_HEX8(0x02, bench.machine.outputs);
+}

@@ -1,4 +1,4 @@
-"""The image of the board in an emulator that was not made for it: it starts, answers, survives faults."""
+"""The image of the board in a plain emulator: it starts, answers, and survives faults."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ def image() -> Path:
 
 
 @pytest.fixture
-def unit(image: Path, tmp_path: Path) -> Iterator[Emulator]:
-    with emulator.emulator(image, tmp_path / "log") as running:
+def unit(image: Path) -> Iterator[Emulator]:
+    with emulator.emulator(image) as running:
         assert running.ask_until_answered(VERSION) == ANSWER
         yield running
 

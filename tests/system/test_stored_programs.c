@@ -33,6 +33,17 @@ void test_a_stored_program_is_loaded_and_started(void)
     TEST_ASSERT_EQUAL_STRING("S1000F7R", bench_ask(&bench, 5, 2));
 }
 
+void test_behind_a_watchdog_or_a_fault_no_stored_program_starts(void)
+{
+    bench_do(&bench, 2, "\\ S1000 F7 R");
+    TEST_ASSERT_EQUAL_UINT8(STORE_OK, store_program(2));
+    int64_t position = bench_position(&bench, 2);
+    bench_restart_badly(&bench);
+    bench_run_idle(&bench);
+    TEST_ASSERT_EQUAL_INT64(7, position);
+    TEST_ASSERT_EQUAL_INT64(0, bench_position(&bench, 2));
+}
+
 void test_the_other_motors_have_no_program_then(void)
 {
     bench_do(&bench, 2, "S1000 F7 R");

@@ -47,7 +47,7 @@ class Stage:
 
     def add_object(self, path: Path) -> None:
         self._add_sizes(path)
-        self._add_calls(path.with_suffix(".ci"))
+        self.add_calls(path.with_suffix(".ci"))
         for line in binutil("nm", "--undefined-only", "--format=just-symbols", path):
             if FLOAT_HELPER.fullmatch(line):
                 self._error(path, f"floating point: calls {line}")
@@ -77,7 +77,7 @@ class Stage:
             elif kind in ("data", "bss", "COMMON"):
                 self.ram += int(rest[0])
 
-    def _add_calls(self, path: Path) -> None:
+    def add_calls(self, path: Path) -> None:
         graph = path.read_text()
         for function, size in CI_FRAME.findall(graph):
             self.frames[function] = int(size)

@@ -73,6 +73,7 @@ def _parser() -> Parser:
     _add_check(commands)
     _add_sim(commands)
     _add_bench(commands)
+    _add_board(commands)
     return parser
 
 
@@ -132,3 +133,29 @@ def _add_sim(commands: Commands) -> None:
 def _add_bench(commands: Commands) -> None:
     title = "measure accuracy and speed, and compare them with their goals"
     _add(commands, "bench", bench.run, title, "rkm04 bench --json")
+
+
+def _add_board(commands: Commands) -> None:
+    """The three of them; the module is imported here, as only they need it."""
+    from rkm04_tools import board
+
+    title = "build, measure and flash the firmware of a board"
+    command = commands.add_parser("board", help=title, description=title, allow_abbrev=False)
+    actions = command.add_subparsers(metavar="ACTION", required=True)
+    build = "build the image: .elf, .hex and .bin"
+    parts = [
+        _add(actions, "build", board.run_build, build, "rkm04 board build --board f407-discovery"),
+        _add(actions, "size", board.run_size, "flash, RAM and stack beside their budgets",
+             "rkm04 board size --json"),
+        _add(actions, "flash", board.run_flash, "build the image and write it into the board",
+             "rkm04 board flash --tool dfu-util --dry-run"),
+    ]  # fmt: skip
+    for part in parts:
+        part.add_argument("--board", metavar="NAME", default=board.DEFAULT_BOARD,
+                          help=f"one of {', '.join(board.names())}")  # fmt: skip
+    flash = parts[-1]
+    flash.add_argument("--tool", choices=sorted(board.FLASHERS), default="openocd")
+    flash.add_argument("--probe", metavar="NAME", default="stlink",
+                       help="openocd: its interface script")  # fmt: skip
+    flash.add_argument("--port", metavar="DEVICE", help="stm32flash: the serial device")
+    flash.add_argument("--dry-run", action="store_true", help="build, and show the command only")

@@ -123,6 +123,13 @@ void bench_restart(struct bench *bench)
     start_unit(bench);
 }
 
+void bench_restart_badly(struct bench *bench)
+{
+    host_machine_restart(&bench->machine);
+    bench->machine.faults.bad_start = true;
+    start_unit(bench);
+}
+
 void bench_message(struct bench *bench, const void *request, uint32_t length)
 {
     bench->answer_length = unit_message(&bench->unit, request, length, bench->answer);

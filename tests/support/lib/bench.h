@@ -72,6 +72,9 @@ void bench_init_at(struct bench *bench, uint64_t epoch);
 /* Switches the unit off and on again; what is recorded and what is stored stays. */
 void bench_restart(struct bench *bench);
 
+/* The same by its watchdog. */
+void bench_restart_badly(struct bench *bench);
+
 /* Sends program text to a motor (0 to 4) and returns the flag of the answer. */
 uint8_t bench_send(struct bench *bench, unsigned motor, const char *text);
 

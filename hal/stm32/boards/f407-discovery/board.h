@@ -1,0 +1,76 @@
+/*
+ * ST's STM32F407G-DISC1 (STM32F407VGT6, LQFP100, 8 MHz crystal), with drivers, line and inputs wired to its headers.
+ * README.md beside this file has the same pins as a table, with what else sits on that board.
+ *
+ * X(signal, port, pin, use): each signal's pin. `use` is IN, IN_UP (pull-up) or OUT, or the peripheral that has the pin.
+ */
+#ifndef BOARD_H
+#define BOARD_H
+
+#define BOARD_PINS(X)          \
+    X(STEP_1, A, 15, TIM2_CH1) \
+    X(STEP_2, A, 1, TIM2_CH2)  \
+    X(STEP_3, A, 2, TIM2_CH3)  \
+    X(STEP_4, A, 3, TIM2_CH4)  \
+    X(DIR_1, C, 1, OUT)        \
+    X(DIR_2, C, 2, OUT)        \
+    X(DIR_3, C, 4, OUT)        \
+    X(DIR_4, C, 5, OUT)        \
+    X(LINE_DE, D, 10, OUT)     \
+    X(LINE_TX, D, 8, USART3)   \
+    X(LINE_RX, D, 9, USART3)   \
+    X(BI_1, E, 8, IN_UP)       \
+    X(BI_2, E, 9, IN_UP)       \
+    X(BI_3, E, 10, IN_UP)      \
+    X(BI_4, E, 11, IN_UP)      \
+    X(BI_5, E, 12, IN_UP)      \
+    X(BI_6, E, 13, IN_UP)      \
+    X(BI_7, E, 14, IN_UP)      \
+    X(BI_8, E, 15, IN_UP)      \
+    X(BO_1, B, 4, OUT)         \
+    X(BO_2, B, 5, OUT)         \
+    X(BO_3, B, 7, OUT)         \
+    X(BO_4, B, 8, OUT)         \
+    X(BO_5, B, 12, OUT)        \
+    X(BO_6, B, 13, OUT)        \
+    X(BO_7, B, 14, OUT)        \
+    X(BO_8, B, 15, OUT)        \
+    X(LED_1, D, 12, OUT)       \
+    X(LED_2, D, 13, OUT)       \
+    X(LED_3, D, 14, OUT)       \
+    X(LED_4, D, 15, OUT)       \
+    X(S1_1, E, 4, IN_UP)       \
+    X(S1_2, E, 5, IN_UP)       \
+    X(S1_3, E, 6, IN_UP)       \
+    X(S1_4, E, 7, IN_UP)
+
+/* Pins that parts on the board drive or load; checked, not used. */
+#define BOARD_TAKEN(X)                                                                            \
+    X(A, 0, "button B1") X(A, 4, "audio") X(A, 5, "accelerometer") X(A, 6, "accelerometer")       \
+    X(A, 7, "accelerometer") X(A, 9, "USB") X(A, 10, "USB") X(A, 11, "USB") X(A, 12, "USB")       \
+    X(B, 3, "SWO") X(B, 6, "audio") X(B, 9, "audio") X(B, 10, "microphone") X(B, 2, "BOOT1")      \
+    X(C, 0, "USB") X(C, 3, "microphone") X(C, 7, "audio") X(C, 10, "audio") X(C, 12, "audio")     \
+    X(D, 4, "audio") X(D, 5, "USB") X(E, 0, "accelerometer") X(E, 1, "accelerometer")             \
+    X(E, 3, "accelerometer")
+
+#define BOARD_PACKAGE "LQFP100"
+#define BOARD_CRYSTAL_MHZ 8U
+#define BOARD_USART 3
+
+/* The level at the pin that means 1: 1 high, 0 low. Opto-isolators pull an input low; a switch that is ON closes to
+ * ground. */
+#define BOARD_STEP_LEVEL 1U
+#define BOARD_DIR_LEVEL 1U
+#define BOARD_BI_LEVEL 0U
+#define BOARD_BO_LEVEL 1U
+#define BOARD_LED_LEVEL 1U
+#define BOARD_S1_LEVEL 0U
+
+/* What the drivers of the motors need at least: STEP high, STEP low, DIR before and behind a rising edge of STEP. These
+ * are those of common drivers with opto-isolated inputs. */
+#define BOARD_STEP_HIGH_NS 2500U
+#define BOARD_STEP_LOW_NS 2500U
+#define BOARD_DIR_SETUP_NS 5000U
+#define BOARD_DIR_HOLD_NS 5000U
+
+#endif

@@ -1,0 +1,85 @@
+#include "hal_board.h"
+
+#include "hal_line.h"
+#include "hal_run.h"
+#include "hal_time.h"
+#include "stm32_line.h"
+#include "stm32_private.h"
+#include "stm32f4.h"
+
+enum { IRQS_A_WORD = 32, PRIORITIES_A_WORD = 4, PRIORITY_SHIFT = 4 };
+
+static struct stm32_clock board_clock;
+static enum hal_board_cause start_cause;
+
+static void enable_interrupt(uint32_t irq, uint32_t priority)
+{
+    uint32_t place = irq % PRIORITIES_A_WORD * 8U;
+    uint32_t others = NVIC_IPR(irq / PRIORITIES_A_WORD) & ~(0xFFU << place);
+    NVIC_IPR(irq / PRIORITIES_A_WORD) = others | priority << (place + PRIORITY_SHIFT);
+    NVIC_ISER(irq / IRQS_A_WORD) = UINT32_C(1) << (irq % IRQS_A_WORD);
+}
+
+/* The record outlives every reset but that of the power, and keeps the flags of the chip, which can be read once. */
+static enum hal_board_cause find_cause(void)
+{
+    uint32_t flags = RCC_CSR;
+    RCC_CSR |= RCC_CSR_RMVF;
+    bool power = (flags & (RCC_CSR_PORRSTF | RCC_CSR_BORRSTF)) != 0;
+    if (power || stm32_fault_record.magic != STM32_FAULT_MAGIC) {
+        stm32_fault_record = (struct stm32_fault){.magic = STM32_FAULT_MAGIC, .cause = HAL_BOARD_CAUSE_RESET};
+        return HAL_BOARD_CAUSE_POWER;
+    }
+    if ((flags & RCC_CSR_IWDGRSTF) != 0) {
+        stm32_fault_record.cause = HAL_BOARD_CAUSE_WATCHDOG;
+    }
+    return (enum hal_board_cause)stm32_fault_record.cause;
+}
+
+void hal_board_init(void)
+{
+    board_clock = stm32_clock_start();
+    start_cause = find_cause();
+    stm32_step_start(board_clock.crystal);
+    stm32_pins_start();
+    stm32_line_start(&board_clock);
+    enable_interrupt(STM32_LINE_IRQ, STM32_PRIORITY_LINE);
+    stm32_watchdog_start();
+}
+
+void hal_run_start(const struct hal_client *client)
+{
+    stm32_step_set_client(client);
+    enable_interrupt(TIM2_IRQ, STM32_PRIORITY_STEP);
+    stm32_tick_start(client, board_clock.core_hz, board_clock.crystal);
+}
+
+enum hal_board_cause hal_board_start_cause(void)
+{
+    return start_cause;
+}
+
+bool hal_board_may_move(void)
+{
+    return board_clock.crystal;
+}
+
+bool hal_board_may_start_programs(void)
+{
+    return start_cause != HAL_BOARD_CAUSE_WATCHDOG && start_cause != HAL_BOARD_CAUSE_FAULT;
+}
+
+uint32_t hal_board_late_steps(void)
+{
+    return stm32_late_steps;
+}
+
+/* The look at the line lets the bus go where the transmitter raises no interrupt (an emulator). */
+void hal_board_idle(uint64_t wake_tick)
+{
+    stm32_watchdog_main_lives();
+    (void)hal_line_is_idle();
+    while (!stm32_event_take() && hal_time_now() < wake_tick) {
+        stm32_event_sleep();
+    }
+}

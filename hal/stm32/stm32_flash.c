@@ -1,0 +1,95 @@
+#include "hal_flash.h"
+
+#include <string.h>
+
+#include "base_tick.h"
+#include "stm32_private.h"
+#include "stm32f4.h"
+
+/*
+ * The areas are the last two sectors of 1 MB. While a sector is being written or erased the flash answers no read, and
+ * the processor would stand still at the first one: all of this file, and all interrupts, run from RAM.
+ */
+enum {
+    SECTOR_FIRST = 10,
+    WIDTH_32 = 2, /* 2.7 to 3.6 V, RM0090 3.6.2 */
+
+    WRITE_TICKS_MAX = 2 * TICKS_PER_MS, /* datasheet: 100 us */
+};
+#define AREA_FIRST 0x080C0000U
+#define ERASE_TICKS_MAX (4U * TICK_HZ) /* datasheet: 2 s */
+#define ERRORS (FLASH_SR_OPERR | FLASH_SR_WRPERR | FLASH_SR_PGAERR | FLASH_SR_PGPERR | FLASH_SR_PGSERR)
+
+static uint32_t address_of(unsigned area, uint32_t offset)
+{
+    return AREA_FIRST + area * (uint32_t)HAL_FLASH_AREA_BYTES + offset;
+}
+
+/* Waiting counts as life of main: it does what main has asked for, for a limited time. */
+static bool wait_until_done(uint32_t ticks_max)
+{
+    uint32_t start = TIM2_CNT;
+    while ((FLASH_SR & FLASH_SR_BSY) != 0) {
+        if (TIM2_CNT - start > ticks_max) {
+            return false;
+        }
+        stm32_watchdog_main_lives();
+    }
+    return (FLASH_SR & ERRORS) == 0;
+}
+
+static void unlock(uint32_t control)
+{
+    if ((FLASH_CR & FLASH_CR_LOCK) != 0) {
+        FLASH_KEYR = FLASH_KEY_1;
+        FLASH_KEYR = FLASH_KEY_2;
+    }
+    FLASH_SR = ERRORS | FLASH_SR_EOP;
+    FLASH_CR = control;
+}
+
+static void lock(void)
+{
+    FLASH_CR = FLASH_CR_LOCK;
+}
+
+/* What the data cache still holds of an area that was erased is wrong (RM0090 3.5.2). It is cleared while off. */
+static void forget_cached(void)
+{
+    uint32_t access = FLASH_ACR;
+    FLASH_ACR = access & ~FLASH_ACR_DCEN;
+    FLASH_ACR = (access & ~FLASH_ACR_DCEN) | FLASH_ACR_DCRST;
+    FLASH_ACR = access & ~FLASH_ACR_DCEN;
+    FLASH_ACR = access;
+}
+
+void hal_flash_read(unsigned area, uint32_t offset, uint8_t *bytes, uint32_t length)
+{
+    const uint8_t *stored = (const uint8_t *)(uintptr_t)address_of(area, offset);
+    stm32_watchdog_main_lives();
+    memcpy(bytes, stored, length);
+}
+
+bool hal_flash_write_word(unsigned area, uint32_t offset, const uint8_t bytes[HAL_FLASH_WORD_BYTES])
+{
+    volatile uint32_t *word = (volatile uint32_t *)(uintptr_t)address_of(area, offset);
+    uint32_t value;
+    memcpy(&value, bytes, sizeof value);
+    unlock(FLASH_CR_PG | FLASH_CR_PSIZE((uint32_t)WIDTH_32));
+    *word = value;
+    stm32_barrier();
+    bool done = wait_until_done(WRITE_TICKS_MAX);
+    lock();
+    return done && *word == value;
+}
+
+bool hal_flash_erase(unsigned area)
+{
+    unlock(FLASH_CR_SER | FLASH_CR_SNB(SECTOR_FIRST + area) | FLASH_CR_PSIZE((uint32_t)WIDTH_32));
+    FLASH_CR |= FLASH_CR_STRT;
+    stm32_barrier();
+    bool done = wait_until_done(ERASE_TICKS_MAX);
+    lock();
+    forget_cached();
+    return done;
+}

@@ -1,0 +1,91 @@
+#include "stm32_pins.h"
+
+#include "stm32_private.h"
+
+/* What a pin is for: its mode (RM0090 8.4.1), its pull-up, the number of its alternate function (datasheet DS8626,
+ * table 9). */
+enum {
+    MODE_IN = 0,
+    MODE_OUT = 1,
+    MODE_ALTERNATE = 2,
+    USE_PULL_UP = 1 << 2,
+    USE_ALTERNATE_PLACE = 4,
+
+    USE_IN = MODE_IN,
+    USE_IN_UP = MODE_IN | USE_PULL_UP,
+    USE_OUT = MODE_OUT,
+    USE_TIM2_CH1 = MODE_ALTERNATE | 1 << USE_ALTERNATE_PLACE,
+    USE_TIM2_CH2 = USE_TIM2_CH1,
+    USE_TIM2_CH3 = USE_TIM2_CH1,
+    USE_TIM2_CH4 = USE_TIM2_CH1,
+    USE_USART1 = MODE_ALTERNATE | 7 << USE_ALTERNATE_PLACE | USE_PULL_UP,
+    USE_USART2 = USE_USART1,
+    USE_USART3 = USE_USART1,
+};
+
+struct use {
+    uint8_t pin;
+    uint8_t use;
+};
+
+static const struct use uses[] = {
+#define X(signal, port, pin, use) {(uint8_t)STM32_PIN_##signal, (uint8_t)USE_##use},
+    BOARD_PINS(X)
+#undef X
+};
+
+enum { USES = sizeof uses / sizeof uses[0] };
+
+static void set_field(volatile uint32_t *word, uint32_t place, uint32_t width, uint32_t value)
+{
+    uint32_t mask = ((UINT32_C(1) << width) - 1U) << place;
+    *word = (*word & ~mask) | value << place;
+}
+
+/* The mode comes last, so that a pin does not show a level that is not meant for it. */
+static void set_up(const struct use *use)
+{
+    uint32_t port = use->pin / 16U;
+    uint32_t pin = use->pin % 16U;
+    volatile uint32_t *alternate = pin < 8U ? &GPIO_AFRL(port) : &GPIO_AFRH(port);
+    set_field(alternate, 4U * (pin % 8U), 4U, (uint32_t)use->use >> USE_ALTERNATE_PLACE);
+    set_field(&GPIO_PUPDR(port), 2U * pin, 2U, (use->use & USE_PULL_UP) != 0 ? 1U : 0U);
+    set_field(&GPIO_MODER(port), 2U * pin, 2U, use->use & 3U);
+}
+
+static void start_ports(void)
+{
+    for (unsigned i = 0; i < USES; i++) {
+        RCC_AHB1ENR |= RCC_AHB1ENR_GPIOAEN << (uses[i].pin / 16U);
+    }
+    (void)RCC_AHB1ENR; /* a clock is there two cycles after it was asked for */
+}
+
+static const uint8_t outputs[] = {
+    STM32_PIN_BO_1, STM32_PIN_BO_2, STM32_PIN_BO_3, STM32_PIN_BO_4,
+    STM32_PIN_BO_5, STM32_PIN_BO_6, STM32_PIN_BO_7, STM32_PIN_BO_8,
+};
+static const uint8_t leds[] = {STM32_PIN_LED_1, STM32_PIN_LED_2, STM32_PIN_LED_3, STM32_PIN_LED_4};
+static const uint8_t directions[] = {STM32_PIN_DIR_1, STM32_PIN_DIR_2, STM32_PIN_DIR_3, STM32_PIN_DIR_4};
+
+void stm32_pins_make_safe(void)
+{
+    start_ports();
+    stm32_pin_write(STM32_PIN_LINE_DE, false);
+    for (unsigned i = 0; i < sizeof outputs; i++) {
+        stm32_pin_write(outputs[i], BOARD_BO_LEVEL == 0U);
+    }
+}
+
+/* The timer holds the STEP pins before they are handed over to it, see hal_board_init. */
+void stm32_pins_start(void)
+{
+    stm32_pins_make_safe();
+    for (unsigned i = 0; i < sizeof leds; i++) {
+        stm32_pin_write(leds[i], BOARD_LED_LEVEL == 0U);
+        stm32_pin_write(directions[i], BOARD_DIR_LEVEL == 0U);
+    }
+    for (unsigned i = 0; i < USES; i++) {
+        set_up(&uses[i]);
+    }
+}

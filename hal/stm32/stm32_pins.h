@@ -1,0 +1,31 @@
+/*
+ * The board's pins as numbers: 16 * port + pin, ports from A = 0.
+ */
+#ifndef STM32_PINS_H
+#define STM32_PINS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "board.h"
+#include "stm32f4.h"
+
+enum { STM32_PORT_A, STM32_PORT_B, STM32_PORT_C, STM32_PORT_D, STM32_PORT_E };
+
+enum stm32_pin {
+#define X(signal, port, pin, use) STM32_PIN_##signal = 16 * STM32_PORT_##port + (pin),
+    BOARD_PINS(X)
+#undef X
+};
+
+static inline void stm32_pin_write(unsigned pin, bool high)
+{
+    GPIO_BSRR(pin / 16U) = UINT32_C(1) << (pin % 16U + (high ? 0U : 16U));
+}
+
+static inline bool stm32_pin_read(unsigned pin)
+{
+    return (GPIO_IDR(pin / 16U) >> (pin % 16U) & 1U) != 0;
+}
+
+#endif

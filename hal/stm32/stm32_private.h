@@ -1,0 +1,102 @@
+/*
+ * What the files of this backend share. Who runs where:
+ *
+ *   priority 0  TIM2     stm32_step.c   masked only with all interrupts (PRIMASK), for less than 2 us
+ *   priority 1  USART    stm32_line.c
+ *   priority 2  SysTick  stm32_tick.c   held off by main through BASEPRI
+ *
+ * All three, what they call and what they read lie in RAM (stm32f405.ld): the flash does not answer while it is being
+ * written or erased. So do the fault handlers.
+ */
+#ifndef STM32_PRIVATE_H
+#define STM32_PRIVATE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "hal_run.h"
+
+enum { STM32_PRIORITY_STEP = 0, STM32_PRIORITY_LINE = 1, STM32_PRIORITY_TICK = 2 };
+
+/* Masks all interrupts; returns what stm32_unmask restores. */
+static inline uint32_t stm32_mask(void)
+{
+    uint32_t before;
+    __asm__ volatile("mrs %0, primask\n\tcpsid i" : "=r"(before)::"memory");
+    return before;
+}
+
+static inline void stm32_unmask(uint32_t before)
+{
+    __asm__ volatile("msr primask, %0" ::"r"(before) : "memory");
+}
+
+static inline void stm32_barrier(void)
+{
+    __asm__ volatile("dsb\n\tisb" ::: "memory");
+}
+
+/* stm32_clock.c */
+struct stm32_clock {
+    uint32_t core_hz;
+    uint32_t apb1_hz;
+    uint32_t apb2_hz;
+    bool crystal;
+};
+struct stm32_clock stm32_clock_start(void);
+
+/* stm32_pins.c. Safe: outputs off, the bus let go; before the start, too. */
+void stm32_pins_start(void);
+void stm32_pins_make_safe(void);
+
+/* stm32_io.c. All LEDs blinking together say that there is no crystal. */
+uint8_t stm32_io_node(void);
+void stm32_io_blink(bool on);
+
+/* stm32_step.c */
+void stm32_step_start(bool may_move);
+void stm32_step_set_client(const struct hal_client *client);
+void stm32_step_make_safe(void);
+/* An armed pulse is more than 5 ms overdue: the step interrupt does not run. */
+bool stm32_step_is_stuck(void);
+/* Pulses that were made later than asked for. */
+extern uint32_t stm32_late_steps;
+void stm32_step_interrupt(void);
+
+/* stm32_tick.c. An event is what main has to look at; it ends a sleep. */
+void stm32_tick_start(const struct hal_client *client, uint32_t core_hz, bool crystal);
+void stm32_tick_interrupt(void);
+void stm32_event_set(void);
+bool stm32_event_take(void);
+void stm32_event_sleep(void);
+
+/* stm32_line.c */
+void stm32_line_start(const struct stm32_clock *clock);
+void stm32_line_interrupt(void);
+/* Lets the bus go when a transmission does not come to its end. Every millisecond. */
+void stm32_line_tick(void);
+
+/* stm32_watchdog.c */
+void stm32_watchdog_start(void);
+void stm32_watchdog_main_lives(void);
+/* Feeds the watchdog if main and the step interrupt live. Every millisecond. */
+void stm32_watchdog_tick(void);
+
+/* stm32_fault.c: the handler of every fault and of every interrupt that should not be, and what it keeps in memory that
+ * only the loss of power clears. */
+struct stm32_fault {
+    uint32_t magic;
+    uint32_t cause;     /* enum hal_board_cause */
+    uint32_t exception; /* number of the exception, PM0214 2.3.2; 0 for an assertion */
+    uint32_t status;    /* CFSR */
+    uint32_t hard;      /* HFSR */
+    uint32_t address;   /* BFAR */
+    uint32_t pc;        /* of the instruction that was interrupted; 0 if the stack could not be read */
+    uint32_t count;     /* faults since power-on */
+};
+enum { STM32_FAULT_MAGIC = 0x46415554 };
+extern struct stm32_fault stm32_fault_record;
+void stm32_fault_entry(void);
+_Noreturn void stm32_fault_stop(const uint32_t *frame, uint32_t exception);
+
+#endif

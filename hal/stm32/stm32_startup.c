@@ -1,0 +1,93 @@
+#include "stm32_line.h"
+#include "stm32_private.h"
+#include "stm32f4.h"
+
+/* Of the linker script. */
+extern uint32_t stm32_stack_bottom[];
+extern uint32_t stm32_stack_top[];
+extern uint32_t stm32_vectors[];
+extern const uint32_t stm32_ram_load[];
+extern uint32_t stm32_ram_begin[];
+extern uint32_t stm32_ram_end[];
+extern uint32_t stm32_zero_begin[];
+extern uint32_t stm32_zero_end[];
+
+int main(void);
+_Noreturn void stm32_reset(void);
+
+enum {
+    STACK_PATTERN = 0x5AFE57AC,
+    PAINT_WORDS_LEFT = 32, /* what this file itself may need of the stack */
+
+    EXCEPTIONS = 16,
+    VECTORS = EXCEPTIONS + 82, /* RM0090 12.1.3 */
+    EXCEPTION_SYSTICK = 15,
+};
+
+/* Before the handlers are in RAM. */
+_Noreturn static void fault_early(void)
+{
+    SCB_AIRCR = SCB_AIRCR_RESET;
+    for (;;) {
+    }
+}
+
+/* What the processor needs to start; everything else comes from the table in RAM. */
+struct first_vectors {
+    const uint32_t *stack;
+    void (*reset)(void);
+    void (*nmi)(void);
+    void (*hard_fault)(void);
+};
+extern const struct first_vectors stm32_first_vectors;
+const struct first_vectors stm32_first_vectors __attribute__((section(".first_vectors"), used)) = {
+    .stack = stm32_stack_top,
+    .reset = stm32_reset,
+    .nmi = fault_early,
+    .hard_fault = fault_early,
+};
+
+/* The copies go through volatile, as a compiler would make calls of them, to functions that are not in RAM yet. */
+static void copy(volatile uint32_t *to, const uint32_t *end, const uint32_t *from)
+{
+    while (to < end) {
+        *to++ = *from++;
+    }
+}
+
+static void fill(volatile uint32_t *to, const uint32_t *end, uint32_t value)
+{
+    while (to < end) {
+        *to++ = value;
+    }
+}
+
+static void set_vector(uint32_t number, void (*handler)(void))
+{
+    stm32_vectors[number] = (uint32_t)(uintptr_t)handler;
+}
+
+static void start_vectors(void)
+{
+    for (uint32_t number = 0; number < VECTORS; number++) {
+        set_vector(number, stm32_fault_entry);
+    }
+    set_vector(EXCEPTION_SYSTICK, stm32_tick_interrupt);
+    set_vector(EXCEPTIONS + TIM2_IRQ, stm32_step_interrupt);
+    set_vector(EXCEPTIONS + STM32_LINE_IRQ, stm32_line_interrupt);
+    SCB_VTOR = (uint32_t)(uintptr_t)stm32_vectors;
+    stm32_barrier();
+}
+
+/* The stack's pattern shows afterwards how much of it was used. */
+_Noreturn void stm32_reset(void)
+{
+    const uint32_t *here = __builtin_frame_address(0);
+    fill(stm32_stack_bottom, here - PAINT_WORDS_LEFT, STACK_PATTERN);
+    copy(stm32_ram_begin, stm32_ram_end, stm32_ram_load);
+    fill(stm32_zero_begin, stm32_zero_end, 0);
+    start_vectors();
+    (void)main();
+    for (;;) {
+    }
+}

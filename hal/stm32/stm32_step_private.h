@@ -1,0 +1,100 @@
+/*
+ * The state of the step output and the inner functions of its two files: stm32_step.c makes pulses, stm32_step_setup.c
+ * does all else.
+ *
+ * One pulse of a motor:
+ *
+ *             edge by hardware          low by software, or by hardware while long pulses last
+ *                 |<--- HIGH_TICKS --->|
+ *      ___________/~~~~~~~~~~~~~~~~~~~~\______________/~~~
+ *                 |  interrupt, client |    next armed
+ *
+ * The client's work takes longer than most drivers' minimum width, so the pin mostly is low at once behind it. What is
+ * left of a wider pulse is waited for if that takes less than an interrupt would (SPIN_TICKS); else the same channel
+ * makes the falling edge too, and its interrupt arms what comes next.
+ */
+#ifndef STM32_STEP_PRIVATE_H
+#define STM32_STEP_PRIVATE_H
+
+#include "base_limits.h"
+#include "base_tick.h"
+#include "board.h"
+#include "stm32_private.h"
+#include "stm32f4.h"
+
+#define TICKS_OF_NS(ns) (((ns) * TICKS_PER_US + 999U) / 1000U)
+
+enum {
+    HIGH_TICKS = TICKS_OF_NS(BOARD_STEP_HIGH_NS),
+    LOW_TICKS = TICKS_OF_NS(BOARD_STEP_LOW_NS),
+    SETUP_TICKS = TICKS_OF_NS(BOARD_DIR_SETUP_NS),
+    HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS) + HIGH_TICKS,
+
+    WRITE_TICKS = 24, /* at most, from a look at the counter until a channel is armed */
+    ROOM_TICKS = LOW_TICKS + WRITE_TICKS,
+    SPIN_TICKS = 2 * WRITE_TICKS,
+    STUCK_TICKS = 5 * TICKS_PER_MS,
+
+    /* What planning a stop or a change of speed takes at 168 MHz, from the look at the clock to the cut: 20 us with
+     * few sections, more with many; the mover tries again then. */
+    LEAD_TICKS = 30 * TICKS_PER_US,
+};
+
+/* What a channel does with its pin, RM0090 18.4.7. */
+enum {
+    MODE_RISE = 1, /* active on match */
+    MODE_FALL = 2, /* inactive on match */
+    MODE_LOW = 4,  /* forced inactive; matches are flagged all the same, RM0090 18.3.7 */
+    MODE_MASK = 7,
+};
+
+struct stm32_channel {
+    uint32_t edge;             /* tick of the armed edge, else of the last one */
+    uint32_t next;             /* tick that the client asked for, until it is armed */
+    uint32_t lower;            /* what turns MODE_RISE into MODE_LOW in the register; 0 while disconnected */
+    uint32_t *modes;           /* what the register holds; two channels share it */
+    volatile uint32_t *mode;   /* CCMR1 or CCMR2 */
+    volatile uint32_t *compare;
+    uint32_t one;              /* mode 1 of this channel in the register */
+    bool backward;
+};
+
+struct stm32_step {
+    struct hal_client client;
+    bool serving;     /* the client is being called */
+    bool asked;       /* and has asked for a pulse */
+    bool connected;
+    bool may_move;
+    uint32_t enabled; /* flags of the channels that have an edge to come, as in DIER */
+    uint32_t falling; /* of those whose pulse is being ended by the channel */
+    uint32_t waiting; /* of those falling that have a pulse to be armed behind it */
+    uint32_t modes[2];
+    struct stm32_channel channel[UNIT_MOTORS];
+};
+extern struct stm32_step stm32_step;
+
+static inline uint32_t flag_of(unsigned motor)
+{
+    return TIM2_SR_CC1IF << motor;
+}
+
+static inline void set_mode(const struct stm32_channel *channel, uint32_t mode)
+{
+    uint32_t others = *channel->modes & ~(MODE_MASK * channel->one);
+    *channel->modes = others | mode * channel->one;
+    *channel->mode = *channel->modes;
+}
+
+/* The mode of an armed channel. While disconnected its pin stays low. */
+static inline uint32_t armed_mode(void)
+{
+    return stm32_step.connected ? MODE_RISE : MODE_LOW;
+}
+
+static inline void set_enabled(uint32_t flags)
+{
+    stm32_step.enabled = flags;
+    TIM2_DIER = flags;
+}
+
+#endif

@@ -1,0 +1,174 @@
+/*
+ * The registers of an STM32F405 or F407 that this backend uses, and of their bits those that it sets or reads.
+ *
+ * Numbers behind registers are sections of ST's reference manual RM0090; those of the core are sections of the
+ * programming manual PM0214. tests/tools/test_stm32_registers.py holds every address and bit of the chip's blocks
+ * against an independent description; it reads this file line by line, so each definition stays on one line.
+ */
+#ifndef STM32F4_H
+#define STM32F4_H
+
+#include <stdint.h>
+
+#define STM32_REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
+
+/* Reset and clock control */
+#define RCC_BASE 0x40023800U
+#define RCC_CR STM32_REGISTER(RCC_BASE + 0x00U)      /* 7.3.1 */
+#define RCC_PLLCFGR STM32_REGISTER(RCC_BASE + 0x04U) /* 7.3.2 */
+#define RCC_CFGR STM32_REGISTER(RCC_BASE + 0x08U)    /* 7.3.3 */
+#define RCC_AHB1ENR STM32_REGISTER(RCC_BASE + 0x30U) /* 7.3.10 */
+#define RCC_APB1ENR STM32_REGISTER(RCC_BASE + 0x40U) /* 7.3.13 */
+#define RCC_APB2ENR STM32_REGISTER(RCC_BASE + 0x44U) /* 7.3.14 */
+#define RCC_CSR STM32_REGISTER(RCC_BASE + 0x74U)     /* 7.3.21 */
+#define RCC_CR_HSEON (1U << 16)
+#define RCC_CR_HSERDY (1U << 17)
+#define RCC_CR_CSSON (1U << 19)
+#define RCC_CR_PLLON (1U << 24)
+#define RCC_CR_PLLRDY (1U << 25)
+#define RCC_PLLCFGR_PLLM(n) ((n) << 0)
+#define RCC_PLLCFGR_PLLN(n) ((n) << 6)
+#define RCC_PLLCFGR_PLLSRC (1U << 22)
+#define RCC_PLLCFGR_PLLQ(n) ((n) << 24)
+#define RCC_CFGR_SW(n) ((n) << 0)
+#define RCC_CFGR_SWS(n) ((n) << 2)
+#define RCC_CFGR_PPRE1(n) ((n) << 10)
+#define RCC_CFGR_PPRE2(n) ((n) << 13)
+#define RCC_AHB1ENR_GPIOAEN (1U << 0)
+#define RCC_APB1ENR_TIM2EN (1U << 0)
+#define RCC_APB1ENR_USART2EN (1U << 17)
+#define RCC_APB1ENR_USART3EN (1U << 18)
+#define RCC_APB2ENR_USART1EN (1U << 4)
+#define RCC_CSR_RMVF (1U << 24)
+#define RCC_CSR_BORRSTF (1U << 25)
+#define RCC_CSR_PORRSTF (1U << 27)
+#define RCC_CSR_IWDGRSTF (1U << 29)
+
+/* Flash interface */
+#define FLASH_BASE 0x40023C00U
+#define FLASH_ACR STM32_REGISTER(FLASH_BASE + 0x00U)  /* 3.9.1 */
+#define FLASH_KEYR STM32_REGISTER(FLASH_BASE + 0x04U) /* 3.9.3 */
+#define FLASH_SR STM32_REGISTER(FLASH_BASE + 0x0CU)   /* 3.9.5 */
+#define FLASH_CR STM32_REGISTER(FLASH_BASE + 0x10U)   /* 3.9.7 */
+#define FLASH_ACR_LATENCY(n) ((n) << 0)
+#define FLASH_ACR_PRFTEN (1U << 8)
+#define FLASH_ACR_ICEN (1U << 9)
+#define FLASH_ACR_DCEN (1U << 10)
+#define FLASH_ACR_DCRST (1U << 12)
+#define FLASH_SR_EOP (1U << 0)
+#define FLASH_SR_OPERR (1U << 1)
+#define FLASH_SR_WRPERR (1U << 4)
+#define FLASH_SR_PGAERR (1U << 5)
+#define FLASH_SR_PGPERR (1U << 6)
+#define FLASH_SR_PGSERR (1U << 7)
+#define FLASH_SR_BSY (1U << 16)
+#define FLASH_CR_PG (1U << 0)
+#define FLASH_CR_SER (1U << 1)
+#define FLASH_CR_SNB(n) ((n) << 3)
+#define FLASH_CR_PSIZE(n) ((n) << 8)
+#define FLASH_CR_STRT (1U << 16)
+#define FLASH_CR_LOCK (1U << 31)
+#define FLASH_KEY_1 0x45670123U /* 3.6.1 */
+#define FLASH_KEY_2 0xCDEF89ABU
+
+/* General-purpose pins; ports count from A = 0 */
+#define GPIO_BASE 0x40020000U
+#define GPIO_STRIDE 0x400U
+#define GPIO_REGISTER(port, offset) STM32_REGISTER(GPIO_BASE + GPIO_STRIDE * (port) + (offset))
+#define GPIO_MODER(port) GPIO_REGISTER(port, 0x00U)   /* 8.4.1 */
+#define GPIO_OSPEEDR(port) GPIO_REGISTER(port, 0x08U) /* 8.4.3 */
+#define GPIO_PUPDR(port) GPIO_REGISTER(port, 0x0CU)   /* 8.4.4 */
+#define GPIO_IDR(port) GPIO_REGISTER(port, 0x10U)     /* 8.4.5 */
+#define GPIO_BSRR(port) GPIO_REGISTER(port, 0x18U)    /* 8.4.7 */
+#define GPIO_AFRL(port) GPIO_REGISTER(port, 0x20U)    /* 8.4.9 */
+#define GPIO_AFRH(port) GPIO_REGISTER(port, 0x24U)    /* 8.4.10 */
+
+/* The step timer */
+#define TIM2_BASE 0x40000000U
+#define TIM2_CR1 STM32_REGISTER(TIM2_BASE + 0x00U)   /* 18.4.1 */
+#define TIM2_DIER STM32_REGISTER(TIM2_BASE + 0x0CU)  /* 18.4.4 */
+#define TIM2_SR STM32_REGISTER(TIM2_BASE + 0x10U)    /* 18.4.5 */
+#define TIM2_EGR STM32_REGISTER(TIM2_BASE + 0x14U)   /* 18.4.6 */
+#define TIM2_CCMR1 STM32_REGISTER(TIM2_BASE + 0x18U) /* 18.4.7 */
+#define TIM2_CCMR2 STM32_REGISTER(TIM2_BASE + 0x1CU) /* 18.4.8 */
+#define TIM2_CCER STM32_REGISTER(TIM2_BASE + 0x20U)  /* 18.4.9 */
+#define TIM2_CNT STM32_REGISTER(TIM2_BASE + 0x24U)   /* 18.4.10 */
+#define TIM2_PSC STM32_REGISTER(TIM2_BASE + 0x28U)   /* 18.4.11 */
+#define TIM2_ARR STM32_REGISTER(TIM2_BASE + 0x2CU)   /* 18.4.12 */
+#define TIM2_CCR1 STM32_REGISTER(TIM2_BASE + 0x34U)  /* 18.4.13 */
+#define TIM2_CR1_CEN (1U << 0)
+#define TIM2_SR_CC1IF (1U << 1)
+#define TIM2_SR_CC2IF (1U << 2)
+#define TIM2_SR_CC3IF (1U << 3)
+#define TIM2_SR_CC4IF (1U << 4)
+#define TIM2_EGR_UG (1U << 0)
+#define TIM2_CCMR1_OC1M(n) ((n) << 4)
+#define TIM2_CCMR1_OC2M(n) ((n) << 12)
+#define TIM2_CCMR2_OC3M(n) ((n) << 4)
+#define TIM2_CCMR2_OC4M(n) ((n) << 12)
+#define TIM2_CCER_CC1E (1U << 0)
+#define TIM2_CCER_CC1P (1U << 1)
+#define TIM2_CCER_CC2E (1U << 4)
+#define TIM2_CCER_CC2P (1U << 5)
+#define TIM2_CCER_CC3E (1U << 8)
+#define TIM2_CCER_CC3P (1U << 9)
+#define TIM2_CCER_CC4E (1U << 12)
+#define TIM2_CCER_CC4P (1U << 13)
+
+/* The line; which of the three is the board's affair */
+#define USART1_BASE 0x40011000U
+#define USART2_BASE 0x40004400U
+#define USART3_BASE 0x40004800U
+#define USART_SR(base) STM32_REGISTER((base) + 0x00U)  /* 30.6.1 */
+#define USART_DR(base) STM32_REGISTER((base) + 0x04U)  /* 30.6.2 */
+#define USART_BRR(base) STM32_REGISTER((base) + 0x08U) /* 30.6.3 */
+#define USART_CR1(base) STM32_REGISTER((base) + 0x0CU) /* 30.6.4 */
+#define USART_SR_FE (1U << 1)
+#define USART_SR_NF (1U << 2)
+#define USART_SR_ORE (1U << 3)
+#define USART_SR_RXNE (1U << 5)
+#define USART_SR_TC (1U << 6)
+#define USART_SR_TXE (1U << 7)
+#define USART_CR1_RE (1U << 2)
+#define USART_CR1_TE (1U << 3)
+#define USART_CR1_RXNEIE (1U << 5)
+#define USART_CR1_TCIE (1U << 6)
+#define USART_CR1_TXEIE (1U << 7)
+#define USART_CR1_UE (1U << 13)
+
+/* Independent watchdog */
+#define IWDG_BASE 0x40003000U
+#define IWDG_KR STM32_REGISTER(IWDG_BASE + 0x00U)  /* 21.4.1 */
+#define IWDG_PR STM32_REGISTER(IWDG_BASE + 0x04U)  /* 21.4.2 */
+#define IWDG_RLR STM32_REGISTER(IWDG_BASE + 0x08U) /* 21.4.3 */
+#define IWDG_SR STM32_REGISTER(IWDG_BASE + 0x0CU)  /* 21.4.4 */
+#define IWDG_SR_PVU (1U << 0)
+#define IWDG_SR_RVU (1U << 1)
+
+/* Interrupts: numbers, RM0090 12.1.3; controller, PM0214 4.3 */
+#define TIM2_IRQ 28U
+#define USART1_IRQ 37U
+#define USART2_IRQ 38U
+#define USART3_IRQ 39U
+#define NVIC_BASE 0xE000E000U
+#define NVIC_ISER(n) STM32_REGISTER(NVIC_BASE + 0x100U + 4U * (n)) /* 4.3.2 */
+#define NVIC_IPR(n) STM32_REGISTER(NVIC_BASE + 0x400U + 4U * (n))  /* 4.3.7 */
+
+/* SysTick, PM0214 4.5 */
+#define STK_CTRL STM32_REGISTER(0xE000E010U)
+#define STK_LOAD STM32_REGISTER(0xE000E014U)
+#define STK_VAL STM32_REGISTER(0xE000E018U)
+#define STK_CTRL_ENABLE (1U << 0)
+#define STK_CTRL_TICKINT (1U << 1)
+#define STK_CTRL_CLKSOURCE (1U << 2)
+
+/* System control block, PM0214 4.4 */
+#define SCB_VTOR STM32_REGISTER(0xE000ED08U)
+#define SCB_AIRCR STM32_REGISTER(0xE000ED0CU)
+#define SCB_SHPR3 STM32_REGISTER(0xE000ED20U)
+#define SCB_CFSR STM32_REGISTER(0xE000ED28U)
+#define SCB_HFSR STM32_REGISTER(0xE000ED2CU)
+#define SCB_BFAR STM32_REGISTER(0xE000ED38U)
+#define SCB_AIRCR_RESET 0x05FA0004U
+
+#endif

@@ -1,0 +1,69 @@
+"""Board headers: the checker finds what is wrong in one, and tables and headers agree."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from checks import board_pins
+from rkm04_tools import board
+
+GOOD = (board.BOARDS / "rkm04-f405" / "board.h").read_text()
+ROW = re.compile(r"^\| (\w+) \| P([A-K]\d+) \|", re.MULTILINE)
+
+
+@pytest.mark.parametrize("name", board.names())
+def test_a_board_has_nothing_wrong(name: str) -> None:
+    assert list(board_pins.find_errors((board.BOARDS / name / "board.h").read_text())) == []
+
+
+@pytest.mark.parametrize("name", board.names())
+def test_the_table_of_a_board_has_the_pins_of_its_header(name: str) -> None:
+    folder = board.BOARDS / name
+    pins = board_pins.read_board((folder / "board.h").read_text()).pins
+
+    assert ROW.findall((folder / "README.md").read_text()) == [(p.signal, p.pin) for p in pins]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "complaint"),
+    [
+        ("X(DIR_2, A, 5, OUT)", "X(DIR_2, A, 4, OUT)", "PA4 is used twice: DIR_1 and DIR_2"),
+        ("X(STEP_1, A, 0, TIM2_CH1)", "X(STEP_1, C, 12, TIM2_CH1)", "PC12 has no TIM2_CH1"),
+        ("X(STEP_1, A, 0, TIM2_CH1)", "X(STEP_1, A, 0, OUT)", "STEP_1 must be TIM2_CH1, not OUT"),
+        ("X(STEP_1, A, 0, TIM2_CH1)", "X(STEP_1, A, 0, TIM2_CH2)", "STEP_1 must be TIM2_CH1"),
+        ("X(LINE_TX, A, 9, USART1)", "X(LINE_TX, B, 7, USART1)", "PB7 has no USART1_TX"),
+        ("X(LINE_RX, A, 10, USART1)", "X(LINE_RX, A, 10, IN)", "LINE_RX must be USART1"),
+        ("#define BOARD_USART 1", "#define BOARD_USART 3", "must be USART3, as BOARD_USART says"),
+        ("X(BO_1, B, 8, OUT)", "X(BO_1, D, 8, OUT)", "BO_1: LQFP64 has no PD8"),
+        ("X(BO_1, B, 8, OUT)", "X(BO_1, A, 13, OUT)", "BO_1: PA13 belongs to SWDIO"),
+        ("X(BO_1, B, 8, OUT)", "X(BO_1, B, 8, IN)", "BO_1 cannot be IN"),
+        ("X(BI_1, C, 0, IN_UP)", "X(BI_1, C, 0, OUT)", "BI_1 cannot be OUT"),
+        ("X(BI_1, C, 0, IN_UP)", "", "BI_1 has no pin"),
+        ("X(BI_1, C, 0, IN_UP)", "X(BI_9, C, 0, IN_UP)", "BI_9 is not a signal"),
+        ('"LQFP64"', '"LQFP65"', "BOARD_PACKAGE must be one of"),
+    ],
+)
+def test_a_planted_fault_is_found(old: str, new: str, complaint: str) -> None:
+    assert old in GOOD
+
+    errors = list(board_pins.find_errors(GOOD.replace(old, new)))
+
+    assert any(complaint in error for error in errors), errors
+
+
+def test_a_pin_that_a_part_of_the_board_takes_is_found() -> None:
+    taken = '#define BOARD_TAKEN(X) X(B, 8, "a lamp")\n'
+
+    assert list(board_pins.find_errors(GOOD + taken)) == ["BO_1: PB8 belongs to a lamp"]
+
+
+def test_the_checker_says_what_is_wrong_with_a_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    header = tmp_path / "board.h"
+    header.write_text(GOOD.replace("X(DIR_2, A, 5, OUT)", "X(DIR_2, A, 4, OUT)"))
+
+    assert board_pins.main([str(header)]) == 1
+    assert f"{header}: PA4 is used twice" in capsys.readouterr().err

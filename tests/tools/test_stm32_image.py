@@ -1,0 +1,242 @@
+"""The image of a board: where its parts lie, what it needs, and the commands around it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+from checks import board_size, ram_code
+from checks.arm_check import Stage, binutil
+from rkm04_tools import board
+from rkm04_tools.failure import NO_CONNECTION, NOT_SO
+
+STACK_MARGIN_BYTES = 256
+
+pytestmark = pytest.mark.skipif(
+    not shutil.which(board.COMPILER),
+    reason=f"{board.COMPILER} is not installed: run tools/setup test",
+)
+
+
+@pytest.fixture(scope="module", params=board.names())
+def image(request: pytest.FixtureRequest) -> board.Image:
+    return board.build(request.param)
+
+
+def test_the_image_is_within_its_budgets(image):
+    sizes = board_size.measure(image.file("elf"), image.folder)
+    budgets = board_size.budgets()
+
+    assert sizes.flash <= budgets.flash
+    assert sizes.ram <= budgets.ram
+    assert sizes.stack <= budgets.stack
+
+
+def test_the_stack_has_a_margin(image):
+    region, _ = board_size.sections(image.file("elf"))[".stack"]
+
+    assert board_size.budgets().stack + STACK_MARGIN_BYTES <= region
+
+
+def test_what_must_run_from_ram_does(image):
+    assert ram_code.main([str(image.file("elf"))]) == 0
+
+
+def test_the_version_is_baked_in(image):
+    assert board.version().encode() in image.file("bin").read_bytes()
+
+
+def test_the_image_begins_with_the_stack_and_the_reset_handler(image):
+    first = image.file("bin").read_bytes()[:8]
+    symbols = binutil("nm", image.file("elf"))
+    address = {name: int(value, 16) for value, _, name in map(str.split, symbols)}
+
+    assert int.from_bytes(first[:4], "little") == address["stm32_stack_top"]
+    assert int.from_bytes(first[4:], "little") == address["stm32_reset"] | 1
+
+
+def test_no_path_of_the_machine_is_in_the_image(image):
+    assert str(board.ROOT).encode() not in image.file("bin").read_bytes()
+
+
+HEADING = "Relocation section '.rel.ram' at offset 0x1 contains 999 entries:"
+GOOD = [HEADING, *["20003de4  00000102 R_ARM_ABS32  20003000   helper"] * ram_code.REFERENCES_MIN]
+ENTRIES = [f"20003000 T {name}" for name in ram_code.ENTRIES]
+
+
+def test_good_relocations_have_nothing_wrong():
+    assert list(ram_code.find_errors(GOOD, ENTRIES)) == []
+
+
+@pytest.mark.parametrize(
+    ("relocations", "symbols", "complaint"),
+    [
+        (
+            [*GOOD, "20003c38  0003101e R_ARM_THM_JUMP24       080037a5   far"],
+            ENTRIES,
+            "refers to far",
+        ),
+        ([*GOOD, "20003c38  0003101e R_ARM_ABS32       08003000   .rodata"], ENTRIES, "to .rodata"),
+        (GOOD[:50], ENTRIES, "only 49 relocations"),
+        (GOOD, ENTRIES[1:], "stm32_step_interrupt is not in the image"),
+        (
+            GOOD,
+            ["08003000 T stm32_step_interrupt", *ENTRIES[1:]],
+            "stm32_step_interrupt lies in the flash",
+        ),
+    ],
+)
+def test_a_planted_fault_is_found(relocations, symbols, complaint):
+    errors = list(ram_code.find_errors(relocations, symbols))
+
+    assert len(errors) == 1
+    assert complaint in errors[0]
+
+
+def test_references_of_other_sections_do_not_count():
+    other = [
+        "Relocation section '.rel.text' at offset 0x1:",
+        "08000000  1e R_ARM_ABS32  08003000   far",
+    ]
+
+    assert list(ram_code.find_errors([*GOOD, *other], ENTRIES)) == []
+
+
+def graph(**calls: set[str]) -> Stage:
+    return Stage("test", frames=dict.fromkeys(calls, 8), calls=dict(calls))
+
+
+def test_the_deepest_chain_counts():
+    found = graph(a={"b", "c"}, b=set(), c={"d"}, d=set())
+
+    assert board_size.deepest("a", found) == 24
+
+
+def test_a_library_function_has_the_frame_of_the_table():
+    assert board_size.deepest("a", graph(a={"memcpy"})) == 8 + board_size.LIBRARY_FRAMES["memcpy"]
+
+
+@pytest.mark.parametrize(
+    ("calls", "complaint"),
+    [
+        ({"a": {"b"}, "b": {"a"}}, "recursion through a"),
+        ({"a": {"printf"}}, "nothing is known of printf, called by a"),
+        ({"a": {board_size.INDIRECT}}, "a calls through a pointer"),
+    ],
+)
+def test_a_stack_that_cannot_be_known_is_an_error(calls, complaint):
+    with pytest.raises(board_size.Unknown, match=complaint):
+        board_size.deepest("a", graph(**calls))
+
+
+def test_a_call_through_a_pointer_counts_as_the_table_says():
+    calls = {"stm32_tick_interrupt": {board_size.INDIRECT}, "unit.c:unit_tick_isr": set()}
+
+    assert board_size.deepest("stm32_tick_interrupt", graph(**calls)) == 16
+
+
+def test_build_names_the_files_and_the_version(tool):
+    result = tool("board", "build", "--json")
+
+    assert result.status == 0
+    assert result.json["version"] == board.version()
+    assert all((board.ROOT / name).is_file() for name in result.json["files"])
+
+
+def test_size_shows_the_budgets(tool):
+    result = tool("board", "size", "--json")
+
+    assert result.status == 0
+    assert set(result.json) == {"board", "flash", "ram", "stack", "over"}
+
+
+def test_size_fails_over_the_budget(tool, monkeypatch):
+    monkeypatch.setattr(board_size, "budgets", lambda: board_size.Sizes(1, 10**6, 10**6))
+
+    result = tool("board", "size")
+
+    assert result.status == NOT_SO
+    assert "over the budget" in result.err
+    assert result.err.rstrip().endswith("flash")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        ([], ["openocd", "interface/stlink.cfg", "target/stm32f4x.cfg", "verify reset exit"]),
+        (["--probe", "cmsis-dap"], ["interface/cmsis-dap.cfg"]),
+        (["--tool", "dfu-util"], ["dfu-util", "0x08000000:leave", ".bin"]),
+        (["--tool", "stm32flash", "--port", "/dev/ttyS9"], ["stm32flash -e ", "-v", "/dev/ttyS9"]),
+        (["--board", "f407-discovery"], ["f407-discovery.elf"]),
+    ],
+)
+def test_a_dry_run_shows_the_command(tool, arguments, expected):
+    result = tool("board", "flash", "--dry-run", *arguments)
+
+    assert result.status == 0
+    assert all(part in result.out for part in expected)
+
+
+def fake_tool(folder: Path, name: str, script: str) -> None:
+    path = folder / name
+    path.write_text(f"#!/bin/sh\n{script}\n")
+    path.chmod(0o755)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("openocd", "Error: open failed"),
+        ("dfu-util", "No DFU capable USB device available"),
+        ("stm32flash", "Failed to open port: /dev/ttyS9"),
+    ],
+)
+def test_a_missing_board_is_one_line_with_advice(tool, tmp_path, monkeypatch, name, said):
+    fake_tool(tmp_path, name, f"echo '{said}' >&2; exit 1")
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+
+    result = tool("board", "flash", "--tool", name, "--port", "/dev/ttyS9")
+
+    assert result.status == NO_CONNECTION
+    assert f"{name} finds no board: " in result.complaint
+
+
+def test_a_flasher_that_fails_otherwise_is_shown(tool, tmp_path, monkeypatch):
+    fake_tool(tmp_path, "openocd", "echo verify error; exit 1")
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+
+    result = tool("board", "flash")
+
+    assert result.status == NOT_SO
+    assert "verify error" in result.out
+
+
+def test_a_flashed_board_is_told(tool, tmp_path, monkeypatch):
+    fake_tool(tmp_path, "openocd", "exit 0")
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+
+    result = tool("board", "flash")
+
+    assert (result.status, result.out) == (0, "rkm04-f405 is flashed\n")
+
+
+def test_a_flasher_that_is_not_installed_is_told(tool, monkeypatch):
+    which = shutil.which
+    monkeypatch.setattr(shutil, "which", lambda name: None if name == "openocd" else which(name))
+
+    result = tool("board", "flash")
+
+    assert result.status == NO_CONNECTION
+    assert "openocd is not installed: apt-get install openocd" in result.complaint
+
+
+def test_an_unknown_board_is_told_which_there_are(tool):
+    result = tool("board", "build", "--board", "nucleo")
+
+    assert "nucleo: no such board; there are f407-discovery, rkm04-f405" in result.complaint
+
+
+def test_stm32flash_needs_a_port(tool):
+    assert "needs --port" in tool("board", "flash", "--tool", "stm32flash").complaint

@@ -1,0 +1,150 @@
+"""Our register header says what the vendor's description of the family says.
+
+pyOCD's package carries the description of the STM32F429, whose timer, USART, GPIO, RCC, flash,
+watchdog and interrupt controller are those of the STM32F405 (both are in RM0090).
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import itertools
+import re
+import xml.etree.ElementTree as ElementTree
+import zipfile
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+HEADER = Path(__file__).resolve().parents[2] / "hal/stm32/stm32f4.h"
+DEVICE = "STM32F429x.svd"
+
+BASE = re.compile(r"^#define (\w+)_BASE (0x[0-9A-F]+)U\b", re.MULTILINE)
+REGISTER = re.compile(
+    r"^#define (\w+)_(\w+?)(\(\w+\))? (?:STM32_REGISTER|GPIO_REGISTER)"
+    r"\(.*?(0x[0-9A-F]+)U(?: \+ 4U \* \(n\))?\)(?:\s*/\*.*)?$",
+    re.MULTILINE,
+)
+BIT = re.compile(r"^#define ([A-Z0-9]+)_([A-Z0-9]+)_(\w+?)(\(n\))? \((?:1U|\(n\)) << (\d+)\)", re.M)
+INTERRUPT = re.compile(r"^#define (\w+)_IRQ (\d+)U", re.MULTILINE)
+
+# Where the description has another name than the reference manual.
+REGISTERS = {
+    ("TIM2", "CCMR1"): "CCMR1_Output",
+    ("TIM2", "CCMR2"): "CCMR2_Output",
+    ("NVIC", "ISER"): "ISER0",
+    ("NVIC", "IPR"): "IPR0",
+}
+FIELDS = {
+    "IWDGRSTF": "WDGRSTF",
+    "SW": "SW0",
+    "SWS": "SWS0",
+    "PLLM": "PLLM0",
+    "PLLN": "PLLN0",
+    "PLLQ": "PLLQ0",
+}
+INSTANCES = {"GPIO": "GPIOA", "USART": "USART1"}
+CORE = {"STK", "SCB"}  # blocks of the processor, which the description does not have
+
+
+@dataclass(frozen=True)
+class Register:
+    """Its offset, and the place of each field."""
+
+    offset: int
+    fields: dict[str, int]
+
+
+@dataclass(frozen=True)
+class Peripheral:
+    """Its address and registers."""
+
+    base: int
+    registers: dict[str, Register]
+
+
+@cache
+def description() -> ElementTree.Element:
+    package = importlib.util.find_spec("pyocd")
+    assert package is not None, "pyocd is not installed: run tools/setup test"
+    assert package.submodule_search_locations is not None
+    data = Path(package.submodule_search_locations[0]) / "debug/svd/svd_data.zip"
+    with zipfile.ZipFile(data) as archive:
+        return ElementTree.fromstring(archive.read(DEVICE))
+
+
+def number(element: ElementTree.Element, name: str) -> int:
+    return int(element.findtext(name) or "", 0)
+
+
+@cache
+def peripherals() -> dict[str, Peripheral]:
+    elements = {p.findtext("name") or "": p for p in description().iter("peripheral")}
+    found = {}
+    for name, element in elements.items():
+        source = elements[element.get("derivedFrom", name)]
+        registers = {
+            r.findtext("name") or "": Register(
+                number(r, "addressOffset"),
+                {f.findtext("name") or "": number(f, "bitOffset") for f in r.iter("field")},
+            )
+            for r in source.iter("register")
+        }
+        found[name] = Peripheral(number(element, "baseAddress"), registers)
+    return found
+
+
+def described(block: str, register: str) -> Register:
+    name = REGISTERS.get((block, register), register)
+    return peripherals()[INSTANCES.get(block, block)].registers[name]
+
+
+TEXT = HEADER.read_text()
+BASES = [m.groups() for m in BASE.finditer(TEXT)]
+REGISTER_ROWS = [(m[1], m[2], m[4]) for m in REGISTER.finditer(TEXT) if m[1] not in CORE]
+BIT_ROWS = [(m[1], m[2], m[3], m[5]) for m in BIT.finditer(TEXT) if m[1] not in CORE]
+INTERRUPTS = [m.groups() for m in INTERRUPT.finditer(TEXT)]
+
+
+@pytest.mark.parametrize(("block", "address"), BASES)
+def test_a_block_is_at_its_address(block: str, address: str) -> None:
+    assert int(address, 16) == peripherals()[INSTANCES.get(block, block)].base
+
+
+@pytest.mark.parametrize(("block", "register", "offset"), REGISTER_ROWS)
+def test_a_register_is_at_its_offset(block: str, register: str, offset: str) -> None:
+    assert int(offset, 16) == described(block, register).offset
+
+
+@pytest.mark.parametrize(("block", "register", "field", "place"), BIT_ROWS)
+def test_a_field_is_at_its_place(block: str, register: str, field: str, place: str) -> None:
+    assert int(place) == described(block, register).fields[FIELDS.get(field, field)]
+
+
+@pytest.mark.parametrize(("name", "value"), INTERRUPTS)
+def test_an_interrupt_has_its_number(name: str, value: str) -> None:
+    numbers = {i.findtext("name"): number(i, "value") for i in description().iter("interrupt")}
+    assert int(value) == numbers[name]
+
+
+def test_the_ports_are_one_stride_apart() -> None:
+    match = re.search(r"GPIO_STRIDE (0x\w+)U", TEXT)
+    assert match
+    ports = [peripherals()[f"GPIO{port}"].base for port in "ABCDE"]
+    assert [b - a for a, b in itertools.pairwise(ports)] == [int(match[1], 16)] * 4
+
+
+def test_every_definition_of_the_header_is_read() -> None:
+    definitions = re.findall(r"^#define (\w+)", TEXT, re.MULTILINE)
+    other = {
+        "STM32F4_H",
+        "STM32_REGISTER",
+        "GPIO_STRIDE",
+        "GPIO_REGISTER",
+        "FLASH_KEY_1",
+        "FLASH_KEY_2",
+    }
+    core = {name for name in definitions if name.partition("_")[0] in CORE}
+    read = len(BASES) + len(REGISTER_ROWS) + len(BIT_ROWS) + len(INTERRUPTS)
+    assert len(definitions) - len(other) - len(core) == read

@@ -1,0 +1,120 @@
+"""Checks a board's pins: each used once, on its package, and able to do what it is used for.
+
+    python -m checks.board_pins hal/stm32/boards/NAME/board.h
+
+The table of functions is that of ST's datasheet DS8626 (STM32F405xx, STM32F407xx), table 9; that of
+packages its table 7.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+PIN = re.compile(r"\bX\((\w+), ([A-K]), (\d+), (\w+)\)")
+TAKEN = re.compile(r'\bX\(([A-K]), (\d+), "([^"]+)"\)')
+DEFINE = re.compile(r'^#define (BOARD_\w+) "?([\w.]+)"?$', re.MULTILINE)
+
+# Which pins can be a channel of the step timer (alternate function 1) or the line (7).
+TIMER_CHANNELS = {
+    "TIM2_CH1": {"A0", "A5", "A15"},
+    "TIM2_CH2": {"A1", "B3"},
+    "TIM2_CH3": {"A2", "B10"},
+    "TIM2_CH4": {"A3", "B11"},
+}
+LINE_PINS = {
+    "USART1": {"TX": {"A9", "B6"}, "RX": {"A10", "B7"}},
+    "USART2": {"TX": {"A2", "D5"}, "RX": {"A3", "D6"}},
+    "USART3": {"TX": {"B10", "C10", "D8"}, "RX": {"B11", "C11", "D9"}},
+}
+
+PORT_A_TO_C = {f"{port}{pin}" for port in "ABC" for pin in range(16)}
+PACKAGES = {
+    "LQFP64": PORT_A_TO_C | {"D2"},
+    "LQFP100": PORT_A_TO_C | {f"{port}{pin}" for port in "DE" for pin in range(16)},
+}
+DEBUG = {"A13": "SWDIO", "A14": "SWCLK"}
+
+SIGNALS = [
+    *(f"{name}_{i}" for name in ("STEP", "DIR", "LED", "S1") for i in range(1, 5)),
+    *(f"{name}_{i}" for name in ("BI", "BO") for i in range(1, 9)),
+    *("LINE_DE", "LINE_TX", "LINE_RX"),
+]
+INPUTS = {"BI", "S1"}
+
+
+@dataclass(frozen=True)
+class Pin:
+    """A row of BOARD_PINS; `pin` is as in A15."""
+
+    signal: str
+    pin: str
+    use: str
+
+
+@dataclass(frozen=True)
+class Board:
+    """What a board header says."""
+
+    pins: list[Pin]
+    taken: dict[str, str]
+    values: dict[str, str]
+
+
+def read_board(text: str) -> Board:
+    pins = [Pin(m[1], m[2] + m[3], m[4]) for m in PIN.finditer(text)]
+    taken = {m[1] + m[2]: m[3] for m in TAKEN.finditer(text)}
+    return Board(pins, taken, dict(DEFINE.findall(text)))
+
+
+def use_errors(pin: Pin, line: str) -> Iterator[str]:
+    """Whether the pin can do what its signal needs."""
+    kind, _, which = pin.signal.partition("_")
+    if kind == "STEP":
+        if pin.use != f"TIM2_CH{which}":
+            yield f"{pin.signal} must be TIM2_CH{which}, not {pin.use}"
+        elif pin.pin not in TIMER_CHANNELS[pin.use]:
+            yield f"P{pin.pin} has no {pin.use}"
+    elif pin.signal in ("LINE_TX", "LINE_RX"):
+        if pin.use != line:
+            yield f"{pin.signal} must be {line}, as BOARD_USART says, not {pin.use}"
+        elif pin.pin not in LINE_PINS[line][which]:
+            yield f"P{pin.pin} has no {line}_{which}"
+    elif pin.use not in ({"IN", "IN_UP"} if kind in INPUTS else {"OUT"}):
+        yield f"{pin.signal} cannot be {pin.use}"
+
+
+def find_errors(text: str) -> Iterator[str]:
+    board = read_board(text)
+    package = board.values.get("BOARD_PACKAGE", "")
+    if package not in PACKAGES:
+        yield f"BOARD_PACKAGE must be one of {', '.join(PACKAGES)}"
+    names = [pin.signal for pin in board.pins]
+    for name in sorted(set(names) ^ set(SIGNALS)):
+        yield f"{name} {'is not a signal' if name in names else 'has no pin'}"
+    owners: dict[str, str] = {}
+    for pin in board.pins:
+        if pin.pin in owners:
+            yield f"P{pin.pin} is used twice: {owners[pin.pin]} and {pin.signal}"
+        owners[pin.pin] = pin.signal
+        if pin.pin not in PACKAGES.get(package, {pin.pin}):
+            yield f"{pin.signal}: {package} has no P{pin.pin}"
+        if occupant := board.taken.get(pin.pin) or DEBUG.get(pin.pin):
+            yield f"{pin.signal}: P{pin.pin} belongs to {occupant}"
+        yield from use_errors(pin, f"USART{board.values.get('BOARD_USART')}")
+
+
+def main(arguments: list[str]) -> int:
+    (header,) = arguments
+    status = 0
+    for error in find_errors(Path(header).read_text()):
+        print(f"{header}: {error}", file=sys.stderr)
+        status = 1
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

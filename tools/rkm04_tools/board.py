@@ -1,0 +1,179 @@
+"""`board`: builds the image of a board, measures it, and writes it into the board's flash."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+import shutil
+import subprocess
+from argparse import Namespace
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from checks import board_size
+
+from rkm04_tools.failure import DONE, NO_CONNECTION, NOT_SO, Failure
+from rkm04_tools.table import table, thousands
+
+ROOT = Path(__file__).resolve().parents[2]
+BOARDS = ROOT / "hal" / "stm32" / "boards"
+DEFAULT_BOARD = "rkm04-f405"
+COMPILER = "arm-none-eabi-gcc"
+FLASH_ADDRESS = "0x08000000"
+SECTOR_BYTES = 16 * 1024
+USB_LOADER = "0483:df11"
+"""How the chip's own loader shows up on USB."""
+
+SIZES_HEAD = ("", "bytes", "budget", "used")
+
+
+@dataclass(frozen=True)
+class Image:
+    """The files of a built image."""
+
+    board: str
+    folder: Path
+
+    def file(self, suffix: str) -> Path:
+        """The file of one kind: elf, hex, bin."""
+        return self.folder / "bin" / f"{self.board}.{suffix}"
+
+
+@dataclass(frozen=True)
+class Flasher:
+    """A program that writes flash: its Debian package, and what it says when nothing is there."""
+
+    package: str
+    missing: re.Pattern[str]
+    advice: str
+
+
+FLASHERS = {
+    "openocd": Flasher(
+        "openocd",
+        re.compile(r"open failed|unable to find|no device found|init failed", re.IGNORECASE),
+        "connect an ST-LINK to SWDIO, SWCLK, GND and NRST, and power the board",
+    ),
+    "dfu-util": Flasher(
+        "dfu-util",
+        re.compile(r"No DFU capable USB device", re.IGNORECASE),
+        "connect the board's USB, and reset it with BOOT0 high",
+    ),
+    "stm32flash": Flasher(
+        "stm32flash",
+        re.compile(r"Failed to (open port|init device)|Cannot handle device", re.IGNORECASE),
+        "connect a serial adapter to USART1, reset the board with BOOT0 high, and give --port",
+    ),
+}
+
+
+def names() -> list[str]:
+    """The boards that there are."""
+    return sorted(path.parent.name for path in BOARDS.glob("*/board.h"))
+
+
+def version() -> str:
+    """The version that the image answers with."""
+    match = re.search(r'UNIT_VERSION "([^"]+)"', (ROOT / "firmware" / "unit.h").read_text())
+    return match[1] if match else ""
+
+
+def image_of(board: str) -> Image:
+    """Where a board's image is built: the default one where the preset builds it."""
+    if board not in names():
+        raise Failure(f"{board}: no such board; there are {', '.join(names())}")
+    folder = "stm32" if board == DEFAULT_BOARD else f"stm32-{board}"
+    return Image(board, ROOT / "build" / folder)
+
+
+def build(board: str) -> Image:
+    """Build the image of a board, with the compiler installed if need be."""
+    image = image_of(board)
+    if not shutil.which(COMPILER):
+        _call([str(ROOT / "tools" / "setup"), "board"], "the compiler cannot be installed")
+    configure = ["cmake", "--preset", "stm32", "-B", str(image.folder), f"-DRKM04_BOARD={board}"]
+    _call(configure, "the build cannot be set up")
+    _call(["cmake", "--build", str(image.folder)], "the image does not build")
+    return image
+
+
+def _call(command: list[str], complaint: str) -> None:
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    if done.returncode != 0:
+        print(done.stdout + done.stderr)
+        raise Failure(f"{complaint}, see above", NOT_SO)
+
+
+def run_build(options: Namespace) -> int:
+    """`board build`: say where the files are."""
+    image = build(options.board)
+    files = [str(image.file(kind).relative_to(ROOT)) for kind in ("elf", "hex", "bin")]
+    if options.json:
+        print(json.dumps({"board": image.board, "version": version(), "files": files}))
+    else:
+        print(f"{image.board}, version {version()}")
+        print("\n".join(files))
+    return DONE
+
+
+def run_size(options: Namespace) -> int:
+    """`board size`: the memory that the image needs, beside its budgets."""
+    image = build(options.board)
+    sizes = asdict(board_size.measure(image.file("elf"), image.folder))
+    budgets = asdict(board_size.budgets())
+    over = [name for name, size in sizes.items() if size > budgets[name]]
+    if options.json:
+        answer = {name: {"bytes": size, "budget": budgets[name]} for name, size in sizes.items()}
+        print(json.dumps({"board": image.board, **answer, "over": over}))
+    else:
+        rows = [
+            (name, thousands(size), thousands(budgets[name]), f"{100 * size / budgets[name]:.0f} %")
+            for name, size in sizes.items()
+        ]
+        print(table([SIZES_HEAD, *rows], "lrrr"))
+    if over:
+        raise Failure(f"over the budget of hal/stm32/budgets.json: {', '.join(over)}", NOT_SO)
+    return DONE
+
+
+def flash_command(tool: str, image: Image, probe: str, port: str) -> list[str]:
+    """What writes an image, checks it and starts it; stored programs stay as they are."""
+    if tool == "openocd":
+        program = f"program {image.file('elf')} verify reset exit"
+        scripts = ["-f", f"interface/{probe}.cfg", "-f", "target/stm32f4x.cfg"]
+        return ["openocd", *scripts, "-c", program]
+    if tool == "dfu-util":
+        where = ["-a", "0", "-d", USB_LOADER, "-s", f"{FLASH_ADDRESS}:leave"]
+        return ["dfu-util", *where, "-D", str(image.file("bin"))]
+    sectors = -(-image.file("bin").stat().st_size // SECTOR_BYTES)
+    return ["stm32flash", "-e", str(sectors), "-w", str(image.file("hex")), "-v", "-g", "0", port]
+
+
+def run_flash(options: Namespace) -> int:
+    """`board flash`: write the image into the board, or show how."""
+    if options.tool == "stm32flash" and not options.port:
+        raise Failure("stm32flash needs --port, the serial device that the board is connected to")
+    image = build(options.board)
+    command = flash_command(options.tool, image, options.probe, options.port or "")
+    if options.dry_run:
+        print(json.dumps({"command": command}) if options.json else shlex.join(command))
+        return DONE
+    _write(options.tool, command)
+    print(json.dumps({"flashed": image.board}) if options.json else f"{image.board} is flashed")
+    return DONE
+
+
+def _write(tool: str, command: list[str]) -> None:
+    flasher = FLASHERS[tool]
+    if not shutil.which(tool):
+        hint = f"apt-get install {flasher.package}, or choose another --tool"
+        raise Failure(f"{tool} is not installed: {hint}", NO_CONNECTION)
+    done = subprocess.run(command, capture_output=True, text=True, errors="replace")
+    said = done.stdout + done.stderr
+    if done.returncode == 0:
+        return
+    if flasher.missing.search(said):
+        raise Failure(f"{tool} finds no board: {flasher.advice}", NO_CONNECTION)
+    print(said)
+    raise Failure(f"{tool} failed, see above", NOT_SO)
