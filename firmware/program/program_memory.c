@@ -45,14 +45,12 @@ uint32_t program_memory_oldest(const struct program_memory *memory)
 struct program_instruction program_memory_at(const struct program_memory *memory, uint32_t ordinal)
 {
     uint32_t place = ordinal % PROGRAM_COMMANDS_MAX;
-    uint8_t opcode = memory->opcode[place];
-    int32_t value = memory->value[place];
-    bool has_io = opcode == PROGRAM_JUMP_IF_HIGH || opcode == PROGRAM_JUMP_IF_LOW;
-    return (struct program_instruction){
-        .value = has_io ? value % IO_UNIT : value,
-        .opcode = opcode,
-        .io = has_io ? (uint8_t)(value / IO_UNIT) : 0,
-    };
+    struct program_instruction instruction = {.value = memory->value[place], .opcode = memory->opcode[place]};
+    if (instruction.opcode == PROGRAM_JUMP_IF_HIGH || instruction.opcode == PROGRAM_JUMP_IF_LOW) {
+        instruction.io = (uint8_t)(instruction.value / IO_UNIT);
+        instruction.value %= IO_UNIT;
+    }
+    return instruction;
 }
 
 /* Where the youngest `@` has been overwritten, all older ones have been too. */
