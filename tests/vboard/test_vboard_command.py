@@ -1,0 +1,87 @@
+"""The command line and the files of the virtual board."""
+
+from __future__ import annotations
+
+import subprocess
+
+import pytest
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        ([], "no program"),
+        (["--elf"], "--elf"),
+        (["--nothing", "1"], "--nothing: no such option"),
+        (["--elf", "x", "--for", "0"], "--for 0"),
+        (["--elf", "x", "--refill", "4"], "--refill 4"),
+        (["--elf", "x", "--stuck", "PZ0=1"], "--stuck PZ0=1"),
+        (["--elf", "x", "--node", "17"], "--node 17"),
+    ],
+)
+def test_wrong_usage_is_one_line_and_status_2(program, options, told):
+    done = subprocess.run([program, *options], capture_output=True, text=True, check=False)
+
+    assert done.returncode == 2
+    assert told in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("files", "told"),
+    [
+        ({"pins": "m5_step PA0\n"}, "no such signal"),
+        ({"pins": "m1_step PA16\n"}, "no such pin"),
+        ({"pins": "m1_step PA0\nm2_step PA0\n"}, "in use already"),
+        ({"pins": "m1_step PA0 high\n"}, "`low` only"),
+        ({"inputs": "5,9,1\n"}, "inputs:1: not a change"),
+        ({"line": "1 4\n"}, "line-script:1: not a time and bytes"),
+    ],
+)
+def test_a_malformed_file_is_one_line_and_status_1(run_image, files, told):
+    run = run_image("preload", **files)
+
+    assert run.status == 1
+    assert told in run.told
+    assert run.told.count("\n") == 1
+
+
+def test_a_program_for_another_machine_is_refused(program, tmp_path):
+    (tmp_path / "text").write_text("no program\n")
+    command = [program, "--elf", tmp_path / "text"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+
+    assert done.returncode == 1
+    assert "not an ELF program for ARM" in done.stderr
+
+
+def test_a_variable_is_shown_by_its_size(run_image):
+    run = run_image("spin", "--watch", "steps", "--watch", "nothing")
+
+    assert run.summary["watch"]["steps"] == 40000
+    assert run.summary["watch"]["nothing"] is None
+
+
+def test_statistics_can_begin_later(run_image):
+    whole = run_image("spin").vector("TIM2")["count"]
+    late = run_image("spin", "--measure-from", "30").vector("TIM2")["count"]
+
+    assert 0 < late < whole
+
+
+def test_the_stack_is_measured(run_image):
+    stack = run_image("exceptions").summary["stack"]
+
+    assert 2 * 32 <= stack["used"] < 256
+    assert stack["bytes"] > 100_000
+
+
+def test_the_waveform_has_the_signals_of_the_simulator(run_image):
+    run = run_image("timer_compare", pins="m1_step PA0\nm2_step PA1\n")
+    wave = (run.folder / "wave.vcd").read_text()
+
+    names = [f"m{i}_{what}" for i in range(1, 5) for what in ("step", "dir", "led")]
+    names += [f"{kind}{i}" for kind in ("bi", "bo") for i in range(1, 9)]
+    names += [f"m{i}_{what}" for i in range(1, 5) for what in ("position", "speed")]
+    assert all(f" {name} $end" in wave for name in names)
+    assert "r168000.000" in wave  # 84 MHz / 500

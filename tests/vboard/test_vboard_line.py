@@ -1,0 +1,119 @@
+"""The USART of the virtual board and the RS-485 line behind it."""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+import time
+
+import pytest
+
+PINS = "line USART2\nde PA1\n"
+BYTE_MS = 10 / 19.2
+FRAMING = 2
+NOISE = 4
+OVERRUN = 8
+IDLE = 0x10
+RECEIVED = 0x20
+
+
+def test_bytes_come_in_and_are_answered(run_image):
+    run = run_image("serial", pins=PINS, line="2 41\n5 0aff\n7 FF*\n")
+
+    assert [byte for _, byte in run.log] == ["42", "0B", "00"]
+    assert [word & 0xFF for word in run.summary["watch"]["result"][:3]] == [0x41, 0x0A, 0xFF]
+
+
+def test_a_byte_takes_as_long_as_the_rate_says(run_image):
+    run = run_image("serial", pins=PINS, line="2 41\n5 0A\n", seconds=0.02)
+
+    (first, _), (second, _) = run.log
+    assert first == pytest.approx(
+        2 + 0.95 * BYTE_MS, abs=0.02
+    )  # received in the middle of the stop bit
+    assert second - first == pytest.approx(3, abs=0.01)
+
+
+def test_errors_of_a_byte_are_in_the_status(run_image):
+    run = run_image("serial", pins=PINS, line="2 41*\n5 42~\n8 43\n", seconds=0.02)
+    words = run.summary["watch"]["result"]
+
+    assert words[0] >> 8 & (FRAMING | NOISE | RECEIVED) == FRAMING | RECEIVED
+    assert words[1] >> 8 & (FRAMING | NOISE | RECEIVED) == NOISE | RECEIVED
+    assert words[2] >> 8 & (FRAMING | NOISE | RECEIVED) == RECEIVED
+
+
+def test_another_rate_gives_framing_errors(run_image):
+    run = run_image("serial", "--baud", "9600", pins=PINS, line="2 41\n", seconds=0.02)
+
+    assert run.summary["watch"]["result"][0] >> 8 & FRAMING
+    assert run.summary["line"]["unheard"] == 1
+    assert run.log[0][1].endswith("*")
+
+
+def test_an_overrun_keeps_the_first_byte(run_image):
+    run = run_image("overrun", pins="line USART2\n", line="2 41 42 43\n")
+
+    assert run.result[0] & (OVERRUN | RECEIVED) == OVERRUN | RECEIVED
+    assert run.result[1] == 0x41
+    assert run.result[2] & (OVERRUN | RECEIVED) == 0
+    assert run.result[3] & IDLE
+    assert run.summary["line"]["overruns"] == 2
+
+
+def test_the_time_to_release_the_bus_is_measured(run_image):
+    run = run_image("serial", pins=PINS, line="2 41\n", seconds=0.02)
+
+    assert 0 < run.summary["line"]["release_max"] < 10
+
+
+def test_a_byte_is_not_heard_while_the_unit_drives_the_bus(run_image):
+    # The answer to the first byte is on the bus when the second one comes.
+    run = run_image("serial", pins=PINS, line="2 41 42\n", seconds=0.02)
+
+    assert run.summary["line"]["collisions"] == 1
+    assert len(run.log) == 1
+
+
+def test_a_byte_that_is_sent_with_the_driver_off_reaches_nobody(run_image):
+    run = run_image("serial", pins="line USART2\nde PA0\n", line="2 41\n", seconds=0.02)
+
+    assert run.summary["line"]["sent"] == 0
+    assert run.log[0][1] == "42*"
+
+
+def test_a_client_over_tcp_talks_with_the_unit_in_real_time(program, build_image, tmp_path):
+    (tmp_path / "pins").write_text(PINS)
+    command = [program, "--elf", build_image("serial"), "--pins", tmp_path / "pins"]
+    command += ["--tcp", "0", "--for", "0.3"]
+    with subprocess.Popen(
+        list(map(str, command)), stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stderr
+        where = process.stderr.readline()
+        port = int(where.strip().rpartition(":")[2])
+        started = time.monotonic()
+        with socket.create_connection(("127.0.0.1", port)) as client:
+            client.settimeout(5)
+            client.sendall(b"\x30")
+            assert client.recv(1) == b"\x31"
+        process.communicate(timeout=10)
+        assert process.returncode == 0
+        assert time.monotonic() - started > 0.1
+
+
+def test_a_client_over_a_pseudo_terminal_talks_with_the_unit(program, build_image, tmp_path):
+    (tmp_path / "pins").write_text(PINS)
+    command = [program, "--elf", build_image("serial"), "--pins", tmp_path / "pins"]
+    command += ["--pty", tmp_path / "line", "--for", "0.3"]
+    with subprocess.Popen(
+        list(map(str, command)), stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stderr
+        process.stderr.readline()
+        with (tmp_path / "line").open("r+b", buffering=0) as client:
+            client.write(b"\x30")
+            assert client.read(1) == b"\x31"
+        process.communicate(timeout=10)
+        assert process.returncode == 0
+    assert not (tmp_path / "line").is_symlink()

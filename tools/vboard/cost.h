@@ -1,0 +1,71 @@
+/*
+ * What an instruction costs: the static part of the cycle model, decoded once for each address and kept in a table
+ * (README.md, "Cycle model"; Cortex-M4 technical reference manual, section 3.3).
+ */
+#ifndef COST_H
+#define COST_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct board;
+
+/* Regions of code: the flash with its alias at 0, and the SRAM; bit 29 of an address tells which. */
+enum {
+    COST_REGIONS = 2,
+    COST_REGION_HALFWORDS = 0x80000,
+};
+
+enum cost_flag {
+    COST_PIPELINED = 1 << 0, /* a load, or a store with a register offset: one cycle less right behind a load */
+    COST_LOAD = 1 << 1,      /* a load: what follows may be pipelined with it */
+    COST_FLASH_DATA = 1 << 2, /* reads a literal from flash: costs its wait states as well */
+    COST_IN_IT = 1 << 3,     /* inside an IT block: emulation must not stop here */
+    COST_SLOW = 1 << 4,      /* has a kind that must be looked at each time */
+    COST_OPENS_IT = 1 << 5,  /* is IT */
+    COST_IN_LINE = 1 << 8,   /* only of the instruction before: what follows it has not been jumped to */
+};
+
+/* What must be looked at before such an instruction is executed. */
+enum cost_kind {
+    COST_PLAIN,
+    COST_UNKNOWN, /* not decoded yet */
+    COST_IT,      /* opens an IT block */
+    COST_DIVIDE,  /* UDIV, SDIV: the cost depends on the operands */
+    COST_MASKS,   /* CPS, MSR: an interrupt may become possible */
+    COST_SLEEP,   /* WFI */
+    COST_SLEEP_EVENT, /* WFE */
+    COST_EVENT,   /* SEV */
+    COST_FLOAT,   /* needs the coprocessor enabled */
+    COST_END,     /* the run ends here */
+};
+
+struct cost {
+    uint8_t cycles;
+    uint8_t flags; /* enum cost_flag */
+    uint8_t kind;  /* enum cost_kind */
+    uint8_t more;  /* COST_IT: bytes of the block behind it. COST_DIVIDE: registers, dividend in the low four bits */
+};
+
+struct cost_table {
+    struct cost *entry[COST_REGIONS]; /* COST_REGION_HALFWORDS each */
+    uint64_t capstone;                /* its handle */
+    void *instruction;                /* its buffer */
+    uint32_t end_address;             /* where the run ends; odd: nowhere */
+};
+
+bool cost_init(struct cost_table *table);
+void cost_discard(struct cost_table *table);
+
+/* Forgets everything, for instance because memory with code has changed. */
+void cost_forget(struct cost_table *table);
+
+static inline struct cost *cost_find(const struct cost_table *table, uint32_t address)
+{
+    return &table->entry[address >> 29 & 1U][(address & 0xFFFFFU) >> 1];
+}
+
+/* Decodes the instruction at `address`. `previous` is the one before it if control came in line, else odd. */
+void cost_decode(struct board *board, uint32_t address, uint32_t previous);
+
+#endif

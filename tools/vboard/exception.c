@@ -1,0 +1,244 @@
+#include "exception.h"
+
+#include "board.h"
+
+enum {
+    FRAME_WORDS = 8,
+    FRAME_WORDS_FLOAT = 26,
+    FRAME_FLOATS = 16,
+    FRAME_FPSCR = 24,
+    WORD_BYTES = 4,
+    XPSR_EXCEPTION = 0x1FF,
+    CONTROL_SPSEL = 1 << 1,
+    CONTROL_FPCA = 1 << 2,
+    RETURN_TO_THREAD = 1 << 3,
+    RETURN_TO_PSP = 1 << 2,
+    RETURN_NO_FLOAT = 1 << 4,
+};
+
+#define XPSR_THUMB (UINT32_C(1) << 24)
+#define XPSR_IT UINT32_C(0x0600FC00)
+#define XPSR_ALIGNED (UINT32_C(1) << 9) /* of a stacked xPSR: a word of padding lies above the frame */
+#define EXC_RETURN_BASE UINT32_C(0xFFFFFFE1)
+#define EXC_RETURN_MAGIC UINT32_C(0xFFFFFFE0)
+
+static void put_word(uint8_t *at, uint32_t word)
+{
+    for (unsigned i = 0; i < WORD_BYTES; i++) {
+        at[i] = (uint8_t)(word >> 8U * i);
+    }
+}
+
+static uint32_t get_word(const uint8_t *at)
+{
+    return (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+}
+
+/* R0 to R3, R12, LR as the frame holds them. */
+static const int frame_registers[] = {UC_ARM_REG_R0, UC_ARM_REG_R1, UC_ARM_REG_R2,
+                                      UC_ARM_REG_R3, UC_ARM_REG_R12, UC_ARM_REG_LR};
+
+enum { FRAME_REGISTERS = sizeof frame_registers / sizeof *frame_registers };
+
+static void save_floats(struct cpu *cpu, uint8_t *frame)
+{
+    for (unsigned i = 0; i < FRAME_FLOATS; i++) {
+        put_word(frame + WORD_BYTES * (FRAME_WORDS + i), cpu_read(cpu, UC_ARM_REG_S0 + (int)i));
+    }
+    put_word(frame + WORD_BYTES * FRAME_FPSCR, cpu_read(cpu, UC_ARM_REG_FPSCR));
+}
+
+static void restore_floats(struct cpu *cpu, const uint8_t *frame)
+{
+    for (unsigned i = 0; i < FRAME_FLOATS; i++) {
+        cpu_write(cpu, UC_ARM_REG_S0 + (int)i, get_word(frame + WORD_BYTES * (FRAME_WORDS + i)));
+    }
+    cpu_write(cpu, UC_ARM_REG_FPSCR, get_word(frame + WORD_BYTES * FRAME_FPSCR));
+}
+
+/* Pushes the frame onto the stack in use and gives the EXC_RETURN for it. False: there is no memory there. */
+static bool push_frame(struct board *board, uint32_t return_address, uint32_t *exc_return)
+{
+    struct cpu *cpu = &board->cpu;
+    uint32_t xpsr = cpu_read(cpu, UC_ARM_REG_XPSR);
+    uint32_t control = cpu_read(cpu, UC_ARM_REG_CONTROL);
+    uint32_t sp = cpu_read(cpu, UC_ARM_REG_SP);
+    bool in_thread = (xpsr & XPSR_EXCEPTION) == 0;
+    bool has_floats = (control & CONTROL_FPCA) != 0;
+    uint32_t words = has_floats ? FRAME_WORDS_FLOAT : FRAME_WORDS;
+    uint32_t frame_sp = (sp - words * WORD_BYTES) & ~UINT32_C(7);
+
+    *exc_return = EXC_RETURN_BASE | (has_floats ? 0 : RETURN_NO_FLOAT) | (in_thread ? RETURN_TO_THREAD : 0) |
+                  (in_thread && (control & CONTROL_SPSEL) != 0 ? RETURN_TO_PSP : 0);
+    uint8_t *frame = memory_find(&board->memory, frame_sp, words * WORD_BYTES);
+    cpu_write(cpu, UC_ARM_REG_SP, frame_sp);
+    if (frame == NULL || memory_is_flash(frame_sp)) {
+        return false;
+    }
+    for (unsigned i = 0; i < FRAME_REGISTERS; i++) {
+        put_word(frame + WORD_BYTES * i, cpu_read(cpu, frame_registers[i]));
+    }
+    put_word(frame + WORD_BYTES * FRAME_REGISTERS, return_address & ~UINT32_C(1));
+    put_word(frame + WORD_BYTES * (FRAME_REGISTERS + 1U), (xpsr & ~XPSR_ALIGNED) | XPSR_THUMB | ((sp & 4U) << 7));
+    if (has_floats) {
+        save_floats(cpu, frame);
+        cpu_write(cpu, UC_ARM_REG_CONTROL, control & ~(uint32_t)CONTROL_FPCA);
+    }
+    return true;
+}
+
+/* Makes the exception that comes next the running one. */
+static uint32_t enter_handler(struct board *board, unsigned exception, uint32_t exc_return)
+{
+    struct cpu *cpu = &board->cpu;
+    uint32_t vector_at = board->scb.vtor + WORD_BYTES * exception;
+    uint32_t vector = 0;
+
+    cpu_stall_on_flash(board, vector_at);
+    stats_enter(board, exception);
+    nvic_unpend(board, exception);
+    nvic_set_active(&board->nvic, exception, true);
+    cpu_write_xpsr(cpu, (cpu_read(cpu, UC_ARM_REG_XPSR) & ~(XPSR_IT | XPSR_EXCEPTION)) | XPSR_THUMB | exception);
+    cpu_write(cpu, UC_ARM_REG_LR, exc_return);
+    cpu->event_register = true;
+    if (!memory_read_word(&board->memory, vector_at, &vector) || (vector & 1U) == 0) {
+        board_fail(board, "the vector of exception %u at %08x is %08x, which is no address of code", exception,
+                   vector_at, vector);
+    }
+    cpu->now += cpu_fetch_wait(board, vector & ~1U);
+    return vector & ~UINT32_C(1);
+}
+
+/* Asks for HardFault; in vain from inside HardFault or NMI: that is lockup. */
+static bool escalate(struct board *board, uint32_t hfsr)
+{
+    struct nvic *nvic = &board->nvic;
+    board->scb.hfsr |= hfsr;
+    if (nvic_active_priority(nvic) <= NVIC_PRIORITY_HARD_FAULT ||
+        (cpu_read(&board->cpu, UC_ARM_REG_FAULTMASK) & 1U) != 0) {
+        board_lock_up(board);
+        return false;
+    }
+    nvic_pend(board, NVIC_HARD_FAULT);
+    return true;
+}
+
+static void note_stacking_fault(struct board *board, uint32_t bits)
+{
+    board->scb.cfsr |= bits;
+    stats_note_fault(board, bits, cpu_read(&board->cpu, UC_ARM_REG_SP));
+    if (nvic_is_enabled(&board->nvic, NVIC_BUS_FAULT) &&
+        nvic_group_priority(&board->nvic, NVIC_BUS_FAULT) < nvic_running_priority(board)) {
+        nvic_pend(board, NVIC_BUS_FAULT);
+    } else {
+        (void)escalate(board, SCB_HFSR_FORCED);
+    }
+}
+
+uint32_t exception_take(struct board *board, uint32_t return_address)
+{
+    struct cpu *cpu = &board->cpu;
+    uint32_t exc_return = 0;
+    uint64_t begin = cpu->now;
+    if (!push_frame(board, return_address, &exc_return)) {
+        note_stacking_fault(board, SCB_CFSR_STKERR);
+    }
+    if (cpu->stalled_forever) {
+        return return_address;
+    }
+    cpu->now += EXCEPTION_ENTRY_CYCLES;
+    events_run(board, cpu->now); /* what comes now and is more urgent takes the place: late arrival */
+    stats_begin(board, begin);
+    return enter_handler(board, nvic_next_pending(&board->nvic), exc_return);
+}
+
+static uint32_t pop_frame(struct board *board, uint32_t exc_return)
+{
+    struct cpu *cpu = &board->cpu;
+    bool to_thread = (exc_return & RETURN_TO_THREAD) != 0;
+    bool has_floats = (exc_return & RETURN_NO_FLOAT) == 0;
+    uint32_t sp = cpu_read(cpu, (exc_return & RETURN_TO_PSP) != 0 ? UC_ARM_REG_PSP : UC_ARM_REG_MSP);
+    uint32_t words = has_floats ? FRAME_WORDS_FLOAT : FRAME_WORDS;
+    const uint8_t *frame = memory_find(&board->memory, sp, words * WORD_BYTES);
+    if (frame == NULL) {
+        note_stacking_fault(board, SCB_CFSR_UNSTKERR);
+        return exception_take(board, 0);
+    }
+    uint32_t xpsr = get_word(frame + WORD_BYTES * (FRAME_REGISTERS + 1U));
+    if (((xpsr & XPSR_EXCEPTION) == 0) != to_thread) {
+        return exception_fault(board, SCB_CFSR_INVPC, get_word(frame + WORD_BYTES * FRAME_REGISTERS));
+    }
+    cpu_write_xpsr(cpu, (xpsr & ~XPSR_ALIGNED) | XPSR_THUMB);
+    if (to_thread) {
+        uint32_t control = cpu_read(cpu, UC_ARM_REG_CONTROL) & ~(uint32_t)(CONTROL_SPSEL | CONTROL_FPCA);
+        control |= (exc_return & RETURN_TO_PSP) != 0 ? CONTROL_SPSEL : 0U;
+        cpu_write(cpu, UC_ARM_REG_CONTROL, control);
+    }
+    if (has_floats) {
+        restore_floats(cpu, frame);
+        cpu_write(cpu, UC_ARM_REG_CONTROL, cpu_read(cpu, UC_ARM_REG_CONTROL) | CONTROL_FPCA);
+    }
+    for (unsigned i = 0; i < FRAME_REGISTERS; i++) {
+        cpu_write(cpu, frame_registers[i], get_word(frame + WORD_BYTES * i));
+    }
+    cpu_write(cpu, UC_ARM_REG_SP, sp + words * WORD_BYTES + ((xpsr & XPSR_ALIGNED) != 0 ? WORD_BYTES : 0));
+    return get_word(frame + WORD_BYTES * FRAME_REGISTERS) & ~UINT32_C(1);
+}
+
+uint32_t exception_return(struct board *board, uint32_t exc_return)
+{
+    struct cpu *cpu = &board->cpu;
+    unsigned exception = cpu_read(cpu, UC_ARM_REG_IPSR) & XPSR_EXCEPTION;
+
+    events_run(board, cpu->now);
+    if ((exc_return & EXC_RETURN_MAGIC) != EXC_RETURN_MAGIC || !nvic_is_active(&board->nvic, exception)) {
+        board_fail(board, "return from exception %u with EXC_RETURN %08x", exception, exc_return);
+    }
+    nvic_set_active(&board->nvic, exception, false);
+    if (exception != NVIC_NMI) {
+        cpu_write(cpu, UC_ARM_REG_FAULTMASK, 0);
+    }
+    if (exception >= NVIC_IRQ0 && nvic_line_is_high(board, exception)) {
+        nvic_pend(board, exception);
+    }
+    if (nvic_can_take(board)) {
+        stats_leave(board, exception);
+        board->stats.tail_chains++;
+        stats_begin(board, cpu->now);
+        cpu->now += EXCEPTION_TAIL_CYCLES;
+        events_run(board, cpu->now);
+        return enter_handler(board, nvic_next_pending(&board->nvic), exc_return);
+    }
+    cpu->now += EXCEPTION_EXIT_CYCLES;
+    stats_leave(board, exception);
+    uint32_t address = pop_frame(board, exc_return);
+    cpu->now += cpu_fetch_wait(board, address);
+    bool to_thread = (exc_return & RETURN_TO_THREAD) != 0;
+    if (to_thread && (board->scb.scr & SCB_SCR_SLEEPONEXIT) != 0) {
+        board_sleep(board);
+    }
+    return address;
+}
+
+uint32_t exception_fault(struct board *board, uint32_t cfsr_bits, uint32_t return_address)
+{
+    unsigned exception = (cfsr_bits & SCB_CFSR_USAGE) != 0 ? NVIC_USAGE_FAULT : NVIC_BUS_FAULT;
+    board->scb.cfsr |= cfsr_bits;
+    if ((cfsr_bits & SCB_CFSR_BFARVALID) != 0) {
+        board->scb.bfar = board->cpu.fault_address;
+    }
+    stats_note_fault(board, cfsr_bits, return_address);
+    return exception_call(board, exception, return_address);
+}
+
+uint32_t exception_call(struct board *board, unsigned exception, uint32_t return_address)
+{
+    struct nvic *nvic = &board->nvic;
+    board->event_cycle = board->cpu.now;
+    if (nvic_is_enabled(nvic, exception) && nvic_group_priority(nvic, exception) < nvic_running_priority(board)) {
+        nvic_pend(board, exception);
+    } else if (!escalate(board, exception == NVIC_DEBUG ? SCB_HFSR_DEBUGEVT : SCB_HFSR_FORCED)) {
+        return return_address;
+    }
+    return exception_take(board, return_address);
+}

@@ -1,0 +1,66 @@
+/*
+ * The flash memory interface (RM0090 chapter 3): keys, programming and erasing with their times, errors, and the bus
+ * that waits while an operation runs. With faults on request: an operation that fails, and power cut in the middle.
+ */
+#ifndef FLASH_H
+#define FLASH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct board;
+
+enum flash_operation {
+    FLASH_IDLE,
+    FLASH_PROGRAM,
+    FLASH_ERASE,
+};
+
+struct flash {
+    uint32_t acr;
+    uint32_t sr;
+    uint32_t cr;
+    unsigned keys;     /* how many of the two keys have come */
+    bool locked_out;   /* a wrong key: locked until the next reset */
+    enum flash_operation operation;
+    uint32_t address;  /* of the operation in progress, offset in the memory */
+    uint32_t bytes;
+    uint32_t value;    /* to be programmed */
+    uint64_t done_cycle;
+    bool read_protected; /* reads are watched, as the bus has to wait */
+    bool code_changed;   /* what was executed before has been rewritten */
+    bool fails;          /* the operation in progress */
+    uint64_t operations;
+    uint64_t programs;
+    uint64_t erases;
+    uint64_t stalls;     /* how often the processor had to wait */
+};
+
+void flash_reset(struct board *board);
+
+/* A store of 1, 2 or 4 bytes to an address in the flash. */
+void flash_write(struct board *board, uint32_t address, unsigned bytes, uint32_t value);
+
+bool flash_read_register(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);
+bool flash_write_register(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask);
+void flash_event(struct board *board, uint64_t cycle);
+
+/* Makes Unicorn report reads of the flash while it is busy; called while emulation stands. */
+void flash_update_protection(struct board *board);
+
+static inline bool flash_is_busy(const struct flash *flash)
+{
+    return flash->operation != FLASH_IDLE;
+}
+
+uint64_t flash_done_cycle(const struct board *board);
+unsigned flash_latency(const struct flash *flash);
+bool flash_instruction_cache_is_on(const struct flash *flash);
+bool flash_data_cache_is_on(const struct flash *flash);
+bool flash_prefetch_is_on(const struct flash *flash);
+
+/* Reads the content from a file if there is one, and writes it back. False after a complaint. */
+bool flash_load(struct board *board, const char *path);
+bool flash_save(struct board *board, const char *path);
+
+#endif

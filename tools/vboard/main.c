@@ -1,0 +1,40 @@
+/*
+ * rkm04-vboard: runs the program of an STM32F405/407 on a virtual board (README.md).
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "board.h"
+#include "complain.h"
+#include "summary.h"
+
+static enum exit_status run(const struct options *options)
+{
+    struct board *board = malloc(sizeof *board);
+    enum exit_status status = EXIT_REFUSED;
+    if (board == NULL) {
+        complain("there is not memory enough");
+        return status;
+    }
+    if (board_init(board, options)) {
+        cpu_run(board);
+        summary_print(board);
+        bool good = board_close(board) && board->end != BOARD_FAILED;
+        status = good ? finish_output() : EXIT_REFUSED;
+    }
+    board_discard(board);
+    free(board);
+    return status;
+}
+
+int main(int argc, char *argv[])
+{
+    struct options options;
+    if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) {
+        (void)fputs(options_usage, stdout);
+        return (int)finish_output();
+    }
+    enum exit_status status = options_read(&options, argc - 1, argv + 1);
+    return (int)(status == EXIT_DONE ? run(&options) : status);
+}

@@ -1,0 +1,93 @@
+#include "memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "board.h"
+
+static uint8_t *allocate(uint32_t bytes, uint8_t filling)
+{
+    uint8_t *memory = aligned_alloc(MEMORY_PAGE_BYTES, bytes);
+    if (memory == NULL) {
+        return NULL;
+    }
+    memset(memory, filling, bytes);
+    return memory;
+}
+
+static void fill_system_area(struct memory *memory)
+{
+    static const uint8_t id[12] = "VBOARD-0001";
+    memcpy(memory->system + 0xA10, id, sizeof id); /* RM0090 section 39.1: unique device id */
+    memory->system[0xA22] = MEMORY_FLASH_BYTES / 1024U & 0xFFU;
+    memory->system[0xA23] = MEMORY_FLASH_BYTES / 1024U >> 8;
+}
+
+static bool map(struct board *board, uint32_t base, uint32_t bytes, uint32_t rights, uint8_t *memory)
+{
+    /* Unicorn 2.0 discards stores to what may not be written only after the rights were set a second time. */
+    return uc_mem_map_ptr(board->cpu.engine, base, bytes, rights, memory) == UC_ERR_OK &&
+           uc_mem_protect(board->cpu.engine, base, bytes, rights) == UC_ERR_OK;
+}
+
+bool memory_init(struct board *board)
+{
+    struct memory *memory = &board->memory;
+    memory->flash = allocate(MEMORY_FLASH_BYTES, 0xFF);
+    memory->ccm = allocate(MEMORY_CCM_BYTES, MEMORY_UNTOUCHED);
+    memory->sram = allocate(MEMORY_SRAM_BYTES, MEMORY_UNTOUCHED);
+    memory->system = allocate(MEMORY_PAGE_BYTES, 0xFF);
+    memory->options = allocate(MEMORY_PAGE_BYTES, 0xFF);
+    if (memory->flash == NULL || memory->ccm == NULL || memory->sram == NULL || memory->system == NULL ||
+        memory->options == NULL) {
+        return false;
+    }
+    fill_system_area(memory);
+    /* The CCM RAM hangs on the data bus only: nothing can be executed from it (section 2.3.1). */
+    return map(board, 0, MEMORY_FLASH_BYTES, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
+           map(board, MEMORY_FLASH_BASE, MEMORY_FLASH_BYTES, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
+           map(board, MEMORY_CCM_BASE, MEMORY_CCM_BYTES, UC_PROT_READ | UC_PROT_WRITE, memory->ccm) &&
+           map(board, MEMORY_SYSTEM_BASE, MEMORY_PAGE_BYTES, UC_PROT_READ, memory->system) &&
+           map(board, MEMORY_OPTIONS_BASE, MEMORY_PAGE_BYTES, UC_PROT_READ, memory->options) &&
+           map(board, MEMORY_SRAM_BASE, MEMORY_SRAM_BYTES, UC_PROT_ALL, memory->sram);
+}
+
+void memory_discard(struct memory *memory)
+{
+    free(memory->flash);
+    free(memory->ccm);
+    free(memory->sram);
+    free(memory->system);
+    free(memory->options);
+    *memory = (struct memory){.flash = NULL};
+}
+
+static uint8_t *inside(uint8_t *memory, uint32_t base, uint32_t size, uint32_t address, uint32_t bytes)
+{
+    return address - base < size && bytes <= size - (address - base) ? memory + (address - base) : NULL;
+}
+
+uint8_t *memory_find(struct memory *memory, uint32_t address, uint32_t bytes)
+{
+    uint8_t *found = inside(memory->sram, MEMORY_SRAM_BASE, MEMORY_SRAM_BYTES, address, bytes);
+    if (found == NULL) {
+        found = inside(memory->flash, MEMORY_FLASH_BASE, MEMORY_FLASH_BYTES, address, bytes);
+    }
+    if (found == NULL) {
+        found = inside(memory->ccm, MEMORY_CCM_BASE, MEMORY_CCM_BYTES, address, bytes);
+    }
+    if (found == NULL) {
+        found = inside(memory->flash, 0, MEMORY_FLASH_BYTES, address, bytes);
+    }
+    return found;
+}
+
+bool memory_read_word(struct memory *memory, uint32_t address, uint32_t *word)
+{
+    const uint8_t *bytes = memory_find(memory, address, 4);
+    if (bytes == NULL) {
+        return false;
+    }
+    *word = (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+    return true;
+}

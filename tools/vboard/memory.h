@@ -1,0 +1,47 @@
+/*
+ * The memories of an STM32F405/407 with 1 MB of flash (RM0090 section 2.3), as arrays of the host that Unicorn maps.
+ */
+#ifndef MEMORY_H
+#define MEMORY_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct board;
+
+#define MEMORY_FLASH_BASE UINT32_C(0x08000000)
+#define MEMORY_FLASH_BYTES UINT32_C(0x100000)
+#define MEMORY_CCM_BASE UINT32_C(0x10000000)
+#define MEMORY_CCM_BYTES UINT32_C(0x10000)
+#define MEMORY_SYSTEM_BASE UINT32_C(0x1FFF7000) /* one-time area, unique id and size of the flash */
+#define MEMORY_OPTIONS_BASE UINT32_C(0x1FFFC000)
+#define MEMORY_PAGE_BYTES UINT32_C(0x1000)
+#define MEMORY_SRAM_BASE UINT32_C(0x20000000)
+#define MEMORY_SRAM_BYTES UINT32_C(0x20000)
+
+/* What the RAM holds at power-on, so that use of what was never written shows and the stack can be measured. */
+#define MEMORY_UNTOUCHED UINT8_C(0xA5)
+
+struct memory {
+    uint8_t *flash;
+    uint8_t *ccm;
+    uint8_t *sram;
+    uint8_t *system;
+    uint8_t *options;
+};
+
+bool memory_init(struct board *board);
+void memory_discard(struct memory *memory);
+
+/* Where `bytes` bytes at an address of a memory are; null if they are not all inside one. */
+uint8_t *memory_find(struct memory *memory, uint32_t address, uint32_t bytes);
+
+/* Word of any memory, little-endian; false if there is none. */
+bool memory_read_word(struct memory *memory, uint32_t address, uint32_t *word);
+
+static inline bool memory_is_flash(uint32_t address)
+{
+    return address - MEMORY_FLASH_BASE < MEMORY_FLASH_BYTES || address < MEMORY_FLASH_BYTES;
+}
+
+#endif

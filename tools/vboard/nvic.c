@@ -1,0 +1,267 @@
+#include "nvic.h"
+
+#include "board.h"
+
+enum {
+    PRIORITY_MASK = 0xF0, /* four bits are implemented (RM0090 section 12.1.1) */
+    PRIORITY_BITS = 8,
+    IRQ_WORDS = (NVIC_IRQS + 31) / 32,
+    WORD_BITS = 64,
+    OFFSET_ENABLE = 0x000,
+    OFFSET_DISABLE = 0x080,
+    OFFSET_PEND = 0x100,
+    OFFSET_UNPEND = 0x180,
+    OFFSET_ACTIVE = 0x200,
+    OFFSET_PRIORITY = 0x300,
+};
+
+static bool get(const uint64_t *words, unsigned exception)
+{
+    return (words[exception / WORD_BITS] >> exception % WORD_BITS & 1U) != 0;
+}
+
+static void set(uint64_t *words, unsigned exception, bool value)
+{
+    uint64_t bit = UINT64_C(1) << exception % WORD_BITS;
+    words[exception / WORD_BITS] = value ? words[exception / WORD_BITS] | bit : words[exception / WORD_BITS] & ~bit;
+}
+
+void nvic_reset(struct board *board)
+{
+    board->nvic = (struct nvic){.group_bits = 0};
+    static const uint8_t always[] = {NVIC_NMI, NVIC_HARD_FAULT, NVIC_SVC, NVIC_PENDSV, NVIC_SYSTICK};
+    for (unsigned i = 0; i < sizeof always; i++) {
+        set(board->nvic.enabled, always[i], true);
+    }
+}
+
+void nvic_pend(struct board *board, unsigned exception)
+{
+    struct nvic *nvic = &board->nvic;
+    if (!get(nvic->pending, exception)) {
+        set(nvic->pending, exception, true);
+        nvic->pended_cycle[exception] = board->event_cycle;
+        cpu_poke(&board->cpu);
+    }
+}
+
+void nvic_unpend(struct board *board, unsigned exception)
+{
+    set(board->nvic.pending, exception, false);
+}
+
+void nvic_set_line(struct board *board, enum nvic_irq irq, bool level)
+{
+    struct nvic *nvic = &board->nvic;
+    unsigned exception = NVIC_IRQ0 + (unsigned)irq;
+    if (get(nvic->level, exception) == level) {
+        return;
+    }
+    set(nvic->level, exception, level);
+    if (level) {
+        nvic_pend(board, exception);
+    } else {
+        nvic->low_cycle[exception] = bus_idle_cycle(board);
+    }
+}
+
+bool nvic_line_is_high(const struct board *board, unsigned exception)
+{
+    return get(board->nvic.level, exception) || board->cpu.now < board->nvic.low_cycle[exception];
+}
+
+bool nvic_is_active(const struct nvic *nvic, unsigned exception)
+{
+    return get(nvic->active, exception);
+}
+
+void nvic_set_active(struct nvic *nvic, unsigned exception, bool active)
+{
+    set(nvic->active, exception, active);
+}
+
+void nvic_enable(struct nvic *nvic, unsigned exception, bool enabled)
+{
+    set(nvic->enabled, exception, enabled);
+}
+
+bool nvic_is_enabled(const struct nvic *nvic, unsigned exception)
+{
+    return get(nvic->enabled, exception);
+}
+
+/* The part of a priority that decides about pre-emption (PM0214 table 51). */
+static int group_part(const struct nvic *nvic, unsigned priority)
+{
+    return (int)(priority >> (nvic->group_bits + 1U) << (nvic->group_bits + 1U));
+}
+
+int nvic_group_priority(const struct nvic *nvic, unsigned exception)
+{
+    switch (exception) {
+    case NVIC_RESET:
+        return -3;
+    case NVIC_NMI:
+        return NVIC_PRIORITY_NMI;
+    case NVIC_HARD_FAULT:
+        return NVIC_PRIORITY_HARD_FAULT;
+    default:
+        return group_part(nvic, nvic->priority[exception]);
+    }
+}
+
+int nvic_active_priority(const struct nvic *nvic)
+{
+    int priority = NVIC_PRIORITY_IDLE;
+    for (unsigned word = 0; word < NVIC_WORDS; word++) {
+        for (uint64_t bits = nvic->active[word]; bits != 0; bits &= bits - 1U) {
+            int other = nvic_group_priority(nvic, word * WORD_BITS + (unsigned)__builtin_ctzll(bits));
+            priority = other < priority ? other : priority;
+        }
+    }
+    return priority;
+}
+
+static int base_priority(struct board *board)
+{
+    uint32_t base = cpu_read(&board->cpu, UC_ARM_REG_BASEPRI) & PRIORITY_MASK;
+    return base == 0 ? NVIC_PRIORITY_IDLE : group_part(&board->nvic, base);
+}
+
+static int lower(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+int nvic_running_priority(struct board *board)
+{
+    int priority = lower(nvic_active_priority(&board->nvic), base_priority(board));
+    if ((cpu_read(&board->cpu, UC_ARM_REG_PRIMASK) & 1U) != 0) {
+        priority = lower(priority, 0);
+    }
+    if ((cpu_read(&board->cpu, UC_ARM_REG_FAULTMASK) & 1U) != 0) {
+        priority = lower(priority, NVIC_PRIORITY_HARD_FAULT);
+    }
+    return priority;
+}
+
+/* Order among what is pending: group priority, sub-priority, number. The whole priority gives the first two. */
+static int pending_order(const struct nvic *nvic, unsigned exception)
+{
+    return exception < NVIC_MEM_MANAGE ? nvic_group_priority(nvic, exception) : nvic->priority[exception];
+}
+
+unsigned nvic_next_pending(const struct nvic *nvic)
+{
+    unsigned best = NVIC_NONE;
+    for (unsigned word = 0; word < NVIC_WORDS; word++) {
+        for (uint64_t bits = nvic->pending[word] & nvic->enabled[word]; bits != 0; bits &= bits - 1U) {
+            unsigned exception = word * WORD_BITS + (unsigned)__builtin_ctzll(bits);
+            if (best == NVIC_NONE || pending_order(nvic, exception) < pending_order(nvic, best)) {
+                best = exception;
+            }
+        }
+    }
+    return best;
+}
+
+bool nvic_can_take(struct board *board)
+{
+    unsigned next = nvic_next_pending(&board->nvic);
+    if (next == NVIC_NONE || nvic_group_priority(&board->nvic, next) >= nvic_active_priority(&board->nvic)) {
+        return false;
+    }
+    return nvic_group_priority(&board->nvic, next) < nvic_running_priority(board);
+}
+
+/* PM0214 section 2.5.1: PRIMASK does not keep the processor asleep. */
+bool nvic_can_wake(struct board *board)
+{
+    unsigned next = nvic_next_pending(&board->nvic);
+    return next != NVIC_NONE && nvic_group_priority(&board->nvic, next) <
+                                    lower(nvic_active_priority(&board->nvic), base_priority(board));
+}
+
+static uint32_t get_word(const uint64_t *words, unsigned word)
+{
+    unsigned bit = NVIC_IRQ0 + 32U * word;
+    uint64_t low = words[bit / WORD_BITS] >> bit % WORD_BITS;
+    uint64_t high = bit % WORD_BITS > 32 && bit / WORD_BITS + 1U < NVIC_WORDS
+                        ? words[bit / WORD_BITS + 1U] << (WORD_BITS - bit % WORD_BITS)
+                        : 0;
+    return (uint32_t)(low | high);
+}
+
+bool nvic_read(struct board *board, uint32_t offset, uint32_t *value)
+{
+    struct nvic *nvic = &board->nvic;
+    unsigned word = (offset & 0x7FU) / 4U;
+    if (offset >= OFFSET_PRIORITY && offset - OFFSET_PRIORITY < NVIC_IRQS) {
+        *value = 0;
+        for (unsigned i = 0; i < 4 && NVIC_IRQ0 + offset - OFFSET_PRIORITY + i < NVIC_EXCEPTIONS; i++) {
+            *value |= (uint32_t)nvic->priority[NVIC_IRQ0 + offset - OFFSET_PRIORITY + i] << PRIORITY_BITS * i;
+        }
+        return true;
+    }
+    if (offset >= OFFSET_PRIORITY || word >= IRQ_WORDS) {
+        return false;
+    }
+    switch (offset & ~0x7FU) {
+    case OFFSET_ENABLE:
+    case OFFSET_DISABLE:
+        *value = get_word(nvic->enabled, word);
+        return true;
+    case OFFSET_PEND:
+    case OFFSET_UNPEND:
+        *value = get_word(nvic->pending, word);
+        return true;
+    case OFFSET_ACTIVE:
+        *value = get_word(nvic->active, word);
+        return true;
+    default:
+        return false;
+    }
+}
+
+static void write_bit(struct board *board, uint32_t offset, unsigned exception)
+{
+    switch (offset & ~0x7FU) {
+    case OFFSET_ENABLE:
+        set(board->nvic.enabled, exception, true);
+        break;
+    case OFFSET_DISABLE:
+        set(board->nvic.enabled, exception, false);
+        break;
+    case OFFSET_PEND:
+        nvic_pend(board, exception);
+        break;
+    default:
+        /* A line that is high pends it again at once. */
+        set(board->nvic.pending, exception, get(board->nvic.level, exception));
+        break;
+    }
+}
+
+bool nvic_write(struct board *board, uint32_t offset, uint32_t value, uint32_t mask)
+{
+    cpu_poke(&board->cpu);
+    if (offset >= OFFSET_PRIORITY && offset - OFFSET_PRIORITY < NVIC_IRQS) {
+        for (unsigned i = 0; i < 4 && NVIC_IRQ0 + offset - OFFSET_PRIORITY + i < NVIC_EXCEPTIONS; i++) {
+            if ((mask >> PRIORITY_BITS * i & 0xFFU) != 0) {
+                board->nvic.priority[NVIC_IRQ0 + offset - OFFSET_PRIORITY + i] =
+                    (uint8_t)(value >> PRIORITY_BITS * i & PRIORITY_MASK);
+            }
+        }
+        return true;
+    }
+    unsigned word = (offset & 0x7FU) / 4U;
+    if (offset >= OFFSET_ACTIVE || word >= IRQ_WORDS) {
+        return false;
+    }
+    for (unsigned i = 0; i < 32 && 32U * word + i < NVIC_IRQS; i++) {
+        if ((value & mask) >> i & 1U) {
+            write_bit(board, offset, NVIC_IRQ0 + 32U * word + i);
+        }
+    }
+    return true;
+}

@@ -1,0 +1,258 @@
+#include "options.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "line.h"
+#include "pins.h"
+#include "vtime.h"
+
+const char options_usage[] =
+    "usage: rkm04-vboard --elf FILE [OPTION ...]\n"
+    "\n"
+    "Runs the program of an STM32F405 or F407 instruction by instruction and prints a summary (JSON).\n"
+    "\n"
+    "  --elf FILE            the program\n"
+    "  --pins FILE           signals on pins: lines `m1_step PA0`, `bi1 PC0 low`, `line USART2`\n"
+    "  --for SECONDS         ends after so much virtual time (10)\n"
+    "  --end-at SYMBOL       ends when this function is reached\n"
+    "  --inputs FILE         levels of the inputs: lines ms,input,level\n"
+    "  --node N              the address on switch S1, 1 to 16 (1)\n"
+    "  --line-script FILE    bytes on the line: lines `ms hexbytes`; * behind a byte: framing error, ~: noise\n"
+    "  --line-log FILE       bytes the unit sends: lines `ms hexbyte`; * behind it: nobody could read it\n"
+    "  --baud RATE           of the line (19200)\n"
+    "  --pty PATH, --tcp PORT  a client on the line, in real time\n"
+    "  --steps, --vcd FILE   write pulses and waveforms\n"
+    "  --ticks reset|timer   the steps' ticks count from power-on or from the start of TIM2 (reset)\n"
+    "  --flash FILE          content of the flash, read before and written after\n"
+    "  --watch SYMBOL        a variable to be shown in the summary; may be repeated\n"
+    "  --stack-limit SYMBOL  the lowest address of the stack\n"
+    "  --measure-from MS     the statistics begin then (0)\n"
+    "cycle model:\n"
+    "  --refill P            cycles to refill the pipeline, 1 to 3 (3)\n"
+    "  --wait-states N       of the flash, 0 to 15 (as FLASH_ACR says)\n"
+    "  --apb-wait N          cycles by which an access to a slow bus takes longer (3)\n"
+    "  --art                 model the accelerator of the flash\n"
+    "  --match-equal         a compare value written while the timer stands on it matches\n"
+    "faults:\n"
+    "  --crystal MHZ         frequency of the crystal (8); --no-crystal: there is none\n"
+    "  --crystal-stops MS    it stops then\n"
+    "  --lsi HZ              rate of the watchdog's oscillator (32000)\n"
+    "  --slow-flash          flash times of the worst case\n"
+    "  --flash-fail N        the N-th operation of the flash fails\n"
+    "  --power-cut N         power is cut in the middle of the N-th one\n"
+    "  --stuck PIN=LEVEL     a pin is stuck; may be repeated\n"
+    "\n"
+    "example: rkm04-vboard --elf rkm04.elf --pins board.pins --line-script send.txt --for 2 --steps steps.csv\n";
+
+enum kind {
+    KIND_TEXT,
+    KIND_FLAG,
+    KIND_NUMBER,
+};
+
+#define SECONDS_DECIMALS 9
+#define MS_DECIMALS 6
+
+struct row {
+    const char *name;
+    enum kind kind;
+    size_t offset;     /* of the member: const char *, bool or uint64_t */
+    unsigned decimals; /* KIND_NUMBER */
+    uint64_t unit;     /* what one of the last decimals is worth */
+    uint64_t least;
+    uint64_t most;
+};
+
+#define TEXT(name, member) {name, KIND_TEXT, offsetof(struct options, member), 0, 0, 0, 0}
+#define FLAG(name, member) {name, KIND_FLAG, offsetof(struct options, member), 0, 0, 0, 0}
+
+static const struct row rows[] = {
+    TEXT("--elf", elf),
+    TEXT("--pins", pins),
+    TEXT("--inputs", inputs),
+    TEXT("--line-script", line_script),
+    TEXT("--line-log", line_log),
+    TEXT("--steps", steps),
+    TEXT("--vcd", vcd),
+    TEXT("--flash", flash),
+    TEXT("--pty", pty),
+    TEXT("--end-at", end_at),
+    TEXT("--stack-limit", stack_limit),
+    FLAG("--art", art),
+    FLAG("--no-crystal", no_crystal),
+    FLAG("--slow-flash", slow_flash),
+    FLAG("--match-equal", match_equal),
+    {"--for", KIND_NUMBER, offsetof(struct options, for_ps), SECONDS_DECIMALS, 1000, 1, UINT64_C(1000000000000000)},
+    {"--measure-from", KIND_NUMBER, offsetof(struct options, measure_from_ps), MS_DECIMALS, 1000, 0,
+     UINT64_C(1000000000000)},
+    {"--crystal-stops", KIND_NUMBER, offsetof(struct options, crystal_stops_ps), MS_DECIMALS, 1000, 0,
+     UINT64_C(1000000000000)},
+    {"--crystal", KIND_NUMBER, offsetof(struct options, crystal_hz), 6, 1, 4000000, 26000000},
+    {"--lsi", KIND_NUMBER, offsetof(struct options, lsi_hz), 0, 1, 17000, 47000},
+    {"--baud", KIND_NUMBER, offsetof(struct options, baud), 0, 1, 300, 4000000},
+    {"--flash-fail", KIND_NUMBER, offsetof(struct options, flash_fail), 0, 1, 1, UINT32_MAX},
+    {"--power-cut", KIND_NUMBER, offsetof(struct options, power_cut), 0, 1, 1, UINT32_MAX},
+};
+
+static bool read_number(const char *text, unsigned decimals, uint64_t least, uint64_t most, uint64_t *number)
+{
+    const char *at = text;
+    const char *end = text + strlen(text);
+    return line_read_fixed(&at, end, decimals, most, number) && at == end && *number >= least;
+}
+
+static bool read_small(const char *name, const char *text, uint64_t least, uint64_t most, uint64_t *number)
+{
+    if (!read_number(text, 0, least, most, number)) {
+        complain("%s %s: not a number from %u to %u; see --help", name, text, (unsigned)least, (unsigned)most);
+        return false;
+    }
+    return true;
+}
+
+static bool read_stuck(struct options *options, const char *text)
+{
+    char name[8] = "";
+    const char *equals = strchr(text, '=');
+    size_t length = equals == NULL ? 0 : (size_t)(equals - text);
+    struct options_stuck *stuck = &options->stuck[options->stucks];
+    if (options->stucks < OPTIONS_STUCK_MAX && length > 0 && length < sizeof name) {
+        memcpy(name, text, length);
+        stuck->level = equals[1] == '1';
+        if (pins_read_name(name, &stuck->pin) && (equals[1] == '0' || equals[1] == '1') && equals[2] == '\0') {
+            options->stucks++;
+            return true;
+        }
+    }
+    complain("--stuck %s: not a pin and its level, or too many; write for example PA0=1", text);
+    return false;
+}
+
+/* The options that are not in the table. False after a complaint. */
+static bool read_special(struct options *options, const char *name, const char *text, bool *known)
+{
+    uint64_t number = 0;
+    *known = true;
+    if (strcmp(name, "--watch") == 0) {
+        if (options->watches == OPTIONS_WATCHES_MAX) {
+            complain("--watch %s: one too many; %d can be watched", text, OPTIONS_WATCHES_MAX);
+            return false;
+        }
+        options->watch[options->watches++] = text;
+        return true;
+    }
+    if (strcmp(name, "--stuck") == 0) {
+        return read_stuck(options, text);
+    }
+    if (strcmp(name, "--ticks") == 0) {
+        options->ticks_from_timer = strcmp(text, "timer") == 0;
+        if (!options->ticks_from_timer && strcmp(text, "reset") != 0) {
+            complain("--ticks %s: write reset or timer", text);
+            return false;
+        }
+        return true;
+    }
+    if (strcmp(name, "--node") == 0) {
+        bool good = read_small(name, text, 1, 16, &number);
+        options->node = (unsigned)number;
+        return good;
+    }
+    if (strcmp(name, "--refill") == 0) {
+        bool good = read_small(name, text, 1, 3, &number);
+        options->refill = (uint32_t)number;
+        return good;
+    }
+    if (strcmp(name, "--wait-states") == 0) {
+        bool good = read_small(name, text, 0, 15, &number);
+        options->wait_states = (int)number;
+        return good;
+    }
+    if (strcmp(name, "--apb-wait") == 0) {
+        bool good = read_small(name, text, 0, 100, &number);
+        options->apb_wait = (uint32_t)number;
+        return good;
+    }
+    if (strcmp(name, "--tcp") == 0) {
+        options->tcp = read_small(name, text, 0, 65535, &number);
+        options->tcp_port = (unsigned)number;
+        return options->tcp;
+    }
+    *known = false;
+    return true;
+}
+
+static bool read_row(struct options *options, const struct row *row, const char *text)
+{
+    char *member = (char *)options + row->offset;
+    if (row->kind == KIND_TEXT) {
+        memcpy(member, &text, sizeof text);
+        return true;
+    }
+    uint64_t number = 0;
+    if (!read_number(text, row->decimals, row->least, row->most, &number)) {
+        complain("%s %s: not such a number, or out of range; see --help", row->name, text);
+        return false;
+    }
+    number *= row->unit;
+    memcpy(member, &number, sizeof number);
+    return true;
+}
+
+static const struct row *find_row(const char *name)
+{
+    for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
+        if (strcmp(rows[i].name, name) == 0) {
+            return &rows[i];
+        }
+    }
+    return NULL;
+}
+
+/* Reads one option; `text` is what stands behind it. False after a complaint. */
+static bool read_option(struct options *options, const char *name, const char *text, bool *took_text)
+{
+    const struct row *row = find_row(name);
+    bool known = row != NULL;
+    *took_text = true;
+    if (known && row->kind == KIND_FLAG) {
+        bool yes = true;
+        memcpy((char *)options + row->offset, &yes, sizeof yes);
+        *took_text = false;
+        return true;
+    }
+    if (text == NULL) {
+        complain("%s: unknown, or something must stand behind it; see --help", name);
+        return false;
+    }
+    bool good = known ? read_row(options, row, text) : read_special(options, name, text, &known);
+    if (!known) {
+        complain("%s: no such option; see --help", name);
+    }
+    return good && known;
+}
+
+enum exit_status options_read(struct options *options, int count, char *const arguments[])
+{
+    *options = (struct options){.for_ps = 10 * VTIME_PS_PER_SECOND,
+                                .crystal_hz = 8000000,
+                                .crystal_stops_ps = VTIME_NEVER,
+                                .lsi_hz = 32000,
+                                .baud = 19200,
+                                .node = 1,
+                                .refill = 3,
+                                .apb_wait = 3,
+                                .wait_states = -1};
+    for (int i = 0; i < count; i++) {
+        bool took_text = false;
+        if (!read_option(options, arguments[i], i + 1 < count ? arguments[i + 1] : NULL, &took_text)) {
+            return EXIT_USAGE;
+        }
+        i += took_text ? 1 : 0;
+    }
+    if (options->elf == NULL) {
+        complain("no program; write --elf FILE");
+        return EXIT_USAGE;
+    }
+    return EXIT_DONE;
+}

@@ -1,0 +1,65 @@
+/*
+ * The command line.
+ */
+#ifndef OPTIONS_H
+#define OPTIONS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "complain.h"
+#include "gpio.h"
+
+enum {
+    OPTIONS_WATCHES_MAX = 32,
+    OPTIONS_STUCK_MAX = 16,
+};
+
+struct options_stuck {
+    struct pin pin;
+    bool level;
+};
+
+struct options {
+    const char *elf;
+    const char *pins;
+    const char *inputs;
+    const char *line_script;
+    const char *line_log;
+    const char *steps;
+    const char *vcd;
+    const char *flash;
+    const char *pty;
+    const char *end_at;      /* symbol of a function; null: none */
+    const char *stack_limit; /* symbol; null: found from the image */
+    const char *watch[OPTIONS_WATCHES_MAX];
+    unsigned watches;
+    struct options_stuck stuck[OPTIONS_STUCK_MAX];
+    unsigned stucks;
+    bool tcp;
+    unsigned tcp_port;
+    uint64_t for_ps;
+    uint64_t measure_from_ps;
+    uint64_t crystal_hz;
+    uint64_t crystal_stops_ps; /* NEVER */
+    uint64_t lsi_hz;
+    uint64_t baud;
+    uint64_t flash_fail;       /* the operation, from 1; 0: none */
+    uint64_t power_cut;
+    unsigned node;
+    uint32_t refill;
+    uint32_t apb_wait;
+    int wait_states;           /* -1: as FLASH_ACR says */
+    bool art;
+    bool no_crystal;
+    bool slow_flash;
+    bool match_equal;
+    bool ticks_from_timer;
+};
+
+extern const char options_usage[];
+
+/* EXIT_DONE, or EXIT_USAGE after a complaint. */
+enum exit_status options_read(struct options *options, int count, char *const arguments[]);
+
+#endif

@@ -1,0 +1,23 @@
+/*
+ * Blocks that are no more than registers here: power control (RM0090 chapter 5) and system configuration (chapter 9).
+ */
+#ifndef PLAIN_H
+#define PLAIN_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct board;
+
+struct plain {
+    uint32_t pwr_cr;
+    uint32_t syscfg[5];
+};
+
+void plain_reset(struct board *board);
+bool pwr_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);
+bool pwr_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask);
+bool syscfg_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);
+bool syscfg_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask);
+
+#endif

@@ -1,0 +1,275 @@
+#include "rcc.h"
+
+#include "board.h"
+
+enum {
+    RCC_CR = 0x00,
+    RCC_CIR = 0x0C,
+    RCC_AHB1RSTR = 0x10,
+    RCC_APB1RSTR = 0x20,
+    RCC_APB2RSTR = 0x24,
+    RCC_AHB2ENR = 0x34,
+    RCC_AHB3ENR = 0x38,
+    RCC_AHB1LPENR = 0x50,
+    RCC_APB2LPENR = 0x64,
+    RCC_BDCR = 0x70,
+    RCC_CSR = 0x74,
+    RCC_SSCGR = 0x80,
+    RCC_PLLI2SCFGR = 0x84,
+};
+
+#define CR_HSION (UINT32_C(1) << 0)
+#define CR_HSIRDY (UINT32_C(1) << 1)
+#define CR_HSEON (UINT32_C(1) << 16)
+#define CR_HSERDY (UINT32_C(1) << 17)
+#define CR_CSSON (UINT32_C(1) << 19)
+#define CR_PLLON (UINT32_C(1) << 24)
+#define CR_PLLRDY (UINT32_C(1) << 25)
+#define CR_WRITABLE (CR_HSION | (UINT32_C(0x1F) << 3) | CR_HSEON | (UINT32_C(1) << 18) | CR_CSSON | CR_PLLON)
+#define CR_RESET (CR_HSION | UINT32_C(0x80))
+#define PLLCFGR_RESET UINT32_C(0x24003010)
+#define CIR_CSSF (UINT32_C(1) << 7)
+#define CIR_CSSC (UINT32_C(1) << 23)
+#define CIR_ENABLES UINT32_C(0x3F00)
+#define CSR_LSION (UINT32_C(1) << 0)
+#define CSR_LSIRDY (UINT32_C(1) << 1)
+#define CSR_RMVF (UINT32_C(1) << 24)
+#define CSR_FLAGS_POWER UINT32_C(0x0E000000)    /* POR, PIN, BOR */
+#define CSR_FLAGS_SOFTWARE UINT32_C(0x14000000) /* SFT, and PIN, as the part pulls NRST itself */
+#define CSR_FLAGS_WATCHDOG UINT32_C(0x24000000) /* IWDG and PIN */
+
+/* Start-up times, typical, from the data sheet of the STM32F405 (tables of HSE, HSI, LSI and PLL). */
+#define HSE_START_PS (2 * VTIME_PS_PER_MS)
+#define HSI_START_PS (2 * VTIME_PS_PER_US)
+#define LSI_START_PS (15 * VTIME_PS_PER_US)
+#define PLL_LOCK_PS (200 * VTIME_PS_PER_US)
+
+static uint32_t *word(struct rcc *rcc, uint32_t offset)
+{
+    return &rcc->word[offset / 4U];
+}
+
+static uint64_t ready_ps(const struct rcc *rcc, unsigned source)
+{
+    const uint64_t ready[] = {rcc->hsi_ready_ps, rcc->hse_ready_ps, rcc->pll_ready_ps};
+    return ready[source];
+}
+
+/* The switch waits until the source that was asked for is ready (RM0090 section 7.2.6). */
+static void update_switch(struct board *board)
+{
+    struct rcc *rcc = &board->rcc;
+    unsigned wanted = *word(rcc, RCC_CFGR) & 3U;
+    if (wanted > RCC_SOURCE_PLL) {
+        board_fail(board, "RCC_CFGR asks for a system clock that does not exist");
+        return;
+    }
+    uint64_t ready = ready_ps(rcc, wanted);
+    bool is_ready = ready <= board_now_ps(board);
+    if (is_ready) {
+        rcc->source = wanted;
+    }
+    events_set_ps(board, EVENT_RCC, is_ready ? VTIME_NEVER : ready);
+    rcc_apply(board);
+}
+
+void rcc_event(struct board *board, uint64_t cycle)
+{
+    (void)cycle;
+    update_switch(board);
+}
+
+static uint64_t started(struct board *board, uint64_t ready, bool on, uint64_t start_ps)
+{
+    if (!on) {
+        return VTIME_NEVER;
+    }
+    return ready != VTIME_NEVER ? ready : board_now_ps(board) + start_ps;
+}
+
+static void write_cr(struct board *board, uint32_t value)
+{
+    struct rcc *rcc = &board->rcc;
+    *word(rcc, RCC_CR) = value & CR_WRITABLE;
+    bool crystal = (value & CR_HSEON) != 0 && !board->options->no_crystal && !rcc->crystal_failed;
+    rcc->hsi_ready_ps = started(board, rcc->hsi_ready_ps, (value & CR_HSION) != 0, HSI_START_PS);
+    rcc->hse_ready_ps = started(board, rcc->hse_ready_ps, crystal, HSE_START_PS);
+    bool locks = (value & CR_PLLON) != 0;
+    if ((*word(rcc, RCC_PLLCFGR) & RCC_PLLCFGR_HSE) != 0 && rcc->hse_ready_ps > board_now_ps(board)) {
+        locks = false;
+    }
+    rcc->pll_ready_ps = started(board, rcc->pll_ready_ps, locks, PLL_LOCK_PS);
+    if ((rcc->source == RCC_SOURCE_PLL && (value & CR_PLLON) == 0) ||
+        (rcc->source == RCC_SOURCE_HSE && (value & CR_HSEON) == 0)) {
+        board_fail(board, "RCC_CR switches off the clock that the processor runs on");
+    }
+    update_switch(board);
+}
+
+static uint32_t ready_bits(struct board *board)
+{
+    const struct rcc *rcc = &board->rcc;
+    uint64_t now = board_now_ps(board);
+    return (rcc->hsi_ready_ps <= now ? CR_HSIRDY : 0U) | (rcc->hse_ready_ps <= now ? CR_HSERDY : 0U) |
+           (rcc->pll_ready_ps <= now ? CR_PLLRDY : 0U);
+}
+
+void rcc_start_lsi(struct board *board)
+{
+    *word(&board->rcc, RCC_CSR) |= CSR_LSION;
+    board->rcc.lsi_ready_ps = started(board, board->rcc.lsi_ready_ps, true, LSI_START_PS);
+}
+
+static void write_csr(struct board *board, uint32_t value)
+{
+    struct rcc *rcc = &board->rcc;
+    *word(rcc, RCC_CSR) = value & CSR_LSION;
+    rcc->lsi_ready_ps = started(board, rcc->lsi_ready_ps, (value & CSR_LSION) != 0, LSI_START_PS);
+    if ((value & CSR_RMVF) != 0) {
+        rcc->reset_flags = 0;
+    }
+}
+
+/* The crystal stops: with the clock security system on, the part goes on with HSI and an NMI (section 7.2.7). */
+void rcc_crystal_event(struct board *board, uint64_t cycle)
+{
+    struct rcc *rcc = &board->rcc;
+    bool on_crystal = rcc->source == RCC_SOURCE_HSE ||
+                      (rcc->source == RCC_SOURCE_PLL && (*word(rcc, RCC_PLLCFGR) & RCC_PLLCFGR_HSE) != 0);
+    bool was_ready = rcc->hse_ready_ps <= board_now_ps(board);
+    (void)cycle;
+    rcc->crystal_failed = true;
+    rcc->hse_ready_ps = VTIME_NEVER;
+    if ((*word(rcc, RCC_CR) & CR_CSSON) != 0 && was_ready) {
+        *word(rcc, RCC_CR) &= ~(CR_HSEON | CR_CSSON);
+        if (on_crystal) {
+            *word(rcc, RCC_CR) = (*word(rcc, RCC_CR) & ~CR_PLLON) | CR_HSION;
+            *word(rcc, RCC_CFGR) &= ~UINT32_C(3);
+            rcc->pll_ready_ps = VTIME_NEVER;
+            rcc->hsi_ready_ps = 0;
+            update_switch(board);
+        }
+        rcc->css_flag = true;
+        nvic_pend(board, NVIC_NMI);
+    } else if (on_crystal) {
+        board_stop_clock(board);
+    }
+}
+
+bool rcc_clock_is_on(const struct rcc *rcc, uint32_t offset, unsigned bit)
+{
+    return offset == 0 || (rcc->word[offset / 4U] >> bit & 1U) != 0;
+}
+
+void rcc_reset(struct board *board, enum reset_cause cause)
+{
+    struct rcc *rcc = &board->rcc;
+    uint32_t flags = rcc->reset_flags;
+    bool failed = rcc->crystal_failed;
+    flags = cause == RESET_POWER ? CSR_FLAGS_POWER : flags;
+    flags |= cause == RESET_SOFTWARE ? CSR_FLAGS_SOFTWARE : 0U;
+    flags |= cause == RESET_WATCHDOG ? CSR_FLAGS_WATCHDOG : 0U;
+    *rcc = (struct rcc){.hse_ready_ps = VTIME_NEVER, .pll_ready_ps = VTIME_NEVER, .lsi_ready_ps = VTIME_NEVER};
+    rcc->reset_flags = flags;
+    rcc->crystal_failed = failed;
+    *word(rcc, RCC_CR) = CR_RESET;
+    *word(rcc, RCC_PLLCFGR) = PLLCFGR_RESET;
+    *word(rcc, RCC_AHB1ENR) = UINT32_C(1) << 20; /* CCM RAM */
+    *word(rcc, RCC_AHB1LPENR) = UINT32_C(0x7E6791FF);
+    *word(rcc, 0x54) = UINT32_C(0x000000F1);
+    *word(rcc, 0x58) = UINT32_C(0x00000001);
+    *word(rcc, 0x60) = UINT32_C(0x36FEC9FF);
+    *word(rcc, RCC_APB2LPENR) = UINT32_C(0x00075F33);
+    *word(rcc, RCC_PLLI2SCFGR) = UINT32_C(0x20003000);
+    events_set(board, EVENT_RCC, VTIME_NEVER);
+    rcc_apply(board);
+}
+
+static bool is_known(uint32_t offset)
+{
+    static const uint8_t offsets[] = {RCC_CR,      RCC_PLLCFGR, RCC_CFGR,    RCC_CIR,       0x10, 0x14, 0x18,
+                                      0x20,        0x24,        RCC_AHB1ENR, RCC_AHB2ENR,   RCC_AHB3ENR,
+                                      RCC_APB1ENR, RCC_APB2ENR, 0x50,        0x54,          0x58, 0x60, 0x64,
+                                      RCC_BDCR,    RCC_CSR,     RCC_SSCGR,   RCC_PLLI2SCFGR};
+    for (unsigned i = 0; i < sizeof offsets; i++) {
+        if (offsets[i] == offset) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool rcc_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
+{
+    struct rcc *rcc = &board->rcc;
+    (void)instance;
+    if (!is_known(offset)) {
+        return false;
+    }
+    *value = *word(rcc, offset);
+    if (offset == RCC_CR) {
+        *value |= ready_bits(board);
+    } else if (offset == RCC_CFGR) {
+        *value = (*value & ~UINT32_C(0xC)) | rcc->source << 2;
+    } else if (offset == RCC_CIR) {
+        *value |= rcc->css_flag ? CIR_CSSF : 0U;
+    } else if (offset == RCC_CSR) {
+        *value |= rcc->reset_flags | (rcc->lsi_ready_ps <= board_now_ps(board) ? CSR_LSIRDY : 0U);
+    }
+    return true;
+}
+
+static void write_pllcfgr(struct board *board, uint32_t value)
+{
+    if ((*word(&board->rcc, RCC_CR) & CR_PLLON) != 0) {
+        board_fail(board, "RCC_PLLCFGR must be written only while the PLL is off");
+    }
+    *word(&board->rcc, RCC_PLLCFGR) = value & UINT32_C(0x0F437FFF);
+}
+
+static void write_cir(struct board *board, uint32_t value)
+{
+    if ((value & CIR_ENABLES) != 0) {
+        board_fail(board, "RCC_CIR: interrupts of ready clocks are not modelled");
+    }
+    if ((value & CIR_CSSC) != 0) {
+        board->rcc.css_flag = false;
+    }
+}
+
+bool rcc_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask)
+{
+    struct rcc *rcc = &board->rcc;
+    (void)instance;
+    if (!is_known(offset)) {
+        return false;
+    }
+    uint32_t whole = (*word(rcc, offset) & ~mask) | (value & mask);
+    switch (offset) {
+    case RCC_CR:
+        write_cr(board, whole);
+        return true;
+    case RCC_PLLCFGR:
+        write_pllcfgr(board, whole);
+        return true;
+    case RCC_CFGR:
+        *word(rcc, RCC_CFGR) = whole & ~UINT32_C(0xC);
+        update_switch(board);
+        return true;
+    case RCC_CIR:
+        write_cir(board, value & mask);
+        return true;
+    case RCC_CSR:
+        write_csr(board, whole);
+        return true;
+    case RCC_AHB1RSTR:
+    case RCC_APB1RSTR:
+    case RCC_APB2RSTR:
+        *word(rcc, offset) = whole;
+        board_reset_peripherals(board, offset, whole);
+        return true;
+    default:
+        *word(rcc, offset) = whole;
+        return true;
+    }
+}

@@ -1,0 +1,58 @@
+/*
+ * System control block, with the floating-point context registers and the debug registers that a program may look at
+ * (PM0214 section 4.4; ARMv7-M C1.6 for DEMCR).
+ */
+#ifndef SCB_H
+#define SCB_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct board;
+
+#define SCB_CFSR_IBUSERR (UINT32_C(1) << 8)
+#define SCB_CFSR_PRECISERR (UINT32_C(1) << 9)
+#define SCB_CFSR_UNSTKERR (UINT32_C(1) << 11)
+#define SCB_CFSR_STKERR (UINT32_C(1) << 12)
+#define SCB_CFSR_BFARVALID (UINT32_C(1) << 15)
+#define SCB_CFSR_UNDEFINSTR (UINT32_C(1) << 16)
+#define SCB_CFSR_INVSTATE (UINT32_C(1) << 17)
+#define SCB_CFSR_INVPC (UINT32_C(1) << 18)
+#define SCB_CFSR_NOCP (UINT32_C(1) << 19)
+#define SCB_CFSR_UNALIGNED (UINT32_C(1) << 24)
+#define SCB_CFSR_DIVBYZERO (UINT32_C(1) << 25)
+#define SCB_CFSR_USAGE UINT32_C(0xFFFF0000)
+#define SCB_HFSR_VECTTBL (UINT32_C(1) << 1)
+#define SCB_HFSR_FORCED (UINT32_C(1) << 30)
+#define SCB_HFSR_DEBUGEVT (UINT32_C(1) << 31)
+#define SCB_SCR_SLEEPONEXIT (UINT32_C(1) << 1)
+#define SCB_SCR_SEVONPEND (UINT32_C(1) << 4)
+#define SCB_DEMCR_TRCENA (UINT32_C(1) << 24)
+
+struct scb {
+    uint32_t vtor;
+    uint32_t scr;
+    uint32_t ccr;
+    uint32_t shcsr_enables;
+    uint32_t cfsr;
+    uint32_t hfsr;
+    uint32_t dfsr;
+    uint32_t mmfar;
+    uint32_t bfar;
+    uint32_t cpacr;
+    uint32_t fpccr;
+    uint32_t fpcar;
+    uint32_t fpdscr;
+    uint32_t demcr;
+};
+
+void scb_reset(struct board *board);
+
+/* Registers at E000ED00 on, and those at E000E004 and E000EF00. False: there is none. */
+bool scb_read(struct board *board, uint32_t offset, uint32_t *value);
+bool scb_write(struct board *board, uint32_t offset, uint32_t value, uint32_t mask);
+
+/* Whether floating-point instructions may run: CPACR gives full access to both coprocessors. */
+bool scb_float_is_enabled(const struct scb *scb);
+
+#endif

@@ -1,0 +1,11 @@
+/*
+ * The summary of a run on standard output, one JSON object.
+ */
+#ifndef SUMMARY_H
+#define SUMMARY_H
+
+struct board;
+
+void summary_print(struct board *board);
+
+#endif

@@ -1,0 +1,111 @@
+/*
+ * From a match of a timer's channel to the level of its pins (RM0090 sections 18.3.8 to 18.3.10 and 18.4.7; the pins
+ * are those of the data sheet's table of alternate functions).
+ */
+#include "board.h"
+
+enum {
+    MODE_FROZEN,
+    MODE_ACTIVE,   /* at a match */
+    MODE_INACTIVE, /* at a match */
+    MODE_TOGGLE,   /* at a match */
+    MODE_FORCE_INACTIVE,
+    MODE_FORCE_ACTIVE,
+    MODE_PWM1,
+    MODE_PWM2,
+    PINS_PER_CHANNEL = 3,
+    NO_PORT = 0xFF,
+};
+
+#define NO_PIN {.port = NO_PORT}
+#define PIN(letter, bit) {.port = (letter) - 'A', .number = (bit)}
+
+static const struct pin pins[TIMERS][TIMER_CHANNELS][PINS_PER_CHANNEL] = {
+    {{PIN('A', 0), PIN('A', 5), PIN('A', 15)},
+     {PIN('A', 1), PIN('B', 3), NO_PIN},
+     {PIN('A', 2), PIN('B', 10), NO_PIN},
+     {PIN('A', 3), PIN('B', 11), NO_PIN}},
+    {{PIN('A', 6), PIN('B', 4), PIN('C', 6)},
+     {PIN('A', 7), PIN('B', 5), PIN('C', 7)},
+     {PIN('B', 0), PIN('C', 8), NO_PIN},
+     {PIN('B', 1), PIN('C', 9), NO_PIN}},
+    {{PIN('B', 6), PIN('D', 12), NO_PIN},
+     {PIN('B', 7), PIN('D', 13), NO_PIN},
+     {PIN('B', 8), PIN('D', 14), NO_PIN},
+     {PIN('B', 9), PIN('D', 15), NO_PIN}},
+    {{PIN('A', 0), PIN('H', 10), NO_PIN},
+     {PIN('A', 1), PIN('H', 11), NO_PIN},
+     {PIN('A', 2), PIN('H', 12), NO_PIN},
+     {PIN('A', 3), PIN('I', 0), NO_PIN}},
+};
+
+unsigned timer_output_mode(const struct timer *timer, unsigned channel)
+{
+    return timer->ccmr[channel / 2U] >> (8U * (channel % 2U) + 4U) & 7U;
+}
+
+static void tell_pins(struct board *board, unsigned instance, unsigned channel, uint64_t cycle)
+{
+    struct timer *timer = &board->timer[instance];
+    struct timer_channel *at = &timer->channel[channel];
+    uint32_t enable = timer->ccer >> 4U * channel;
+    bool driven = (enable & 1U) != 0;
+    bool level = driven && at->reference != ((enable & 2U) != 0);
+    if (level == at->pin_level && driven == at->pin_driven) {
+        return;
+    }
+    at->pin_level = level;
+    at->pin_driven = driven;
+    for (unsigned i = 0; i < PINS_PER_CHANNEL; i++) {
+        if (pins[instance][channel][i].port != NO_PORT) {
+            unsigned function = instance == 0 ? GPIO_AF_TIM2 : GPIO_AF_TIM3_TO_5;
+            gpio_drive(board, pins[instance][channel][i], function, driven, level, cycle);
+        }
+    }
+}
+
+void timer_update_output(struct board *board, unsigned instance, unsigned channel, uint64_t cycle)
+{
+    struct timer *timer = &board->timer[instance];
+    struct timer_channel *at = &timer->channel[channel];
+    unsigned mode = timer_output_mode(timer, channel);
+    bool below = timer->count < at->compare && at->due != VTIME_NEVER;
+    switch (mode) {
+    case MODE_FORCE_INACTIVE:
+    case MODE_FORCE_ACTIVE:
+        at->reference = mode == MODE_FORCE_ACTIVE;
+        break;
+    case MODE_PWM1: /* active as long as the counter is below the value */
+    case MODE_PWM2:
+        at->reference = below == (mode == MODE_PWM1);
+        break;
+    default:
+        break;
+    }
+    tell_pins(board, instance, channel, cycle);
+}
+
+void timer_match_output(struct board *board, unsigned instance, unsigned channel, uint64_t cycle)
+{
+    struct timer_channel *at = &board->timer[instance].channel[channel];
+    switch (timer_output_mode(&board->timer[instance], channel)) {
+    case MODE_ACTIVE:
+        at->reference = true;
+        break;
+    case MODE_INACTIVE:
+        at->reference = false;
+        break;
+    case MODE_TOGGLE:
+        at->reference = !at->reference;
+        break;
+    case MODE_PWM1:
+        at->reference = false;
+        break;
+    case MODE_PWM2:
+        at->reference = true;
+        break;
+    default:
+        break;
+    }
+    tell_pins(board, instance, channel, cycle);
+}

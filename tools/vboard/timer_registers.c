@@ -1,0 +1,227 @@
+#include "timer_private.h"
+
+#include "board.h"
+
+enum {
+    TIM_CR1 = 0x00,
+    TIM_CR2 = 0x04,
+    TIM_SMCR = 0x08,
+    TIM_DIER = 0x0C,
+    TIM_SR = 0x10,
+    TIM_EGR = 0x14,
+    TIM_CCMR1 = 0x18,
+    TIM_CCMR2 = 0x1C,
+    TIM_CCER = 0x20,
+    TIM_CNT = 0x24,
+    TIM_PSC = 0x28,
+    TIM_ARR = 0x2C,
+    TIM_CCR1 = 0x34,
+    TIM_CCR4 = 0x40,
+    TIM_OR = 0x50,
+    CR1_MODELLED = 0x38F, /* not counting down, not centre-aligned; CKD does nothing here */
+    SR_FLAGS = 0x1E5F,
+    CCMR_PRELOAD = 1 << 3,
+    CCER_MODELLED = 0x3333,
+};
+
+bool timer_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
+{
+    const struct timer *timer = &board->timer[instance];
+    if (offset >= TIM_CCR1 && offset <= TIM_CCR4) {
+        *value = timer->channel[(offset - TIM_CCR1) / 4U].preload;
+        return true;
+    }
+    switch (offset) {
+    case TIM_CR1:
+        *value = timer->cr1;
+        return true;
+    case TIM_CR2:
+        *value = timer->cr2;
+        return true;
+    case TIM_DIER:
+        *value = timer->dier;
+        return true;
+    case TIM_SR:
+        *value = timer->sr;
+        return true;
+    case TIM_SMCR:
+    case TIM_EGR:
+        *value = 0;
+        return true;
+    case TIM_CCMR1:
+    case TIM_CCMR2:
+        *value = timer->ccmr[(offset - TIM_CCMR1) / 4U];
+        return true;
+    case TIM_CCER:
+        *value = timer->ccer;
+        return true;
+    case TIM_CNT:
+        *value = timer_count_at(board, instance, board->cpu.now);
+        return true;
+    case TIM_PSC:
+        *value = timer->psc;
+        return true;
+    case TIM_ARR:
+        *value = timer->arr;
+        return true;
+    case TIM_OR:
+        *value = timer->remap;
+        return timer_is_wide(instance);
+    default:
+        return false;
+    }
+}
+
+static void refuse(struct board *board, const char *what)
+{
+    board_fail(board, "a timer is asked for %s, which is not modelled", what);
+}
+
+static void write_cr1(struct board *board, unsigned instance, uint32_t value)
+{
+    struct timer *timer = &board->timer[instance];
+    if ((value & ~(uint32_t)CR1_MODELLED) != 0) {
+        refuse(board, "counting down or centre-aligned");
+    }
+    timer_move_anchor(board, instance, board->cpu.now);
+    if (!timer_runs(timer) && (value & TIMER_CR1_CEN) != 0) {
+        /* It begins to count one clock after CEN is set (section 18.3.2). */
+        timer->anchor_cycle = board->cpu.now + board->rcc.timer1_divider;
+        timer->start_cycle = timer->start_cycle == VTIME_NEVER ? timer->anchor_cycle : timer->start_cycle;
+    }
+    timer->cr1 = value;
+    timer_plan(board, instance, board->cpu.now);
+}
+
+static void write_egr(struct board *board, unsigned instance, uint32_t value)
+{
+    struct timer *timer = &board->timer[instance];
+    uint64_t now = board->cpu.now;
+    if ((value & 1U) != 0) {
+        timer->count = 0;
+        timer->anchor_cycle = now;
+        timer_update_event(board, instance, true);
+    }
+    for (unsigned i = 0; i < TIMER_CHANNELS; i++) {
+        if ((value & 2U << i) != 0) {
+            timer_match(board, instance, i, now);
+        }
+    }
+    timer_plan(board, instance, now);
+}
+
+static void write_ccmr(struct board *board, unsigned instance, unsigned index, uint32_t value)
+{
+    struct timer *timer = &board->timer[instance];
+    if ((value & 0x0303U) != 0) {
+        refuse(board, "input capture");
+    }
+    if ((value & 0x8080U) != 0) {
+        refuse(board, "clearing outputs by ETRF");
+    }
+    timer->ccmr[index] = value;
+    timer_update_output(board, instance, 2U * index, board->cpu.now);
+    timer_update_output(board, instance, 2U * index + 1U, board->cpu.now);
+}
+
+static void write_compare(struct board *board, unsigned instance, unsigned channel, uint32_t value)
+{
+    struct timer *timer = &board->timer[instance];
+    struct timer_channel *at = &timer->channel[channel];
+    at->preload = value & timer_width_mask(instance);
+    if ((timer->ccmr[channel / 2U] >> 8U * (channel % 2U) & CCMR_PRELOAD) == 0) {
+        at->compare = at->preload;
+        timer_find_match(board, instance, channel, board->cpu.now);
+        timer_set_event(board, instance);
+        timer_update_output(board, instance, channel, board->cpu.now);
+    }
+}
+
+static bool write_counter(struct board *board, unsigned instance, uint32_t offset, uint32_t value)
+{
+    struct timer *timer = &board->timer[instance];
+    timer_move_anchor(board, instance, board->cpu.now);
+    switch (offset) {
+    case TIM_CNT:
+        timer->count = value & timer_width_mask(instance);
+        timer->anchor_cycle = board->cpu.now;
+        break;
+    case TIM_PSC:
+        timer->psc = value & 0xFFFFU;
+        break;
+    default:
+        timer->arr = value & timer_width_mask(instance);
+        timer->arr_used = (timer->cr1 & TIMER_CR1_ARPE) != 0 ? timer->arr_used : timer->arr;
+        break;
+    }
+    timer_plan(board, instance, board->cpu.now);
+    return true;
+}
+
+static bool write_register(struct board *board, unsigned instance, uint32_t offset, uint32_t value)
+{
+    struct timer *timer = &board->timer[instance];
+    switch (offset) {
+    case TIM_CR1:
+        write_cr1(board, instance, value);
+        return true;
+    case TIM_CR2:
+        timer->cr2 = value;
+        return true;
+    case TIM_SMCR:
+        if (value != 0) {
+            refuse(board, "slave mode");
+        }
+        return true;
+    case TIM_DIER:
+        if ((value & ~(uint32_t)TIMER_DIER_MODELLED) != 0) {
+            refuse(board, "DMA or trigger interrupts");
+        }
+        timer->dier = value;
+        return true;
+    case TIM_SR: /* writing 0 clears, writing 1 does nothing */
+        timer->sr &= value | ~(uint32_t)SR_FLAGS;
+        return true;
+    case TIM_EGR:
+        write_egr(board, instance, value);
+        return true;
+    case TIM_CCMR1:
+    case TIM_CCMR2:
+        write_ccmr(board, instance, (offset - TIM_CCMR1) / 4U, value);
+        return true;
+    case TIM_CCER:
+        timer->ccer = value & CCER_MODELLED;
+        for (unsigned i = 0; i < TIMER_CHANNELS; i++) {
+            timer_update_output(board, instance, i, board->cpu.now);
+        }
+        return true;
+    case TIM_CNT:
+    case TIM_PSC:
+    case TIM_ARR:
+        return write_counter(board, instance, offset, value);
+    case TIM_OR:
+        timer->remap = value;
+        return timer_is_wide(instance) && value == 0;
+    default:
+        return false;
+    }
+}
+
+bool timer_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask)
+{
+    bool known = true;
+    if (mask != UINT32_MAX && offset != TIM_SR) {
+        uint32_t before = 0;
+        known = timer_read(board, instance, offset, &before);
+        value = (before & ~mask) | (value & mask);
+    } else if (mask != UINT32_MAX) {
+        value |= ~mask;
+    }
+    if (offset >= TIM_CCR1 && offset <= TIM_CCR4) {
+        write_compare(board, instance, (offset - TIM_CCR1) / 4U, value);
+    } else {
+        known = known && write_register(board, instance, offset, value);
+    }
+    timer_update_interrupt(board, instance);
+    return known;
+}

@@ -1,0 +1,328 @@
+#include "usart.h"
+
+#include "board.h"
+
+enum {
+    USART_SR = 0x00,
+    USART_DR = 0x04,
+    USART_BRR = 0x08,
+    USART_CR1 = 0x0C,
+    USART_CR2 = 0x10,
+    USART_CR3 = 0x14,
+    USART_GTPR = 0x18,
+    SR_PE = 1 << 0,
+    SR_FE = 1 << 1,
+    SR_NF = 1 << 2,
+    SR_ORE = 1 << 3,
+    SR_IDLE = 1 << 4,
+    SR_RXNE = 1 << 5,
+    SR_TC = 1 << 6,
+    SR_TXE = 1 << 7,
+    SR_RESET = SR_TXE | SR_TC,
+    SR_WRITE_CLEARS = 0x360, /* CTS, LBD, TC, RXNE */
+    CR1_RE = 1 << 2,
+    CR1_TE = 1 << 3,
+    CR1_IDLEIE = 1 << 4,
+    CR1_RXNEIE = 1 << 5,
+    CR1_TCIE = 1 << 6,
+    CR1_TXEIE = 1 << 7,
+    CR1_UE = 1 << 13,
+    CR1_OVER8 = 1 << 15,
+    CR1_MODELLED = 0xA1FC, /* no parity, 9 bits, mute mode or break; PEIE does nothing then */
+    CR3_EIE = 1 << 0,
+    CR3_MODELLED = 0x801,  /* error interrupt, one sample a bit */
+    FRAME_BITS = 10,
+    TOLERANCE_PERCENT = 3, /* table 141: 3.33 % for 8 bits with a fraction in BRR */
+};
+
+static const enum nvic_irq irqs[USARTS] = {NVIC_IRQ_USART1, NVIC_IRQ_USART2, NVIC_IRQ_USART3};
+
+enum { PINS = 3, NO_PORT = 0xFF };
+
+#define NO_PIN {.port = NO_PORT}
+#define PIN(letter, bit) {.port = (letter) - 'A', .number = (bit)}
+
+static const struct pin receive_pins[USARTS][PINS] = {
+    {PIN('A', 10), PIN('B', 7), NO_PIN}, {PIN('A', 3), PIN('D', 6), NO_PIN}, {PIN('B', 11), PIN('C', 11), PIN('D', 9)}};
+static const struct pin transmit_pins[USARTS][PINS] = {
+    {PIN('A', 9), PIN('B', 6), NO_PIN}, {PIN('A', 2), PIN('D', 5), NO_PIN}, {PIN('B', 10), PIN('C', 10), PIN('D', 8)}};
+
+static bool is_connected(const struct board *board, const struct pin pins[PINS])
+{
+    for (unsigned i = 0; i < PINS; i++) {
+        if (pins[i].port != NO_PORT && gpio_has_function(board, pins[i], GPIO_AF_USART1_TO_3)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static uint64_t pclk_divider(const struct board *board, unsigned instance)
+{
+    return instance == 0 ? board->rcc.pclk2_divider : board->rcc.pclk1_divider;
+}
+
+/* Clocks of the bus in one bit: USARTDIV times the oversampling (section 30.3.4). */
+static uint32_t bit_clocks(const struct usart *usart)
+{
+    return (usart->cr1 & CR1_OVER8) != 0 ? (usart->brr >> 4) * 8U + (usart->brr & 7U) : usart->brr;
+}
+
+static uint64_t bit_cycles(const struct board *board, unsigned instance)
+{
+    return bit_clocks(&board->usart[instance]) * pclk_divider(board, instance);
+}
+
+uint64_t usart_baud(const struct board *board, unsigned instance)
+{
+    uint64_t cycles = bit_cycles(board, instance);
+    return cycles == 0 ? 0 : (board->time.hclk_hz + cycles / 2U) / cycles;
+}
+
+static void update_interrupt(struct board *board, unsigned instance)
+{
+    const struct usart *usart = &board->usart[instance];
+    uint32_t sr = usart->sr;
+    uint32_t cr1 = usart->cr1;
+    bool wanted = ((cr1 & CR1_RXNEIE) != 0 && (sr & (SR_RXNE | SR_ORE)) != 0) ||
+                  ((cr1 & CR1_TXEIE) != 0 && (sr & SR_TXE) != 0) || ((cr1 & CR1_TCIE) != 0 && (sr & SR_TC) != 0) ||
+                  ((cr1 & CR1_IDLEIE) != 0 && (sr & SR_IDLE) != 0);
+    nvic_set_line(board, irqs[instance], wanted);
+}
+
+static void set_event(struct board *board, unsigned instance)
+{
+    const struct usart *usart = &board->usart[instance];
+    uint64_t due = usart->shift_due < usart->idle_due ? usart->shift_due : usart->idle_due;
+    events_set(board, (enum event)(EVENT_USART1 + instance), due);
+}
+
+static bool can_send(const struct usart *usart)
+{
+    return (usart->cr1 & (CR1_UE | CR1_TE)) == (CR1_UE | CR1_TE);
+}
+
+static void shift_out(struct board *board, unsigned instance, bool idle_frame, uint64_t cycle)
+{
+    struct usart *usart = &board->usart[instance];
+    uint64_t cycles = bit_cycles(board, instance);
+    if (cycles == 0) {
+        board_fail(board, "USART%u is told to send and BRR is 0", instance + 1U);
+        return;
+    }
+    usart->shifting = true;
+    usart->idle_frame = idle_frame;
+    usart->shift_begin = cycle;
+    usart->shift_due = cycle + FRAME_BITS * cycles;
+    if (!idle_frame) {
+        usart->shifted = usart->to_send;
+        usart->sr |= SR_TXE;
+        rs485_begin_sent(board, instance, cycle);
+    }
+    set_event(board, instance);
+}
+
+static void end_shift(struct board *board, unsigned instance, uint64_t cycle)
+{
+    struct usart *usart = &board->usart[instance];
+    usart->shifting = false;
+    usart->shift_due = VTIME_NEVER;
+    if (!usart->idle_frame) {
+        bool connected = is_connected(board, transmit_pins[instance]);
+        usart->sent++;
+        rs485_end_sent(board, instance, usart->shifted, connected, usart->shift_begin, cycle);
+    }
+    if ((usart->sr & SR_TXE) == 0 && can_send(usart)) {
+        shift_out(board, instance, false, cycle);
+    } else if (!usart->idle_frame) {
+        usart->sr |= SR_TC;
+    }
+}
+
+static void usart_event(struct board *board, unsigned instance, uint64_t cycle)
+{
+    struct usart *usart = &board->usart[instance];
+    if (usart->shift_due <= cycle) {
+        end_shift(board, instance, cycle);
+    }
+    if (usart->idle_due <= cycle) {
+        usart->idle_due = VTIME_NEVER;
+        usart->sr |= SR_IDLE;
+    }
+    set_event(board, instance);
+    update_interrupt(board, instance);
+}
+
+void usart1_event(struct board *board, uint64_t cycle)
+{
+    usart_event(board, 0, cycle);
+}
+
+void usart2_event(struct board *board, uint64_t cycle)
+{
+    usart_event(board, 1, cycle);
+}
+
+void usart3_event(struct board *board, uint64_t cycle)
+{
+    usart_event(board, 2, cycle);
+}
+
+static bool rates_fit(uint64_t baud, uint64_t line_baud)
+{
+    uint64_t difference = baud > line_baud ? baud - line_baud : line_baud - baud;
+    return difference * 100U <= line_baud * TOLERANCE_PERCENT;
+}
+
+/* Section 30.3.3: an overrun keeps what is in RDR and loses the new byte. */
+void usart_receive(struct board *board, unsigned instance, uint8_t value, unsigned damage, uint64_t baud,
+                   uint64_t cycle)
+{
+    struct usart *usart = &board->usart[instance];
+    if ((usart->cr1 & (CR1_UE | CR1_RE)) != (CR1_UE | CR1_RE) || !is_connected(board, receive_pins[instance])) {
+        usart->deaf++;
+        return;
+    }
+    if (!rates_fit(usart_baud(board, instance), baud)) {
+        damage |= USART_FRAMING;
+        value = (uint8_t)~value;
+    }
+    usart->idle_due = cycle + (FRAME_BITS + 1U) * bit_cycles(board, instance);
+    if ((usart->sr & SR_RXNE) != 0) {
+        usart->sr |= SR_ORE;
+        usart->overruns++;
+    } else {
+        usart->sr |= SR_RXNE | damage;
+        usart->received = value;
+        usart->taken++;
+    }
+    set_event(board, instance);
+    update_interrupt(board, instance);
+}
+
+void usart_reset(struct board *board, unsigned instance)
+{
+    struct usart *usart = &board->usart[instance];
+    *usart = (struct usart){.sr = SR_RESET, .shift_due = VTIME_NEVER, .idle_due = VTIME_NEVER, .sent = usart->sent,
+                            .taken = usart->taken, .overruns = usart->overruns, .deaf = usart->deaf};
+    set_event(board, instance);
+    update_interrupt(board, instance);
+}
+
+void usarts_reset(struct board *board)
+{
+    for (unsigned i = 0; i < USARTS; i++) {
+        usart_reset(board, i);
+    }
+}
+
+/* A read of SR, then one of DR, clears the errors and IDLE; the latter clears RXNE on its own. */
+static uint32_t read_data(struct usart *usart)
+{
+    usart->sr &= ~(usart->status_read & (SR_PE | SR_FE | SR_NF | SR_ORE | SR_IDLE));
+    usart->sr &= ~(uint32_t)SR_RXNE;
+    usart->status_read &= SR_TC;
+    return usart->received;
+}
+
+bool usart_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
+{
+    struct usart *usart = &board->usart[instance];
+    switch (offset) {
+    case USART_SR:
+        *value = usart->sr;
+        usart->status_read = usart->sr;
+        return true;
+    case USART_DR:
+        *value = read_data(usart);
+        update_interrupt(board, instance);
+        return true;
+    case USART_BRR:
+        *value = usart->brr;
+        return true;
+    case USART_CR1:
+        *value = usart->cr1;
+        return true;
+    case USART_CR2:
+        *value = usart->cr2;
+        return true;
+    case USART_CR3:
+        *value = usart->cr3;
+        return true;
+    case USART_GTPR:
+        *value = 0;
+        return true;
+    default:
+        return false;
+    }
+}
+
+static void write_data(struct board *board, unsigned instance, uint32_t value)
+{
+    struct usart *usart = &board->usart[instance];
+    if (!can_send(usart)) {
+        board_warn(board, "USART%u: a byte is given to a transmitter that is off, and lost", instance + 1U);
+        return;
+    }
+    if ((usart->sr & SR_TXE) == 0) {
+        board_warn(board, "USART%u: a byte is given before the one in DR has left, which is lost", instance + 1U);
+    }
+    usart->to_send = (uint8_t)value;
+    usart->sr &= ~(uint32_t)SR_TXE;
+    if ((usart->status_read & SR_TC) != 0) {
+        usart->sr &= ~(uint32_t)SR_TC;
+    }
+    if (!usart->shifting) {
+        shift_out(board, instance, false, board->cpu.now);
+    }
+}
+
+static void write_cr1(struct board *board, unsigned instance, uint32_t value)
+{
+    struct usart *usart = &board->usart[instance];
+    if ((value & 0xFFFFU & ~(uint32_t)CR1_MODELLED) != 0) {
+        board_fail(board, "USART%u: CR1 %04x asks for what is not modelled", instance + 1U, value);
+    }
+    bool could = can_send(usart);
+    usart->cr1 = value;
+    if (can_send(usart) && !could && !usart->shifting) {
+        shift_out(board, instance, true, board->cpu.now); /* section 30.3.2: an idle frame comes first */
+    }
+}
+
+static bool write_register(struct board *board, unsigned instance, uint32_t offset, uint32_t value)
+{
+    struct usart *usart = &board->usart[instance];
+    switch (offset) {
+    case USART_SR:
+        usart->sr &= value | ~(uint32_t)SR_WRITE_CLEARS;
+        return true;
+    case USART_DR:
+        write_data(board, instance, value);
+        return true;
+    case USART_BRR:
+        usart->brr = value & 0xFFFFU;
+        return true;
+    case USART_CR1:
+        write_cr1(board, instance, value);
+        return true;
+    case USART_CR2: /* the length of the stop bit is all that is asked of it, and only one bit is modelled */
+        usart->cr2 = value;
+        return (value & 0x7F60U) == 0;
+    case USART_CR3:
+        usart->cr3 = value;
+        return (value & ~(uint32_t)CR3_MODELLED) == 0;
+    case USART_GTPR:
+        return value == 0;
+    default:
+        return false;
+    }
+}
+
+bool usart_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask)
+{
+    uint32_t kept = offset == USART_SR ? UINT32_MAX : 0;
+    bool known = write_register(board, instance, offset, (value & mask) | (kept & ~mask));
+    update_interrupt(board, instance);
+    return known;
+}
