@@ -43,6 +43,11 @@ void host_machine_set_line(struct host_machine *machine, const struct host_line_
     find_next(machine);
 }
 
+void host_machine_set_byte_ticks(struct host_machine *machine, uint32_t ticks)
+{
+    machine->line.byte_ticks = ticks;
+}
+
 void host_machine_set_node(struct host_machine *machine, uint8_t node)
 {
     machine->line.node = node;
@@ -71,7 +76,7 @@ static bool finish_byte(struct host_machine *machine)
     uint8_t value = line->to_send[line->to_send_first];
     line->to_send_first = (line->to_send_first + 1U) % HOST_LINE_TO_SEND_MAX;
     line->to_send_count--;
-    line->sent_tick = line->to_send_count == 0 ? TICK_NEVER : machine->now + HOST_LINE_BYTE_TICKS;
+    line->sent_tick = line->to_send_count == 0 ? TICK_NEVER : machine->now + line->byte_ticks;
     if (machine->listener.line != NULL) {
         machine->listener.line(machine->listener.context, machine->now, value);
     }
@@ -120,7 +125,7 @@ bool hal_line_write(uint8_t byte)
     line->to_send[(line->to_send_first + line->to_send_count) % HOST_LINE_TO_SEND_MAX] = byte;
     line->to_send_count++;
     if (line->sent_tick == TICK_NEVER) {
-        line->sent_tick = machine->now + HOST_LINE_BYTE_TICKS;
+        line->sent_tick = machine->now + line->byte_ticks;
         find_next(machine);
     }
     return true;

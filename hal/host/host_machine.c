@@ -16,6 +16,7 @@ void host_machine_init(struct host_machine *machine, uint64_t epoch)
     machine->wake = TICK_NEVER;
     memset(machine->flash, ERASED, sizeof machine->flash);
     host_machine_set_node(machine, 1);
+    host_machine_set_byte_ticks(machine, HOST_LINE_BYTE_TICKS);
     host_step_reset(machine);
     host_io_reset(machine);
     host_line_reset(machine);
@@ -100,27 +101,44 @@ static void pulse_event(struct host_machine *machine, unsigned motor)
     }
 }
 
+static uint8_t with_input(uint8_t levels, unsigned input, bool level)
+{
+    unsigned bit = 1U << (input - 1U);
+    return (uint8_t)(level ? levels | bit : levels & ~bit);
+}
+
+static void set_inputs(struct host_machine *machine, uint8_t levels)
+{
+    if (levels == machine->inputs) {
+        return;
+    }
+    machine->inputs = levels;
+    if (machine->listener.input != NULL) {
+        machine->listener.input(machine->listener.context, machine->now, levels);
+    }
+    if (machine->client.tick_isr != NULL) {
+        machine->client.tick_isr(machine->client.context);
+        assert(!machine->step_held);
+    }
+    wake_main(machine, machine->now);
+}
+
 static void input_event(struct host_machine *machine, uint64_t tick)
 {
     uint8_t levels = machine->inputs;
     machine->now = tick;
     while (machine->script_next < machine->script_length && machine->script[machine->script_next].tick <= tick) {
         const struct host_input *change = &machine->script[machine->script_next++];
-        unsigned bit = 1U << (change->input - 1U);
-        levels = (uint8_t)(change->level ? levels | bit : levels & ~bit);
+        levels = with_input(levels, change->input, change->level);
     }
-    if (levels == machine->inputs) {
-        return;
-    }
-    machine->inputs = levels;
-    if (machine->listener.input != NULL) {
-        machine->listener.input(machine->listener.context, tick, levels);
-    }
-    if (machine->client.tick_isr != NULL) {
-        machine->client.tick_isr(machine->client.context);
-        assert(!machine->step_held);
-    }
-    wake_main(machine, tick);
+    set_inputs(machine, levels);
+}
+
+void host_machine_set_input(struct host_machine *machine, unsigned input, bool level)
+{
+    assert(input >= 1 && input <= UNIT_INPUTS);
+    host_machine_select(machine);
+    set_inputs(machine, with_input(machine->inputs, input, level));
 }
 
 static void line_event(struct host_machine *machine)
@@ -173,4 +191,13 @@ void host_machine_run(struct host_machine *machine, uint64_t until, host_main_pa
     if (until != TICK_NEVER && until > machine->now) {
         machine->now = until;
     }
+}
+
+uint64_t host_machine_next_tick(const struct host_machine *machine)
+{
+    uint64_t next = machine->armed[first_motor(machine)];
+    uint64_t input = next_input_tick(machine);
+    next = input < next ? input : next;
+    next = machine->line.next_tick < next ? machine->line.next_tick : next;
+    return machine->wake < next ? machine->wake : next;
 }

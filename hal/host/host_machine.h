@@ -70,6 +70,7 @@ struct host_line {
     uint32_t to_send_first;
     uint32_t to_send_count;
     bool refused;                              /* main wants to give more than there was room for */
+    uint32_t byte_ticks;                       /* what a byte that is sent takes */
     uint64_t sent_tick;                        /* the end of the byte on the bus; TICK_NEVER: the bus is free */
     uint64_t next_tick;                        /* the next event of script or bus; TICK_NEVER: none */
     uint8_t node;
@@ -136,8 +137,14 @@ void host_machine_set_script(struct host_machine *machine, const struct host_inp
  * array must outlive the run. What is already past comes at once. */
 void host_machine_set_line(struct host_machine *machine, const struct host_line_byte *script, uint32_t length);
 
+/* Sets what a byte takes that the machine sends; 0: nothing. At the start HOST_LINE_BYTE_TICKS. */
+void host_machine_set_byte_ticks(struct host_machine *machine, uint32_t ticks);
+
 /* Sets what switch S1 shows. */
 void host_machine_set_node(struct host_machine *machine, uint8_t node);
+
+/* Selects the machine and gives input 1 to 8 a level now, besides the script; between two runs. */
+void host_machine_set_input(struct host_machine *machine, unsigned input, bool level);
 
 /* Turns the power off and on: pins at 0, interrupts stopped, faults cleared, bytes of the line that are in the machine
  * lost; flash, inputs, scripts, node and time stay. The firmware starts again when the caller initialises it again. */
@@ -155,5 +162,8 @@ typedef uint64_t host_main_pass(void *context);
  * then the line, then main. */
 void host_machine_run(struct host_machine *machine, uint64_t until, host_main_pass *pass, bool (*done)(void *context),
                       void *context);
+
+/* After a run: the tick, from the start, of the next thing that happens in the machine; TICK_NEVER: nothing does. */
+uint64_t host_machine_next_tick(const struct host_machine *machine);
 
 #endif

@@ -6,17 +6,24 @@ import argparse
 import os
 import sys
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import NoReturn, TypeAlias
 
-from rkm04_tools import bench, check
+from rkm04_tools import bench, check, serve
+from rkm04_tools.client_options import add_client_commands
 from rkm04_tools.failure import INTERRUPTED, NOT_SO, Failure
 
 SIM_NOTES = """\
 INPUTS has lines ms,input,level such as 350.5,3,1: BI3 becomes 1 at 350.5 ms.
 The simulation ends when all programs have come to rest, or at the limit of time.
+
+--target stm32 runs the image of the reference board on the virtual board (modelled, not measured)
+and tells its load and its late steps; it has no --trace and no --plot. Its programs come by the
+line; INPUTS count from then, the files that are written from power-on.
 """
 STATUSES = """\
-exit status: 0 done; 1 what was asked about is not so (a program has errors); 2 wrong usage
+exit status: 0 done; 1 what was asked about is not so (a program has errors, a unit refuses);
+  2 wrong usage; 3 no connection
 """
 
 Run = Callable[[argparse.Namespace], int]
@@ -74,6 +81,8 @@ def _parser() -> Parser:
     _add_sim(commands)
     _add_bench(commands)
     _add_board(commands)
+    _add_serve(commands)
+    add_client_commands(partial(_add, commands))
     return parser
 
 
@@ -128,6 +137,17 @@ def _add_sim(commands: Commands) -> None:
             command.add_argument(flag, metavar=metavar, help=text, dest="seconds", default="60")
         else:
             command.add_argument(flag, metavar=metavar, help=text)
+    command.add_argument(
+        "--target",
+        choices=["host", "stm32"],
+        default="host",
+        help="what runs the programs: the simulator, or the image of a board (default: host)",
+    )
+
+
+def _add_serve(commands: Commands) -> None:
+    title = "units without hardware: they run in real time and speak the line"
+    serve.add_arguments(_add(commands, "serve", serve.run, title, serve.EXAMPLE))
 
 
 def _add_bench(commands: Commands) -> None:

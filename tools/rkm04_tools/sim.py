@@ -13,7 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from rkm04_tools import host
+from rkm04_tools import host, sim_board
 from rkm04_tools.check import Checked, check_source, show
 from rkm04_tools.failure import DONE, NOT_SO, Failure, reading_failed, writing_failed
 from rkm04_tools.plot import draw, require_format
@@ -52,10 +52,15 @@ def run(options: Namespace) -> int:
     _require_seconds(options.seconds)
     _require_inputs(inputs)
     _require_outputs(outputs, [*programs.values(), *([inputs] if inputs else [])])
+    if options.target == "stm32":
+        _require_board_has(outputs)
     checked = {motor: check_source(read_source(path)) for motor, path in programs.items()}
     if not _all_good(checked.values()):
         return NOT_SO
     with TemporaryDirectory(prefix="rkm04-") as folder:
+        if options.target == "stm32":
+            files = sim_board.Files(inputs, outputs.steps, outputs.vcd)
+            return _on_board(checked, files, options, Path(folder))
         answer = _simulate(checked, inputs, options.seconds, outputs, Path(folder))
     return _report(answer, checked, options)
 
@@ -121,6 +126,13 @@ def _require_outputs(outputs: Outputs, read: Sequence[Path]) -> None:
         known[path.resolve()] = "is named for two outputs"
 
 
+def _require_board_has(outputs: Outputs) -> None:
+    """Refuse what only the simulator can tell."""
+    for name, path in (("trace", outputs.trace), ("plot", outputs.plot)):
+        if path:
+            raise Failure(f"--{name}: not with --target stm32; leave one of the two away")
+
+
 def _all_good(programs: Collection[Checked]) -> bool:
     """Show what there is to say about the programs on standard error."""
     for checked in {c.source.name: c for c in programs}.values():
@@ -173,15 +185,37 @@ def _title(programs: dict[int, Checked]) -> str:
     return ", ".join(f"motor {motor}: {name}" for motor, name in names.items())
 
 
+def _on_board(
+    programs: dict[int, Checked], files: sim_board.Files, options: Namespace, folder: Path
+) -> int:
+    """Run the programs on the virtual board, and report."""
+    simulated, answer = sim_board.simulate(programs, options.seconds, files, folder)
+    runs = _runs(simulated, programs)
+    if options.json:
+        print(sim_board.as_json(simulated, answer, runs))
+    else:
+        print(sim_board.summary(answer, runs))
+    return _status(runs)
+
+
 def _report(answer: dict[str, Any], programs: dict[int, Checked], options: Namespace) -> int:
-    """Show the summary, and on standard error where a program has ended with an error."""
-    told = [motor for motor in answer["motors"] if motor["motor"] in programs]
-    runs = [Run(motor, programs[motor["motor"]]) for motor in told]
-    failed = [each for each in runs if each.error]
+    """Show the summary; the exit status."""
+    runs = _runs(answer, programs)
     if options.json:
         print(json.dumps({**answer, "motors": [each.as_json() for each in runs]}, indent=2))
     else:
         print(summary(answer, runs, options.seconds))
+    return _status(runs)
+
+
+def _runs(answer: dict[str, Any], programs: dict[int, Checked]) -> list[Run]:
+    told = [motor for motor in answer["motors"] if motor["motor"] in programs]
+    return [Run(motor, programs[motor["motor"]]) for motor in told]
+
+
+def _status(runs: Sequence[Run]) -> int:
+    """Show where a program has ended with an error; the exit status."""
+    failed = [each for each in runs if each.error]
     for each in failed:
         each.show_error(sys.stderr)
     return NOT_SO if failed else DONE

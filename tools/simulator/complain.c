@@ -5,11 +5,19 @@
 #include <stdio.h>
 #include <string.h>
 
+static const char *program_name = "rkm04-host";
+
+void complain_as(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    program_name = slash != NULL ? slash + 1 : path;
+}
+
 void complain(const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    (void)fputs("rkm04-host: ", stderr);
+    (void)fprintf(stderr, "%s: ", program_name);
     (void)vfprintf(stderr, format, arguments);
     (void)fputc('\n', stderr);
     va_end(arguments);

@@ -1,15 +1,19 @@
 /*
  * How the program ends and how it says what is wrong: always one line on standard error, "rkm04-host: ...", with what
- * is wrong and what to do about it.
+ * is wrong and what to do about it. The name in front is the one that the program was called by.
  */
 #ifndef COMPLAIN_H
 #define COMPLAIN_H
 
 enum exit_status {
     EXIT_DONE = 0,
-    EXIT_REFUSED = 1, /* a file cannot be read or written or its content is wrong, or the unit has refused it */
-    EXIT_USAGE = 2,   /* the command line is wrong */
+    EXIT_REFUSED = 1,    /* a file cannot be read or written or its content is wrong, or the unit has refused it */
+    EXIT_USAGE = 2,      /* the command line is wrong */
+    EXIT_CONNECTION = 3, /* a port cannot be had */
 };
+
+/* Takes the name from argv[0], which must outlive the program's work. */
+void complain_as(const char *path);
 
 /* Prints the line; the format is printf's, without the line's end. */
 __attribute__((format(printf, 1, 2))) void complain(const char *format, ...);

@@ -1,7 +1,8 @@
 /*
- * rkm04-host: the unit's firmware on the host backend, for tools/rkm04 and for tests. Subcommands sim, check, opcodes
- * and bench; answers are JSON on standard output, complaints one line on standard error (complain.h).
+ * rkm04-host: the unit's firmware on the host backend, for tools/rkm04 and for tests. Subcommands sim, serve, check,
+ * opcodes and bench; answers are JSON on standard output, complaints one line on standard error (complain.h).
  */
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -11,12 +12,34 @@
 #include "opcodes.h"
 #include "options.h"
 #include "run.h"
+#include "serve.h"
 
 static enum exit_status command_sim(int count, char *const arguments[])
 {
     struct options options;
     enum exit_status status = options_read(&options, count, arguments);
     return status == EXIT_DONE ? run_simulation(&options) : status;
+}
+
+static bool is_help(const char *argument)
+{
+    return strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0;
+}
+
+static enum exit_status print_text(const char *text)
+{
+    (void)fputs(text, stdout);
+    return finish_output();
+}
+
+static enum exit_status command_serve(int count, char *const arguments[])
+{
+    struct serve_options options;
+    if (count == 1 && is_help(arguments[0])) {
+        return print_text(serve_usage);
+    }
+    enum exit_status status = serve_options_read(&options, count, arguments);
+    return status == EXIT_DONE ? serve_run(&options) : status;
 }
 
 static enum exit_status command_check(int count, char *const arguments[])
@@ -37,16 +60,13 @@ static enum exit_status command_alone(const char *name, int count, enum exit_sta
     return command();
 }
 
-static enum exit_status print_usage(void)
-{
-    (void)fputs(options_usage, stdout);
-    return finish_output();
-}
-
 static enum exit_status run_command(const char *name, int count, char *const arguments[])
 {
     if (strcmp(name, "sim") == 0) {
         return command_sim(count, arguments);
+    }
+    if (strcmp(name, "serve") == 0) {
+        return command_serve(count, arguments);
     }
     if (strcmp(name, "check") == 0) {
         return command_check(count, arguments);
@@ -57,17 +77,20 @@ static enum exit_status run_command(const char *name, int count, char *const arg
     if (strcmp(name, "bench") == 0) {
         return command_alone(name, count, bench_print);
     }
-    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0) {
-        return print_usage();
+    if (is_help(name)) {
+        return print_text(options_usage);
     }
-    complain("'%s' is no subcommand; write sim, check, opcodes, bench or --help", name);
+    complain("'%s' is no subcommand; write sim, serve, check, opcodes, bench or --help", name);
     return EXIT_USAGE;
 }
 
 int main(int argc, char *argv[])
 {
+    if (argc > 0) {
+        complain_as(argv[0]);
+    }
     if (argc < 2) {
-        complain("nothing to do; write sim, check, opcodes, bench or --help");
+        complain("nothing to do; write sim, serve, check, opcodes, bench or --help");
         return EXIT_USAGE;
     }
     return (int)run_command(argv[1], argc - 2, argv + 2);

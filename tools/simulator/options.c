@@ -15,6 +15,7 @@ enum { SECONDS_DECIMALS = 9 };
 const char options_usage[] =
     "usage: rkm04-host sim --motor N=FILE ... [--inputs FILE] [--for SECONDS]\n"
     "                      [--steps OUT.csv] [--trace OUT.csv] [--vcd OUT.vcd] [--epoch TICKS]\n"
+    "       rkm04-host serve [--help] ...\n"
     "       rkm04-host check FILE\n"
     "       rkm04-host opcodes\n"
     "       rkm04-host bench\n"
@@ -25,6 +26,7 @@ const char options_usage[] =
     "         --for SECONDS   ends after so much of the unit's time if not before (60)\n"
     "         --steps, --trace, --vcd  write pulses, events, waveforms\n"
     "         --epoch TICKS   what the unit's clock shows at the start (0)\n"
+    "serve    runs units in real time for whoever connects; serve --help says more\n"
     "check    parses a program (- is standard input) and prints commands and errors (JSON)\n"
     "opcodes  prints the tables of the language and of the files (JSON)\n"
     "bench    measures the step generator and the simulation (JSON)\n"

@@ -146,6 +146,29 @@ void test_a_byte_takes_ten_bits_at_19200_bd(void)
     TEST_ASSERT_EQUAL_UINT64(2 * HOST_LINE_BYTE_TICKS, sent[1].tick);
 }
 
+void test_bytes_can_be_sent_in_no_time(void)
+{
+    enum { BYTES = 250 };
+    host_machine_set_byte_ticks(&machine, 0);
+    to_give = BYTES;
+    run_until(1);
+    TEST_ASSERT_EQUAL_UINT(BYTES, sent_count);
+    TEST_ASSERT_EQUAL_UINT8(1, sent[BYTES - 1].value);
+    TEST_ASSERT_EQUAL_UINT64(0, sent[BYTES - 1].tick);
+    TEST_ASSERT_TRUE(hal_line_is_idle());
+}
+
+void test_the_next_tick_is_that_of_the_next_byte(void)
+{
+    plan(1000, 500, 2);
+    run_until(1000);
+    TEST_ASSERT_EQUAL_UINT64(1000, host_machine_next_tick(&machine));
+    run_until(1001);
+    TEST_ASSERT_EQUAL_UINT64(1500, host_machine_next_tick(&machine));
+    run_until(1501);
+    TEST_ASSERT_EQUAL_UINT64(TICK_NEVER, host_machine_next_tick(&machine));
+}
+
 void test_bytes_beyond_the_room_are_refused_and_main_is_called_again(void)
 {
     enum { BYTES = 250 };

@@ -1,0 +1,171 @@
+"""`backup`, `restore` and `diff`: the programs of a line as files, and back."""
+
+from __future__ import annotations
+
+import fake_unit
+import pytest
+from fake_unit import FakeLine, FakeUnit
+from rkm04_tools.line import Wait
+
+LONG = b"S100" + b"F16000000R" * 120
+
+
+@pytest.fixture
+def units():
+    return [FakeUnit(2, programs={1: b"S100F5R", 2: b"", 3: LONG, 4: b""}), FakeUnit(16)]
+
+
+@pytest.fixture
+def fake(units, monkeypatch):
+    monkeypatch.setattr("rkm04_tools.line.SCANNING", Wait(0.02, 1))
+    line = FakeLine(*units)
+    monkeypatch.setenv("RKM04_PORT", line.port)
+    yield line
+    line.close()
+
+
+@pytest.fixture
+def folder(tool, fake, tmp_path):
+    """A folder with a backup of the units."""
+    path = tmp_path / "programs"
+    assert tool("backup", path).status == 0
+    return path
+
+
+def test_backup_writes_a_file_for_each_program(folder):
+    assert [path.name for path in sorted(folder.iterdir())] == [
+        "unit-02-motor-1.rks",
+        "unit-02-motor-3.rks",
+    ]
+    text = (folder / "unit-02-motor-1.rks").read_text()
+    assert text == "\\ { unit 2, motor 1 }\nS100 F5 R\n"
+
+
+def test_backup_writes_programs_without_errors_and_of_readable_width(tool, folder):
+    assert tool("check", *folder.iterdir()).status == 0
+    long = (folder / "unit-02-motor-3.rks").read_text()
+    assert max(map(len, long.splitlines())) <= 100
+
+
+def test_backup_tells_what_it_has_saved(tool, fake, tmp_path):
+    result = tool("backup", tmp_path / "b", "--json")
+
+    first, second = result.json["programs"]
+    path = str(tmp_path / "b" / "unit-02-motor-1.rks")
+    assert first == {"node": 2, "motor": 1, "file": path, "commands": 3}
+    assert second["commands"] == 241
+
+
+def test_backup_overwrites_no_backup(tool, folder):
+    result = tool("backup", folder)
+
+    assert result.status == 2
+    assert "has programs of units already; choose another folder" in result.complaint
+
+
+def test_backup_where_nobody_answers_is_no_connection(tool, fake, tmp_path, units):
+    fake.units.clear()
+
+    result = tool("backup", tmp_path / "b")
+
+    assert result.status == 3
+    assert not (tmp_path / "b").exists()
+
+
+def test_backup_of_two_units_with_one_address_is_refused(tool, fake, tmp_path):
+    fake.faults.append(fake_unit.twice)
+
+    result = tool("backup", tmp_path / "b")
+
+    assert result.status == 1
+    assert "unit 2: answers twice" in result.complaint
+
+
+def test_backup_needs_a_folder_that_can_be_written(tool, fake, write):
+    result = tool("backup", write("a file") / "b")
+
+    assert result.status == 2
+    assert "cannot be written" in result.complaint
+
+
+def test_restore_brings_back_and_stores_and_runs_nothing(tool, folder, units):
+    units[0].programs = {1: b"H", 2: b"C100", 3: b"", 4: b""}
+    units[0].done.clear()
+
+    result = tool("restore", folder)
+
+    assert result.status == 0
+    assert result.out.splitlines()[-1].startswith("nothing runs: rkm04 resume starts a motor")
+    assert units[0].programs == {1: b"S100F5R", 2: b"C100", 3: LONG, 4: b""}
+    acts = [message for message in units[0].done if message[0] in (2, 3)]
+    assert acts[:4] == [b"\x021\\", b"\x021K", b"\x021S100F5R", b"\x031"]
+    assert not any(b"C75" in message for message in acts)
+
+
+def test_restore_changes_nothing_if_a_unit_is_missing(tool, fake, folder, units):
+    (folder / "unit-09-motor-1.rks").write_text("\\ F1 R")
+    units[0].done.clear()
+
+    result = tool("restore", folder)
+
+    assert result.status == 3
+    assert "unit 9 does not answer" in result.complaint
+    assert units[0].done == [b"\x01"]
+
+
+def test_restore_changes_nothing_if_a_file_has_an_error(tool, folder, units):
+    (folder / "unit-16-motor-4.rks").write_text("\\ F1\nQ")
+    units[0].done.clear()
+
+    result = tool("restore", folder)
+
+    assert result.status == 1
+    assert 'unit-16-motor-4.rks:2:1: unknown command "Q"; nothing was restored' in result.complaint
+    assert units[0].done == []
+
+
+@pytest.mark.parametrize(("name", "words"), [("", "has no file like"), ("none", "no such file")])
+def test_restore_needs_a_folder_with_programs(tool, fake, tmp_path, name, words):
+    result = tool("restore", tmp_path / name)
+
+    assert result.status == 2
+    assert words in result.complaint
+
+
+@pytest.mark.parametrize("text", ["\\ S0100 F5 {five} R", "S100F5R"])
+def test_diff_of_the_same_program_is_status_0(tool, fake, write, text):
+    path = write(text)
+
+    result = tool("diff", path, "--node", "2")
+
+    assert (result.status, result.out) == (0, f"unit 2, motor 1: the same as {path}\n")
+
+
+def test_diff_shows_the_commands_that_differ(tool, fake, write):
+    path = write("S100 F6 R")
+
+    result = tool("diff", path, "--node", "2")
+
+    assert result.status == 1
+    assert result.out.splitlines() == [
+        f"--- {path}",
+        "+++ unit 2, motor 1",
+        "@@ -1,3 +1,3 @@",
+        " S100",
+        "-F6",
+        "+F5",
+        " R",
+    ]
+
+
+def test_diff_needs_one_motor(tool, fake, write):
+    assert "name one with --motor" in tool("diff", write("R"), "--motor", "0").complaint
+
+
+def test_a_memory_that_is_not_understood_is_told(tool, fake, units, write):
+    units[0].programs[1] = b"S100?"
+
+    result = tool("diff", write("S100"), "--node", "2")
+
+    assert result.status == 1
+    assert "does not understand" in result.complaint

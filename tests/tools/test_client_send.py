@@ -1,0 +1,223 @@
+"""How a program is cut into messages, and what keeps it from running too early."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from fake_unit import FakeLine, FakeUnit
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rkm04_tools import sending
+from rkm04_tools.failure import Failure
+from rkm04_tools.frame import Frame
+from rkm04_tools.line import open_line
+from rkm04_tools.line_errors import UnitRefused
+from rkm04_tools.sending import TEXT_BYTES_MAX, Hold, check_program, plan_program
+
+LONG = "\\S100" + "F16000000R" * 120
+
+
+def plan(text: str) -> sending.Plan:
+    return plan_program(check_program(text))
+
+
+@pytest.fixture
+def unit():
+    return FakeUnit(1)
+
+
+@pytest.fixture
+def fake(unit):
+    line = FakeLine(unit)
+    yield line
+    line.close()
+
+
+@pytest.fixture
+def motor(fake):
+    with open_line(fake.port) as line:
+        yield line.unit(1).motor(1)
+
+
+def sent_texts(unit: FakeUnit) -> list[str]:
+    return [message[2:].decode() for message in unit.done if message[0] == 2]
+
+
+def test_a_short_program_goes_in_one_message_in_canonical_form():
+    assert plan("\\ S0100 {slow}\n M5 F5 R").texts == ["\\S100M05F5R"]
+
+
+def test_a_program_that_just_fits_is_not_cut():
+    fits = "F1R" * (TEXT_BYTES_MAX // 3) + "R" * (TEXT_BYTES_MAX % 3)
+
+    assert plan(fits).texts == [fits]
+    assert len(plan(fits + "R").texts) == 2
+
+
+def test_a_long_program_is_held_by_brackets_and_cut_between_commands():
+    plan_ = plan(LONG)
+
+    assert plan_.hold is Hold.BRACKETS
+    assert plan_.texts[0].startswith("\\[S100F16000000R")
+    assert plan_.texts[-1].endswith("R]")
+    assert "".join(plan_.texts) == LONG.replace("\\", "\\[") + "]"
+    assert all(re.fullmatch(r"[\\\[A-Z].*[0-9R\]]", text) for text in plan_.texts)
+
+
+def test_parts_are_as_long_as_they_can_be():
+    assert [len(text) for text in plan("R" * 690 + "D" * 690).texts] == [TEXT_BYTES_MAX, 369]
+
+
+def test_no_frame_is_longer_than_1024_bytes(motor, fake):
+    motor.send(LONG)
+
+    assert len(fake.frame_bytes) == 3
+    assert max(fake.frame_bytes) <= 1024
+
+
+def test_the_longest_text_leaves_room_for_every_escape():
+    frames = (Frame(16, 0x7E, b"\x020" + b"R" * (TEXT_BYTES_MAX - n)).encode() for n in range(300))
+
+    assert max(map(len, frames)) <= 1024
+
+
+def test_the_unit_holds_the_long_program(motor, unit):
+    sent = motor.send(LONG)
+
+    assert unit.programs[1].decode() == "[" + LONG[1:] + "]"
+    assert (sent.commands, sent.messages, sent.overflow) == (241, 2, False)
+
+
+def test_a_long_program_without_a_reset_is_held_too():
+    assert plan(LONG[1:]).texts[0].startswith("[S100")
+
+
+@pytest.mark.parametrize("own", ["[", "]"])
+def test_a_long_program_with_brackets_of_its_own_is_held_by_a_stop(motor, unit, own):
+    motor.send(LONG + own)
+
+    texts = sent_texts(unit)
+    assert texts[:2] == ["\\", "K"]
+    assert texts[-1] == "C75"
+    assert "".join(texts[2:-1]) == LONG[1:] + own
+
+
+@pytest.mark.parametrize(
+    ("count", "hold"),
+    [(698, Hold.BRACKETS), (699, Hold.STOP), (700, Hold.STOP), (701, Hold.BRACKETS)],
+)
+def test_brackets_never_push_a_program_out_of_the_memory(count, hold):
+    assert plan("\\" + "W100" * count).hold is hold
+
+
+def test_a_stop_waits_until_the_motor_stands(motor, unit, monkeypatch):
+    monkeypatch.setattr(sending, "STAND_SECONDS", 0.2)
+    unit.tables[1] = b"  2;[(1;100),(50;0)]"
+
+    with pytest.raises(Failure, match="send again when it stands"):
+        motor.send(LONG + "[")
+
+    assert sent_texts(unit) == ["\\"]
+
+
+@pytest.mark.parametrize("text", [LONG[1:] + "[", "W100" * 700])
+def test_what_cannot_be_held_is_refused_before_anything_is_sent(motor, unit, text):
+    with pytest.raises(Failure, match=r"begin it with \\ to send it") as refused:
+        motor.send(text)
+
+    assert refused.value.status == 1
+    assert unit.done == []
+
+
+def test_what_needs_a_stop_is_not_sent_to_all_units(motor):
+    with pytest.raises(Failure, match="send it to each unit"):
+        motor.unit.line.unit(0).motor(1).send(LONG + "[")
+
+
+@pytest.mark.parametrize(("text", "sent"), [("F1 R K W5 C75", "F1RW5"), ("\\K", "\\")])
+def test_k_and_c75_are_kept_out_and_told(text, sent):
+    plan_ = plan(text)
+
+    assert plan_.texts == [sent]
+    assert "K in line 1, column" in plan_.notes[0]
+    assert "rkm04 stop" in plan_.notes[0]
+
+
+def test_a_speed_does_not_become_one_that_acts_at_once():
+    assert plan("V500 K").texts == ["KV500"]
+
+
+def test_what_stands_before_the_last_reset_is_not_sent():
+    plan_ = plan("F1 R \\ F2 R \\ F3 R")
+
+    assert plan_.texts == ["\\F3R"]
+    assert plan_.notes == ["4 of its commands stand before \\ and would never run: not sent"]
+
+
+@pytest.mark.parametrize("text", ["", " {nothing} ", "K", "C75 K"])
+def test_nothing_is_not_sent(text):
+    with pytest.raises(Failure, match="nothing in it to be sent"):
+        plan(text)
+
+
+def test_errors_are_found_before_anything_is_sent(motor, unit):
+    with pytest.raises(Failure, match=r"the program:2:4: V .*found 0; nothing was sent") as refused:
+        motor.send("S100\nF1 V0")
+
+    assert refused.value.status == 1
+    assert unit.done == []
+
+
+def test_a_refusal_of_the_unit_is_given_its_place(motor, unit):
+    unit.flag = b"\x01V"
+
+    with pytest.raises(UnitRefused, match=r"the program:2:4: the unit refuses the value behind V"):
+        motor.send("F100\nR  V500")
+
+
+def test_a_refusal_of_what_the_program_has_not_is_told_without_a_place(motor, unit):
+    unit.flag = b"\x02?"
+
+    with pytest.raises(UnitRefused, match=r"the program: the unit refuses the command \?"):
+        motor.send("F100R")
+
+
+def test_a_full_memory_is_reported(motor, unit):
+    unit.flag = b"\x03\x00"
+
+    assert motor.send("F100R").overflow
+
+
+def test_progress_is_told(motor):
+    told: list[tuple[int, int]] = []
+
+    motor.send(LONG, lambda done, total: told.append((done, total)))
+
+    assert told == [(0, 2), (1, 2), (2, 2)]
+
+
+PIECES = [
+    "S100",
+    "V16000",
+    "F16000000",
+    "R",
+    "W5",
+    "I05H10",
+    "@1",
+    "=-2000000000",
+    "L3",
+    "E",
+    "T02",
+]
+
+
+@given(pieces=st.lists(st.sampled_from(PIECES), min_size=1, max_size=690), reset=st.booleans())
+@settings(max_examples=25, deadline=None)
+def test_the_parts_are_the_program(pieces, reset):
+    text = "".join(pieces)
+    plan_ = plan(("\\" if reset else "") + text)
+
+    joined = "".join(plan_.texts).removeprefix("\\")
+    assert joined == (text if len(plan_.texts) == 1 else f"[{text}]")
+    assert all(0 < len(part) <= TEXT_BYTES_MAX for part in plan_.texts)

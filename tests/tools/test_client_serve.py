@@ -1,0 +1,166 @@
+"""The commands and the library against the virtual unit: the firmware itself, in real time."""
+
+from __future__ import annotations
+
+import json
+import re
+import signal
+import time
+
+import pytest
+from rkm04_tools.line import open_line
+from rkm04_tools.line_errors import UnitRefused
+
+LISTENING = re.compile(r"listening on (socket://127\.0\.0\.1:\d+)")
+NODE = 3
+
+
+@pytest.fixture
+def serve(start):
+    """Start virtual units; return their port."""
+    processes = []
+
+    def begin(*arguments: str) -> str:
+        process = start("serve", "--tcp", "0", *arguments)
+        processes.append(process)
+        assert process.stdout is not None
+        for line in process.stdout:
+            if match := LISTENING.search(line):
+                return match[1]
+        _, err = process.communicate(timeout=10)
+        if "invalid choice: 'serve'" in err:
+            pytest.skip("this build has no rkm04 serve")
+        raise AssertionError(err)
+
+    yield begin
+    for process in processes:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=10)
+
+
+@pytest.fixture
+def port(serve, monkeypatch):
+    name = serve("--node", str(NODE), "--unpaced")
+    monkeypatch.setenv("RKM04_PORT", name)
+    monkeypatch.setenv("RKM04_NODE", str(NODE))
+    return name
+
+
+@pytest.fixture
+def motor(port):
+    with open_line(port) as line:
+        yield line.unit(NODE).motor(2)
+
+
+def waits_until(condition, seconds: float = 5.0) -> bool:
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            return False
+        time.sleep(0.02)
+    return True
+
+
+def test_a_program_is_sent_and_moves_the_motor(motor):
+    motor.send("\\ S1000 V1000 F200 R")
+
+    assert waits_until(lambda: motor.position() == 200)
+    assert motor.program() == "S1000V1000F200R"
+    assert motor.unit.positions() == [0, 200, 0, 0]
+
+
+def test_a_move_is_told_stopped_and_resumed(motor):
+    motor.send("\\ S100 V1000 A10000 F5000 R")
+    assert motor.table()[-1].step == 5000
+    assert motor.progress().command == 5
+
+    motor.stop()
+    assert waits_until(lambda: not motor.table())
+    stopped = motor.position()
+    motor.resume()
+    motor.set_speed(16000)
+
+    assert 0 < stopped < 5000
+    assert waits_until(lambda: motor.position() == 5000)
+
+
+@pytest.mark.parametrize("count", [300, 698, 699, 700])
+def test_a_long_program_waits_until_all_of_it_is_there(motor, count):
+    body = "J1" + "W1000" * (count - 4) + "@1=-77"
+    overflow = motor.send("\\" + body + "H").overflow
+
+    assert not overflow
+    assert motor.program().strip("[]") == body + "H"
+    assert waits_until(lambda: motor.position() != 0)
+
+
+def test_a_long_program_with_brackets_of_its_own_stays_held_by_them(motor):
+    motor.send("\\=5" + "W1" * 400 + "[=6]=7[=8")
+
+    assert waits_until(lambda: motor.position() == 7)
+    time.sleep(0.1)
+    assert motor.position() == 7
+    motor.command("]")
+    assert waits_until(lambda: motor.position() == 8)
+
+
+def test_a_long_program_follows_one_that_moves(motor):
+    motor.send("\\ S100 V2000 A8000 G+")
+    time.sleep(0.2)
+
+    motor.send("\\=5[" + "W1" * 550)
+
+    assert waits_until(lambda: motor.position() == 5)
+
+
+def test_what_the_unit_refuses_is_typed(motor):
+    with pytest.raises(UnitRefused) as refused:
+        motor.command("S100 V0")
+
+    assert (refused.value.flag, refused.value.character) == (1, "V")
+
+
+def test_a_request_and_its_answer_take_less_than_5_ms(motor):
+    motor.position()
+    times = []
+    for _ in range(50):
+        started = time.monotonic()
+        motor.position()
+        times.append(time.monotonic() - started)
+
+    assert sorted(times)[25] < 0.005
+
+
+def test_the_commands_work_together(tool, port, write):
+    path = write("\\ S1000 V1000 F100 R")
+
+    assert tool("send", path).status == 0
+    assert tool("store", path).out == f"unit {NODE}, motor 1: 4 commands stored\n"
+    assert tool("program", "--motor", "1").out == "S1000V1000F100R\n"
+    assert waits_until(
+        lambda: tool("position", "--motor", "1", "--json").json["motors"][0]["position"] == 100
+    )
+    assert tool("watch", "--count", "1").status == 0
+    assert tool("reset").status == 0
+    assert tool("program", "--motor", "1").out == "\n"
+
+
+def test_scan_finds_the_units_of_a_line(serve, tool):
+    name = serve("--node", "2", "--node", "5")
+
+    started = time.monotonic()
+    result = tool("scan", "--port", name, "--json")
+
+    assert [unit["node"] for unit in json.loads(result.out)["units"]] == [2, 5]
+    assert time.monotonic() - started < 2.5
+
+
+def test_a_broadcast_starts_the_motors_of_all_units(serve):
+    with open_line(serve("--node", "2", "--node", "5", "--unpaced")) as line:
+        motors = [line.unit(node).motor(1) for node in (2, 5)]
+        for motor in motors:
+            motor.send("\\[=9")
+
+        line.unit(0).motor(0).command("]")
+
+        assert waits_until(lambda: [motor.position() for motor in motors] == [9, 9])

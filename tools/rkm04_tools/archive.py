@@ -1,0 +1,111 @@
+"""The programs of all units of a line as files in a folder, and back.
+
+A file is named `unit-03-motor-2.rks` and is an ordinary program. Restoring runs nothing: each motor
+is reset, and then stopped as by K.
+"""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from rkm04_tools.check import Checked, check_source
+from rkm04_tools.failure import NO_CONNECTION, NOT_SO, Failure, writing_failed
+from rkm04_tools.line import Line
+from rkm04_tools.messages import MOTORS
+from rkm04_tools.sending import Tell, held_commands, load_program, plan_program, silent
+from rkm04_tools.source import read_source
+
+NAME = re.compile(r"unit-(0[1-9]|1[0-6])-motor-([1-4])\.rks")
+COLUMNS = 100
+
+
+@dataclass(frozen=True)
+class Saved:
+    """A program of a motor and its file."""
+
+    node: int
+    motor: int
+    path: Path
+    commands: int
+
+
+@dataclass(frozen=True)
+class Program(Saved):
+    """The same, with what is in the file."""
+
+    checked: Checked
+
+
+def backup(line: Line, folder: Path, tell: Tell = silent) -> list[Saved]:
+    """Write all programs of a line to a folder that has none yet; empty memories are left out."""
+    if folder.is_dir() and any(NAME.fullmatch(path.name) for path in folder.iterdir()):
+        raise Failure(f"{folder}: has programs of units already; choose another folder")
+    found = line.scan(tell=tell)
+    if not found:
+        raise Failure(
+            "nobody answers on addresses 1 to 16, so there is nothing to save", NO_CONNECTION
+        )
+    doubtful = [each for each in found if each.remark]
+    if doubtful:
+        raise Failure(f"unit {doubtful[0].node}: {doubtful[0].remark}; nothing was saved", NOT_SO)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        saved = [_save(line, each.node, motor, folder) for each in found for motor in MOTORS]
+    except OSError as error:
+        raise writing_failed(folder, error) from None
+    return [each for each in saved if each]
+
+
+def read_folder(folder: Path) -> list[Program]:
+    """Read and check all programs of a folder; the first error is raised."""
+    try:
+        paths = sorted(path for path in folder.iterdir() if NAME.fullmatch(path.name))
+    except OSError as error:
+        raise Failure(
+            f"{folder}: {(error.strerror or str(error)).lower()}; name a folder"
+        ) from None
+    if not paths:
+        raise Failure(f"{folder}: has no file like unit-03-motor-2.rks, as backup writes them")
+    return [_read(path) for path in paths]
+
+
+def restore(line: Line, programs: Sequence[Program], tell: Tell = silent) -> None:
+    """Load and store programs, and read each of them back. All units are looked for first."""
+    for node in sorted({program.node for program in programs}):
+        line.unit(node).version()
+    for done, program in enumerate(programs):
+        tell(done, len(programs))
+        motor = line.unit(program.node).motor(program.motor)
+        load_program(motor, program.checked)
+        motor.store()
+        if motor.program() != "".join(plan_program(program.checked).plain):
+            raise Failure(f"{program.path}: the unit holds another program; restore again", NOT_SO)
+    tell(len(programs), len(programs))
+
+
+def _save(line: Line, node: int, motor: int, folder: Path) -> Saved | None:
+    commands = held_commands(line.unit(node).motor(motor))
+    if not commands:
+        return None
+    path = folder / f"unit-{node:02}-motor-{motor}.rks"
+    text = textwrap.fill(
+        " ".join(commands), COLUMNS, break_long_words=False, break_on_hyphens=False
+    )
+    path.write_text(f"\\ {{ unit {node}, motor {motor} }}\n{text}\n", encoding="ascii")
+    return Saved(node, motor, path, len(commands))
+
+
+def _read(path: Path) -> Program:
+    match = NAME.fullmatch(path.name)
+    assert match
+    checked = check_source(read_source(path))
+    if not checked.is_good:
+        first = checked.diagnostics[0]
+        where = f"{path}:{first.place.line}:{first.place.column}"
+        raise Failure(f"{where}: {first.message}; nothing was restored", NOT_SO)
+    commands = len(plan_program(checked).commands)
+    return Program(int(match[1]), int(match[2]), path, commands, checked)

@@ -1,0 +1,36 @@
+"""A bar for work that takes a while: on a terminal only, and gone when the work is done."""
+
+from __future__ import annotations
+
+import sys
+from types import TracebackType
+
+WIDTH = 30
+
+
+class Bar:
+    """Shows a bar on standard error while the block runs."""
+
+    def __init__(self, what: str) -> None:
+        self.what = what
+        self._shown = False
+
+    def __enter__(self) -> Bar:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._shown:
+            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+    def show(self, done: int, total: int) -> None:
+        """Say how many of how many parts are done."""
+        if total < 2 or not sys.stderr.isatty():
+            return
+        self._shown = True
+        filled = ("#" * (WIDTH * done // total)).ljust(WIDTH, ".")
+        print(f"\r{self.what} [{filled}] {done}/{total}", end="", file=sys.stderr, flush=True)

@@ -1,0 +1,397 @@
+"""The commands that talk to a unit; their arguments are in `client_options`, the work in `line`."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from argparse import Namespace
+from collections.abc import Callable, Sequence
+from difflib import unified_diff
+from pathlib import Path
+from typing import Any
+
+from rkm04_tools import archive
+from rkm04_tools.bar import Bar
+from rkm04_tools.check import Checked, check_source, show
+from rkm04_tools.failure import DONE, NO_CONNECTION, NOT_SO, Failure
+from rkm04_tools.frame import BROADCAST, NODES
+from rkm04_tools.host import opcode_rows
+from rkm04_tools.line import Motor, Unit, open_line
+from rkm04_tools.messages import ALL_MOTORS, MOTORS
+from rkm04_tools.sending import Plan, held_commands, plan_program, send_program
+from rkm04_tools.source import read_source
+from rkm04_tools.table import table, thousands
+from rkm04_tools.watch import run_watch
+
+PORT_VARIABLE, NODE_VARIABLE = "RKM04_PORT", "RKM04_NODE"
+
+
+def port_of(options: Namespace) -> str:
+    """The port that is named by option or environment."""
+    port: str | None = options.port or os.environ.get(PORT_VARIABLE)
+    if not port:
+        raise Failure(
+            "no port; name it with --port (COM5, /dev/ttyUSB0, socket://127.0.0.1:5000) "
+            f"or in {PORT_VARIABLE}"
+        )
+    return port
+
+
+def node_of(options: Namespace) -> int:
+    """The address that is named by option or environment."""
+    name, text = "--node", options.node
+    if text is None:
+        name, text = NODE_VARIABLE, os.environ.get(NODE_VARIABLE) or "1"
+    if not (text.isascii() and text.isdigit() and int(text) in (BROADCAST, *NODES)):
+        raise Failure(f"{name} {text}: write an address, 1 to 16, or 0 for all units")
+    return int(text)
+
+
+def reading_node_of(options: Namespace) -> int:
+    """The same for what needs an answer."""
+    node = node_of(options)
+    if node == BROADCAST:
+        raise Failure("node 0 means all units, and none of them answers; name one, 1 to 16")
+    return node
+
+
+def run_version(options: Namespace) -> int:
+    """Print version and date."""
+    node = reading_node_of(options)
+    with open_line(port_of(options)) as line:
+        version = line.unit(node).version()
+    date = version.date.isoformat()
+    answer = {"node": node, "version": version.number, "date": date, "text": version.text}
+    return _tell(options, answer, f"unit {node}: version {version.number} of {date}")
+
+
+def run_position(options: Namespace) -> int:
+    """Print the positions of one motor or all."""
+    node = reading_node_of(options)
+    with open_line(port_of(options)) as line:
+        unit = line.unit(node)
+        if options.motor == ALL_MOTORS:
+            positions = dict(zip(MOTORS, unit.positions(), strict=True))
+        else:
+            positions = {options.motor: unit.motor(options.motor).position()}
+    answer = [{"motor": motor, "position": at} for motor, at in positions.items()]
+    rows = [("motor", "position"), *((str(m), thousands(at)) for m, at in positions.items())]
+    return _tell(options, {"node": node, "motors": answer}, table(rows, "rr"))
+
+
+def run_program(options: Namespace) -> int:
+    """Print the programs, so that the output is a program file if it is of one motor."""
+    node, programs = _of_motors(options, Motor.program)
+    answer = [{"motor": motor, "program": text} for motor, text in programs.items()]
+    if len(programs) == 1:
+        (text,) = programs.values()
+    else:
+        text = "\n".join(f"{{ motor {motor} }}\n{text}" for motor, text in programs.items())
+    return _tell(options, {"node": node, "motors": answer}, text)
+
+
+def run_table(options: Namespace) -> int:
+    """Print the break points."""
+    node, tables = _of_motors(options, Motor.table)
+    answer = [
+        {"motor": motor, "points": [{"step": p.step, "speed": p.speed} for p in points]}
+        for motor, points in tables.items()
+    ]
+    rows = [("motor", "step", "steps/s")]
+    for motor, points in tables.items():
+        rows += [(str(motor), thousands(p.step), thousands(p.speed)) for p in points]
+        rows += [] if points else [(str(motor), "-", "no move in progress")]
+    return _tell(options, {"node": node, "motors": answer}, table(rows, "rrr"))
+
+
+def run_progress(options: Namespace) -> int:
+    """Print the steps made and the command being run."""
+    node, found = _of_motors(options, Motor.progress)
+    answer = [{"motor": m, "steps": p.steps, "command": p.command} for m, p in found.items()]
+    rows = [(str(m), thousands(p.steps), str(p.command)) for m, p in found.items()]
+    text = table([("motor", "steps", "command"), *rows], "rrr")
+    return _tell(options, {"node": node, "motors": answer}, text)
+
+
+def run_send(options: Namespace) -> int:
+    """Check a program, send it, and say what became of it."""
+    node, port = node_of(options), port_of(options)
+    checked = _checked(options.file)
+    if not checked.is_good:
+        return NOT_SO
+    plan = plan_program(checked)
+    for note in plan.notes:
+        print(f"rkm04: {options.file}: {note}", file=sys.stderr)
+    with open_line(port) as line, Bar("sending") as bar:
+        motor = line.unit(node).motor(options.motor)
+        sent = send_program(motor, checked, bar.show)
+    if sent.overflow:
+        print(
+            f"rkm04: {options.file}: warning: the program memory was full, commands were lost; "
+            "begin the program with \\, or make it shorter (700 commands)",
+            file=sys.stderr,
+        )
+    answer = {
+        "file": options.file,
+        **_who(motor),
+        "commands": sent.commands,
+        "messages": sent.messages,
+        "overflow": sent.overflow,
+        "notes": list(sent.notes),
+    }
+    counts = f"{_count(sent.commands, 'command')} in {_count(sent.messages, 'message')}"
+    return _tell(options, answer, f"{options.file}: {counts} sent to {_name(motor)}")
+
+
+def run_store(options: Namespace) -> int:
+    """Store a program, if it is the one that is meant, and look whether it still is."""
+    node = node_of(options)
+    port = port_of(options)
+    plan = None
+    if options.file is not None:
+        node = reading_node_of(options)
+        checked = _checked(options.file)
+        if not checked.is_good:
+            return NOT_SO
+        plan = plan_program(checked)
+    with open_line(port) as line:
+        motor = line.unit(node).motor(options.motor)
+        before = _programs(motor)
+        for each, commands in before.items():
+            _require_same(plan, commands, each)
+        motor.store()
+        for each, commands in _programs(motor).items():
+            if commands != before[each]:
+                raise Failure(
+                    f"{_name(each)}: the program has changed while it was stored; "
+                    "store it again when nobody else sends programs",
+                    NOT_SO,
+                )
+    counts = [{"motor": each.number, "commands": len(c)} for each, c in before.items()]
+    rows = [f"{_name(each)}: {_count(len(c), 'command')} stored" for each, c in before.items()]
+    text = "\n".join(rows) or f"{_name(motor)}: told to store; none answers"
+    return _tell(options, {"node": node, "motors": counts}, text)
+
+
+def run_stop(options: Namespace) -> int:
+    """Stop motors."""
+    return _act(options, Motor.stop, "stopped (rkm04 resume goes on)")
+
+
+def run_resume(options: Namespace) -> int:
+    """Let motors go on."""
+    return _act(options, Motor.resume, "resumed")
+
+
+def run_reset(options: Namespace) -> int:
+    """Reset motors."""
+    return _act(options, Motor.reset, "reset, the program memory is empty")
+
+
+def run_speed(options: Namespace) -> int:
+    """Change the speed of moves."""
+    (row,) = (row for row in opcode_rows() if row.name == "SPEED")
+    if not row.min <= options.speed <= row.max:
+        raise Failure(f"speed {options.speed}: write steps/s, {row.min} to {row.max}")
+    return _act(
+        options, lambda motor: motor.set_speed(options.speed), f"speed {options.speed} steps/s"
+    )
+
+
+def run_scan(options: Namespace) -> int:
+    """Print who is there."""
+    port = port_of(options)
+    with open_line(port) as line, Bar("asking") as bar:
+        found = line.scan(tell=bar.show)
+    answer = [
+        {
+            "node": each.node,
+            "version": each.version.number if each.version else None,
+            "date": each.version.date.isoformat() if each.version else None,
+            "remark": each.remark,
+        }
+        for each in found
+    ]
+    rows = [("node", "version", "date", "")]
+    rows += [
+        (
+            str(each.node),
+            each.version.number if each.version else "?",
+            each.version.date.isoformat() if each.version else "?",
+            each.remark,
+        )
+        for each in found
+    ]
+    if not found and not options.json:
+        raise Failure(
+            f"{port}: nobody answers on addresses 1 to 16; check power, wiring (A, B) and the port",
+            NO_CONNECTION,
+        )
+    _tell(options, {"units": answer}, table(rows, "rlll"))
+    return DONE if found else NO_CONNECTION
+
+
+def run_diff(options: Namespace) -> int:
+    """Compare a file with a motor, command by command."""
+    node, port = reading_node_of(options), port_of(options)
+    if options.motor == ALL_MOTORS:
+        raise Failure("diff compares one motor; name one with --motor, 1 to 4")
+    checked = _checked(options.file)
+    if not checked.is_good:
+        return NOT_SO
+    plan = plan_program(checked)
+    with open_line(port) as line:
+        motor = line.unit(node).motor(options.motor)
+        held = held_commands(motor)
+    if plan.is_held(held):
+        held = plan.plain
+    lines = list(unified_diff(plan.plain, held, options.file, _name(motor), lineterm=""))
+    answer = {**_who(motor), "file": options.file, "same": not lines, "diff": lines}
+    _tell(options, answer, "\n".join(lines) or f"{_name(motor)}: the same as {options.file}")
+    return NOT_SO if lines else DONE
+
+
+def run_backup(options: Namespace) -> int:
+    """Write the programs of a line to a folder."""
+    with open_line(port_of(options)) as line, Bar("asking") as bar:
+        saved = archive.backup(line, Path(options.folder), bar.show)
+    return _tell_archive(options, saved, "saved to")
+
+
+def run_restore(options: Namespace) -> int:
+    """Load and store the programs of a folder."""
+    port = port_of(options)
+    programs = archive.read_folder(Path(options.folder))
+    with open_line(port) as line, Bar("restoring") as bar:
+        archive.restore(line, programs, bar.show)
+    status = _tell_archive(options, programs, "restored from")
+    if not options.json:
+        print(
+            "nothing runs: rkm04 resume starts a motor, and so does switching its unit off and on"
+        )
+    return status
+
+
+def _tell_archive(options: Namespace, saved: Sequence[archive.Saved], what: str) -> int:
+    rows = [
+        {"node": each.node, "motor": each.motor, "file": str(each.path), "commands": each.commands}
+        for each in saved
+    ]
+    lines = [
+        f"unit {each.node}, motor {each.motor}: "
+        f"{_count(each.commands, 'command')} {what} {each.path}"
+        for each in saved
+    ]
+    return _tell(options, {"programs": rows}, "\n".join(lines) or "no unit has a program")
+
+
+def run_watching(options: Namespace) -> int:
+    """Show positions and programs until Ctrl-C."""
+    if not 0 < options.interval < 1e6:
+        raise Failure(f"--interval {options.interval:g}: write seconds, more than 0")
+    if options.count is not None and options.count < 1:
+        raise Failure(f"--count {options.count}: write how often to look, 1 or more")
+    node = reading_node_of(options)
+    with open_line(port_of(options)) as line:
+        return run_watch(line.unit(node), options)
+
+
+RUNS: dict[str, Callable[[Namespace], int]] = {
+    "version": run_version,
+    "send": run_send,
+    "store": run_store,
+    "position": run_position,
+    "program": run_program,
+    "table": run_table,
+    "progress": run_progress,
+    "stop": run_stop,
+    "resume": run_resume,
+    "reset": run_reset,
+    "speed": run_speed,
+    "scan": run_scan,
+    "diff": run_diff,
+    "backup": run_backup,
+    "restore": run_restore,
+    "watch": run_watching,
+}
+
+
+def motors_of(unit: Unit, number: int) -> list[Motor]:
+    """The motor of a number, or all four for 0."""
+    return [unit.motor(each) for each in (MOTORS if number == ALL_MOTORS else [number])]
+
+
+def _of_motors(options: Namespace, ask: Callable[[Motor], Any]) -> tuple[int, dict[int, Any]]:
+    """Ask one motor or all; return the address and the answers by motor."""
+    node = reading_node_of(options)
+    with open_line(port_of(options)) as line:
+        motors = motors_of(line.unit(node), options.motor)
+        return node, {motor.number: ask(motor) for motor in motors}
+
+
+def _act(options: Namespace, act: Callable[[Motor], object], what: str) -> int:
+    """Do something to one motor or all, and say so."""
+    node = node_of(options)
+    with open_line(port_of(options)) as line:
+        motor = line.unit(node).motor(options.motor)
+        act(motor)
+    return _tell(options, _who(motor), f"{_name(motor)}: {what}")
+
+
+def _checked(file: str) -> Checked:
+    """Check a program file and show on standard error what there is to say about it."""
+    checked = check_source(read_source(Path(file)))
+    for diagnostic in checked.diagnostics:
+        show(checked.source, diagnostic, sys.stderr)
+    return checked
+
+
+def _programs(motor: Motor) -> dict[Motor, list[str]]:
+    """The commands in the memory of a motor, or of all; nothing of a broadcast."""
+    if motor.unit.node == BROADCAST:
+        return {}
+    motors = motors_of(motor.unit, motor.number)
+    return {each: held_commands(each) for each in motors}
+
+
+def _require_same(plan: Plan | None, held: list[str], motor: Motor) -> None:
+    """Refuse to store another program than the one of the file."""
+    if plan is None:
+        return
+    if plan.is_held(held):
+        return
+    name = plan.checked.source.name
+    raise Failure(
+        f"{_name(motor)}: the memory holds another program than {name} "
+        f"({_difference(plan.plain, held)}); nothing was stored; rkm04 send {name} comes first",
+        NOT_SO,
+    )
+
+
+def _difference(wanted: list[str], held: list[str]) -> str:
+    """The first command in which two programs differ."""
+    for place, (want, have) in enumerate(zip(wanted, held, strict=False), 1):
+        if want != have:
+            return f"command {place} is {have}, not {want}"
+    return f"{_count(len(held), 'command')}, not {len(wanted)}"
+
+
+def _who(motor: Motor) -> dict[str, Any]:
+    return {"node": motor.unit.node, "motor": motor.number}
+
+
+def _name(motor: Motor) -> str:
+    """A motor, or those that are meant, in words."""
+    unit = "all units" if motor.unit.node == BROADCAST else f"unit {motor.unit.node}"
+    return f"{unit}, {'all motors' if motor.number == ALL_MOTORS else f'motor {motor.number}'}"
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number or 'no'} {what}{'' if number == 1 else 's'}"
+
+
+def _tell(options: Namespace, answer: dict[str, Any], text: str) -> int:
+    """Print an answer as the user wants it."""
+    print(json.dumps(answer, indent=2) if options.json else text)
+    return DONE

@@ -1,0 +1,236 @@
+"""How a program goes to a motor: which messages, in which order, so that none of it runs too early.
+
+Programs go in canonical form, cut at borders of commands. What needs several messages must not run
+before all of it has arrived. So `[` goes before it and `]` behind. Where that would change the
+program, because it has brackets of its own (one `]` releases every `[`) or leaves no room for two
+more, the motor is reset, stopped by K, and resumed by C75 behind the last message.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import TYPE_CHECKING
+
+from rkm04_tools.check import Checked, check_source
+from rkm04_tools.failure import NOT_SO, Failure
+from rkm04_tools.frame import BROADCAST
+from rkm04_tools.host import Command, parse
+from rkm04_tools.line_errors import UnitRefused
+from rkm04_tools.messages import ALL_MOTORS, MOTORS
+from rkm04_tools.source import Source
+
+if TYPE_CHECKING:
+    from rkm04_tools.line import Motor
+
+FRAME_BYTES_MAX = 1024
+ENVELOPE_BYTES_MAX = 2 + 1 + 2 + 2 + 4
+"""Flags, address, number, message number and motor, FCS; number and FCS may be escaped."""
+TEXT_BYTES_MAX = FRAME_BYTES_MAX - ENVELOPE_BYTES_MAX
+MEMORY_COMMANDS = 700
+STAND_SECONDS = 30.0
+POLL_SECONDS = 0.05
+
+ALONE = {"HALT": "rkm04 stop", "RESUME": "rkm04 resume"}
+"""Commands that act only alone in a message, and what sends them so."""
+BRACKETS = ("HOLD", "RELEASE")
+
+Tell = Callable[[int, int], None]
+"""Is told how many of how many parts are done."""
+
+
+def silent(done: int, total: int) -> None:
+    """Tell nobody."""
+
+
+class Hold(Enum):
+    """What keeps the parts of a program from running before the last one."""
+
+    NOTHING = "nothing"
+    BRACKETS = "brackets"
+    STOP = "stop"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The messages of a program, and what is to be said about them."""
+
+    checked: Checked
+    commands: Sequence[Command]
+    """What is stored, without what the plan adds."""
+    hold: Hold
+    texts: Sequence[str]
+    notes: Sequence[str]
+
+    @property
+    def plain(self) -> list[str]:
+        """The commands in canonical form."""
+        return [command.text for command in self.commands]
+
+    def is_held(self, held: Sequence[str]) -> bool:
+        """Whether these commands of a memory are the program, with or without added brackets."""
+        return list(held) in (self.plain, ["[", *self.plain, "]"])
+
+
+@dataclass(frozen=True)
+class Sent:
+    """What has been sent. `overflow`: the program memory was full, and commands were lost."""
+
+    commands: int
+    messages: int
+    overflow: bool
+    notes: Sequence[str]
+
+
+def check_program(text: str, name: str = "the program") -> Checked:
+    """Check a text; the first error is raised with its place."""
+    checked = check_source(Source(name, text))
+    if not checked.is_good:
+        first = checked.diagnostics[0]
+        place = f"{name}:{first.place.line}:{first.place.column}"
+        raise Failure(f"{place}: {first.message}; nothing was sent", NOT_SO)
+    return checked
+
+
+def plan_program(checked: Checked) -> Plan:
+    """Choose the messages for a program without errors."""
+    before, reset, behind = _at_last_reset(checked.parsed.commands)
+    left_out = [command for command in behind if command.opcode in ALONE]
+    commands = [command for command in behind if command.opcode not in ALONE]
+    notes = [_left_out_note(checked.source, command) for command in left_out]
+    if before:
+        notes.append(f"{len(before)} of its commands stand before \\ and would never run: not sent")
+    start = ["\\"] if reset else []
+    tokens = [command.text for command in commands]
+    if not start and not tokens:
+        raise Failure(f"{checked.source.name}: there is nothing in it to be sent", NOT_SO)
+    if left_out and len(tokens) == 1 and not reset:
+        start = ["K"]  # inside a message it does nothing, but V alone would be a change of speed
+    if _length([*start, *tokens]) <= TEXT_BYTES_MAX:
+        return Plan(checked, commands, Hold.NOTHING, ["".join([*start, *tokens])], notes)
+    hold = _hold(checked.source, commands, reset)
+    if hold is Hold.BRACKETS:
+        tokens = [*start, "[", *tokens, "]"]
+    return Plan(checked, commands, hold, _packed(tokens), notes)
+
+
+def held_commands(motor: Motor) -> list[str]:
+    """The commands in the memory of a motor, in canonical form."""
+    parsed = parse(motor.program().encode("ascii"))
+    if parsed.errors:
+        raise Failure(
+            f"motor {motor.number} of unit {motor.unit.node} holds a program that this tool does "
+            "not understand; does the unit have other software?",
+            NOT_SO,
+        )
+    return [command.text for command in parsed.commands]
+
+
+def send_program(motor: Motor, checked: Checked, tell: Tell = silent) -> Sent:
+    """Send a program without errors, which runs when all of it has arrived."""
+    plan = plan_program(checked)
+    if plan.hold is not Hold.STOP:
+        return _send_texts(motor, plan, tell)
+    _halt(motor, plan)
+    sent = _send_texts(motor, plan, tell)
+    motor.resume()
+    return sent
+
+
+def load_program(motor: Motor, checked: Checked) -> Sent:
+    """Put a program without errors into the memory, in place of the one there, and run nothing.
+
+    The motor is stopped as by K: `resume` makes it run.
+    """
+    plan = replace(plan_program(checked), hold=Hold.STOP)
+    plan = replace(plan, texts=_packed(plan.plain))
+    _halt(motor, plan)
+    return _send_texts(motor, plan, silent)
+
+
+def _send_texts(motor: Motor, plan: Plan, tell: Tell) -> Sent:
+    overflow = False
+    for done, text in enumerate(plan.texts):
+        tell(done, len(plan.texts))
+        try:
+            overflow = motor.command(text) or overflow
+        except UnitRefused as refusal:
+            raise _placed(refusal, plan) from None
+    tell(len(plan.texts), len(plan.texts))
+    return Sent(len(plan.commands), len(plan.texts), overflow, plan.notes)
+
+
+def _at_last_reset(commands: Sequence[Command]) -> tuple[list[Command], bool, list[Command]]:
+    """The commands before the last `\\`, whether there is one, and those behind it."""
+    resets = [index for index, command in enumerate(commands) if command.opcode == "RESET"]
+    if not resets:
+        return [], False, list(commands)
+    before = [command for command in commands[: resets[-1]] if command.opcode != "RESET"]
+    return before, True, list(commands[resets[-1] + 1 :])
+
+
+def _left_out_note(source: Source, command: Command) -> str:
+    place = source.place(command.offset)
+    return (
+        f"{command.text} in line {place.line}, column {place.column} was not sent: it acts only "
+        f"alone in a message ({ALONE[command.opcode]})"
+    )
+
+
+def _length(tokens: Sequence[str]) -> int:
+    return sum(map(len, tokens))
+
+
+def _hold(source: Source, commands: Sequence[Command], reset: bool) -> Hold:
+    own = any(command.opcode in BRACKETS for command in commands)
+    full = len(commands) <= MEMORY_COMMANDS < len(commands) + len(BRACKETS)
+    if not own and not full:
+        return Hold.BRACKETS
+    if reset:
+        return Hold.STOP
+    what = "[ or ] of its own" if own else "no room in the memory for [ and ]"
+    raise Failure(
+        f"{source.name}: needs several messages and has {what}; begin it with \\ to send it", NOT_SO
+    )
+
+
+def _packed(tokens: Sequence[str]) -> list[str]:
+    """Join commands to as few texts as there can be."""
+    texts = [""]
+    for token in tokens:
+        if len(texts[-1]) + len(token) > TEXT_BYTES_MAX:
+            texts.append("")
+        texts[-1] += token
+    return texts
+
+
+def _halt(motor: Motor, plan: Plan) -> None:
+    """Reset and stop a motor, so that what is stored then waits for C75."""
+    if motor.unit.node == BROADCAST:
+        raise Failure(
+            f"{plan.checked.source.name}: cannot go to all units at once, as it needs several "
+            "messages and leaves no way to hold it; send it to each unit",
+            NOT_SO,
+        )
+    motor.reset()
+    end = time.monotonic() + STAND_SECONDS
+    numbers = MOTORS if motor.number == ALL_MOTORS else [motor.number]
+    # K has no effect on a motor that is still slowing down because of \.
+    while any(motor.unit.motor(number).table() for number in numbers):
+        if time.monotonic() > end:
+            raise Failure("the motor is still slowing down; send again when it stands", NOT_SO)
+        time.sleep(POLL_SECONDS)
+    motor.stop()
+
+
+def _placed(refusal: UnitRefused, plan: Plan) -> UnitRefused:
+    """Say where the program has what the unit refuses; the unit tells the character only."""
+    source = plan.checked.source
+    for command in plan.commands:
+        if refusal.character and command.text.startswith(refusal.character):
+            place = source.place(command.offset)
+            where = f"{source.name}:{place.line}:{place.column}: "
+            return UnitRefused(f"{where}{refusal}", refusal.flag, refusal.character)
+    return UnitRefused(f"{source.name}: {refusal}", refusal.flag, refusal.character)

@@ -1,0 +1,185 @@
+"""Ports that bytes go through: serial devices and ptys by pyserial, and TCP as socket://HOST:PORT.
+
+TCP has a class of its own: it says more about errors than pyserial's, and closes without a pause.
+Nothing here waits longer than it is told to.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import re
+import socket
+import time
+from typing import Protocol
+
+import serial
+from serial.tools import list_ports
+
+from rkm04_tools.failure import Failure
+from rkm04_tools.line_errors import PortBusy, PortError, PortForbidden, PortLost, PortMissing
+
+BAUD = 19_200
+BITS_PER_BYTE = 10
+CONNECT_SECONDS = 3.0
+WRITE_SECONDS = 5.0
+SLICE_SECONDS = 0.005
+"""How long one call of pyserial waits for a byte."""
+CHUNK_BYTES = 4096
+
+ADDRESS = re.compile(r"socket://(\[[^\]]+\]|[^:/\[\]]+):(\d{1,5})/?")
+
+
+def seconds_on_line(count: int) -> float:
+    """The time that bytes take at the speed of the line."""
+    return count * BITS_PER_BYTE / BAUD
+
+
+class Transport(Protocol):
+    """An open port."""
+
+    name: str
+
+    def read(self, seconds: float) -> bytes:
+        """Return what is there; wait for a first byte until the time is over, then return none."""
+
+    def write(self, data: bytes) -> None:
+        """Send bytes."""
+
+    def close(self) -> None:
+        """Give the port back; may be called again."""
+
+
+def open_transport(name: str) -> Transport:
+    """Open a port by its name: a device, a pty or socket://HOST:PORT."""
+    if name.startswith("socket://"):
+        match = ADDRESS.fullmatch(name)
+        if not match or not 0 < int(match[2]) < 65_536:
+            raise Failure(f"{name}: write socket://HOST:PORT, as in socket://127.0.0.1:5000")
+        return SocketTransport(name, match[1].strip("[]"), int(match[2]))
+    return SerialTransport(name)
+
+
+class SocketTransport:
+    """A TCP connection, to a virtual unit or to a converter."""
+
+    def __init__(self, name: str, host: str, port: int) -> None:
+        self.name = name
+        try:
+            self._socket = socket.create_connection((host, port), CONNECT_SECONDS)
+            self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        except (OSError, UnicodeError) as error:
+            raise _connecting_failed(name, error) from None
+
+    def read(self, seconds: float) -> bytes:
+        """Return what is there, see Transport."""
+        self._socket.settimeout(max(seconds, 1e-6))
+        try:
+            data = self._socket.recv(CHUNK_BYTES)
+        except (TimeoutError, BlockingIOError):
+            return b""
+        except OSError as error:
+            raise _lost(self.name, error) from None
+        if not data:
+            raise PortLost(
+                f"{self.name}: the other end has closed the connection; "
+                "does it serve another program already, or has it ended?"
+            )
+        return data
+
+    def write(self, data: bytes) -> None:
+        """Send bytes."""
+        self._socket.settimeout(WRITE_SECONDS)
+        try:
+            self._socket.sendall(data)
+        except OSError as error:
+            raise _lost(self.name, error) from None
+
+    def close(self) -> None:
+        """Close the connection."""
+        self._socket.close()
+
+
+class SerialTransport:
+    """A serial device, a pty, or another URL that pyserial knows."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        try:
+            self._port = serial.serial_for_url(
+                name,
+                baudrate=BAUD,
+                timeout=SLICE_SECONDS,
+                write_timeout=WRITE_SECONDS,
+                exclusive=True,
+            )
+        except (OSError, ValueError) as error:
+            raise _opening_failed(name, error) from None
+
+    def read(self, seconds: float) -> bytes:
+        """Return what is there, see Transport."""
+        end = time.monotonic() + seconds
+        try:
+            while True:
+                waiting = self._port.in_waiting
+                if not waiting and time.monotonic() >= end:
+                    return b""
+                data = bytes(self._port.read(max(1, min(waiting, CHUNK_BYTES))))
+                if data:
+                    return data
+        except OSError as error:
+            raise _lost(self.name, error) from None
+
+    def write(self, data: bytes) -> None:
+        """Send bytes."""
+        try:
+            self._port.write(data)
+        except OSError as error:
+            raise _lost(self.name, error) from None
+
+    def close(self) -> None:
+        """Close the port."""
+        self._port.close()
+
+
+def _connecting_failed(name: str, error: Exception) -> PortError:
+    if isinstance(error, ConnectionRefusedError):
+        return PortMissing(f"{name}: nobody listens there; start the unit, or check the port")
+    if isinstance(error, TimeoutError):
+        return PortMissing(f"{name}: no connection in {CONNECT_SECONDS:.0f} s; check the address")
+    if isinstance(error, UnicodeError | socket.gaierror):
+        return PortMissing(f"{name}: no such host; check its name")
+    return PortMissing(f"{name}: {_reason(error)}; check the address and the network")
+
+
+def _opening_failed(name: str, error: OSError | ValueError) -> PortError:
+    """Sort out pyserial's errors, whose cause is in `errno` or, on Windows, in the text only."""
+    code, text = getattr(error, "errno", None), str(error)
+    if code in (errno.ENOENT, errno.ENXIO, errno.ENODEV) or "FileNotFoundError" in text:
+        return PortMissing(f"{name}: no such port; {_ports_there_are()}")
+    if code == errno.EBUSY or "exclusively lock" in text or "PermissionError" in text:
+        return PortBusy(f"{name}: another program has this port open; end it and try again")
+    if code in (errno.EACCES, errno.EPERM):
+        return PortForbidden(
+            f"{name}: no permission; join the group that owns it "
+            "(sudo usermod -aG dialout $USER) and log in again"
+        )
+    if "could not configure" in text.lower():
+        return PortError(f"{name}: not a serial port; {_ports_there_are()}")
+    return PortError(f"{name}: cannot be opened ({_reason(error)}); {_ports_there_are()}")
+
+
+def _ports_there_are() -> str:
+    names = sorted(port.device for port in list_ports.comports())
+    return (
+        f"there are {', '.join(names)}" if names else "no serial port was found: is it plugged in?"
+    )
+
+
+def _lost(name: str, error: OSError) -> PortLost:
+    return PortLost(f"{name}: the port was lost ({_reason(error)}); check the cable and try again")
+
+
+def _reason(error: Exception) -> str:
+    code = getattr(error, "errno", None)
+    return (os.strerror(code) if code else str(error)).lower()

@@ -1,0 +1,71 @@
+"""The C program `rkm04-vboard`: the image of a board, run instruction by instruction.
+
+This module says which signal is on which pin, starts the program, and reads what it tells. It is
+there only where libunicorn and libcapstone are.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from checks.board_pins import Board, read_board
+
+from rkm04_tools import host
+from rkm04_tools.board import BOARDS
+from rkm04_tools.failure import NOT_SO, Failure
+
+PROGRAM = "rkm04-vboard"
+MODEL = "modelled: P = 3, 5 wait states"
+
+# The names of a board header, and those of the virtual board.
+NAMES = {
+    "STEP": "m{}_step", "DIR": "m{}_dir", "LED": "m{}_led", "BI": "bi{}", "BO": "bo{}",
+    "S1": "s1_{}",
+}  # fmt: skip
+
+
+def pins(board: Board) -> str:
+    """The file that says which signal is on which pin."""
+    lines = []
+    for pin in board.pins:
+        kind, _, which = pin.signal.partition("_")
+        level = board.values.get(f"BOARD_{kind}_LEVEL", "1U")
+        if pin.signal == "LINE_DE":
+            lines.append(f"de P{pin.pin}")
+        elif kind in NAMES:
+            low = " low" if level == "0U" else ""
+            lines.append(f"{NAMES[kind].format(which)} P{pin.pin}{low}")
+    usart = board.values["BOARD_USART"].rstrip("U")
+    return "\n".join([*lines, f"line USART{usart}", ""])
+
+
+def board_pins(name: str) -> str:
+    """The same of a board by its name."""
+    return pins(read_board((BOARDS / name / "board.h").read_text()))
+
+
+def program_path() -> Path:
+    """Where the program was built: beside that of the simulator."""
+    path = host.program_path().with_name(PROGRAM)
+    if not path.is_file():
+        hint = "apt-get install libunicorn-dev libcapstone-dev pkg-config, then try again"
+        raise Failure(f"{PROGRAM} is not built, as its libraries are missing: {hint}")
+    return path
+
+
+def run(program: Path, arguments: Sequence[str]) -> dict[str, Any]:
+    """Run an image; the answer is the summary."""
+    done = subprocess.run(
+        [str(program), *arguments], capture_output=True, text=True, errors="replace"
+    )
+    if done.returncode != 0:
+        line = done.stderr.strip().rpartition("\n")[2].removeprefix(f"{PROGRAM}: ")
+        raise Failure(line or f"{PROGRAM} ended with status {done.returncode}", NOT_SO)
+    answer = json.loads(done.stdout)
+    if not isinstance(answer, dict):
+        raise Failure(f"{PROGRAM} did not answer with an object; build it again")
+    return answer

@@ -1,0 +1,341 @@
+/* ppoll: sleeping to less than a millisecond. */
+#define _GNU_SOURCE
+
+#include "serve.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base_tick.h"
+#include "json.h"
+#include "serve_clock.h"
+#include "serve_line.h"
+#include "serve_port.h"
+#include "serve_signal.h"
+#include "serve_talk.h"
+#include "serve_units.h"
+#include "units.h"
+
+enum {
+    PORT_SLOTS = 1 + SERVE_CLIENTS_MAX,
+    SLOT_SIGNAL = 0,
+    SLOT_USER = 1, /* standard input */
+    SLOT_LINE = 2,
+    SLOT_CONTROL = SLOT_LINE + PORT_SLOTS,
+    SLOTS = SLOT_CONTROL + PORT_SLOTS,
+
+    CHUNK_BYTES = 1024,
+};
+
+/* While motors run the units are looked at this often, not at every pulse. */
+#define REST_NS UINT64_C(1000000)
+
+/* So long units may run before clients are looked at again. */
+#define BUSY_NS UINT64_C(5000000)
+
+/* Real time by which they may be late. */
+#define LAG_MS_MAX UINT64_C(1000)
+
+/* So much they run at a time. */
+#define SLICE_TICKS ((uint64_t)TICKS_PER_MS)
+
+struct serve {
+    const struct serve_options *options;
+    struct serve_units units;
+    struct serve_line line;
+    struct serve_port line_port;
+    struct serve_port control_port;
+    struct serve_talk talk;
+    struct serve_clock clock;
+    uint64_t rested_ns;         /* real time at which the units caught up last */
+    struct pollfd slots[SLOTS];
+    bool touched;               /* bytes or inputs have come that the units have not seen yet */
+};
+
+const char serve_usage[] =
+    "usage: rkm04-host serve [--tcp PORT | --pty PATH] [--node N ...] [--flash FILE] [--speed X]\n"
+    "                        [--unpaced] [--control PORT] [--address ADDRESS] [--json]\n"
+    "\n"
+    "Units on one line in real time, until Ctrl-C. When ready it prints where it listens.\n"
+    "\n"
+    "--tcp PORT        listens there (5000); 0 takes any free port\n"
+    "--pty PATH        makes a pty and the link PATH to it\n"
+    "--node N          a unit of address 1 to 16; may be repeated (1)\n"
+    "--flash FILE      keeps stored programs; with several units in FILE.nodeN\n"
+    "--speed X         times real time, 0.001 to 1000; 0: as fast as possible (1)\n"
+    "--unpaced         bytes take no time on the line\n"
+    "--control PORT    takes the lines of standard input by TCP too; 0 takes any free port\n"
+    "--address ADDRESS listens there, for others to connect (127.0.0.1: only this machine)\n"
+    "--json            says where it listens as a JSON object\n"
+    "\n"
+    "Lines on standard input: 3=1 sets input 3, 2.3=1 that of unit 2, ? prints the state of all\n"
+    "units. Each is answered by JSON: the state by a line per unit, the others by one line.\n"
+    "\n"
+    "example: rkm04-host serve --node 1 --node 2 --flash units.flash\n";
+
+static enum exit_status open_ports(struct serve *serve)
+{
+    const struct serve_options *options = serve->options;
+    enum exit_status status =
+        options->pty != NULL ? serve_port_open_pty(&serve->line_port, options->pty)
+                             : serve_port_listen(&serve->line_port, "--tcp", options->address, options->tcp_port);
+    if (status == EXIT_DONE && options->control) {
+        status = serve_port_listen(&serve->control_port, "--control", options->address, options->control_port);
+    }
+    return status;
+}
+
+static enum exit_status tell_ready(const struct serve *serve)
+{
+    const char *line = serve->line_port.name;
+    const char *control = serve->control_port.name;
+    if (!serve->options->json) {
+        (void)printf(*control != '\0' ? "listening on %s, control on %s\n" : "listening on %s\n", line, control);
+        return finish_output();
+    }
+    (void)fputs("{\"listening\": ", stdout);
+    json_print_string(line);
+    (void)fputs(", \"control\": ", stdout);
+    if (*control != '\0') {
+        json_print_string(control);
+    } else {
+        (void)fputs("null", stdout);
+    }
+    (void)fputs(", \"nodes\": [", stdout);
+    for (unsigned i = 0; i < serve->options->units; i++) {
+        (void)printf("%s%u", i == 0 ? "" : ", ", (unsigned)serve->options->nodes[i]);
+    }
+    (void)fputs("]}\n", stdout);
+    return finish_output();
+}
+
+/* Lets the units run as far as the clock has come, or until clients have waited long enough. If the units are hopelessly
+ * too slow for it, the clock goes on from where they are. */
+static void follow_clock(struct serve *serve)
+{
+    uint64_t begin_ns = units_real_ns();
+    uint64_t target = serve_clock_tick(&serve->clock, begin_ns);
+    while (serve->units.now < target && units_real_ns() - begin_ns < BUSY_NS) {
+        uint64_t left = target - serve->units.now;
+        serve_units_run(&serve->units, serve->units.now + (left < SLICE_TICKS ? left : SLICE_TICKS));
+    }
+    uint64_t lag_max = (uint64_t)serve->clock.milli_speed * LAG_MS_MAX * TICKS_PER_MS / 1000U;
+    if (serve->units.now < target && target - serve->units.now > lag_max) {
+        serve_clock_set(&serve->clock, begin_ns, serve->units.now);
+    }
+}
+
+/* Without a clock: lets them run while there is work; to its next event where that is far. */
+static void run_ahead(struct serve *serve)
+{
+    uint64_t begin_ns = units_real_ns();
+    while (serve_units_have_work(&serve->units) && units_real_ns() - begin_ns < BUSY_NS) {
+        uint64_t next = serve_units_next_tick(&serve->units);
+        uint64_t slice = serve->units.now + SLICE_TICKS;
+        serve_units_run(&serve->units, next < slice ? slice : next + 1U);
+    }
+}
+
+/* What has come acts at once: it is not left for the next look at the clock. */
+static void show_touch(struct serve *serve)
+{
+    uint64_t last = serve->options->unpaced ? serve->line.last_tick : 0;
+    uint64_t now = serve->units.now;
+    serve_units_run(&serve->units, (last < now ? now : last) + 1U);
+    serve->touched = false;
+}
+
+static void catch_up(struct serve *serve)
+{
+    if (serve->options->milli_speed == 0) {
+        run_ahead(serve);
+    } else {
+        follow_clock(serve);
+    }
+    serve->rested_ns = units_real_ns();
+}
+
+/* A program that has been stored is in the file before the answer is out. */
+static void pass_on(struct serve *serve)
+{
+    serve_units_save(&serve->units);
+    serve_line_flush(&serve->line);
+}
+
+static void hear_line(struct serve *serve, unsigned client)
+{
+    uint8_t bytes[CHUNK_BYTES];
+    uint32_t room = serve_line_room(&serve->line, serve->units.now);
+    room = room < sizeof bytes ? room : sizeof bytes;
+    size_t count = room > 0 ? serve_port_read(&serve->line_port, client, bytes, room) : 0;
+    serve_line_put(&serve->line, serve->units.now, bytes, (uint32_t)count);
+    serve_units_hear(&serve->units, &serve->line);
+    serve->touched = serve->touched || count > 0;
+}
+
+static void hear_control(struct serve *serve, unsigned client)
+{
+    char bytes[CHUNK_BYTES];
+    size_t count = serve_port_read(&serve->control_port, client, bytes, sizeof bytes);
+    serve_talk_client(&serve->talk, client, bytes, count);
+    serve->touched = serve->touched || count > 0;
+}
+
+/* At its end, and where reading is not allowed, it is listened to no more. */
+static void hear_user(struct serve *serve)
+{
+    char bytes[CHUNK_BYTES];
+    ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
+    if (count > 0) {
+        serve_talk_user(&serve->talk, bytes, (size_t)count);
+        serve->touched = true;
+    } else if (count == 0 || (errno != EINTR && errno != EAGAIN)) {
+        serve->slots[SLOT_USER].fd = -1;
+    }
+}
+
+static void hear_all(struct serve *serve)
+{
+    const struct pollfd *line = &serve->slots[SLOT_LINE];
+    const struct pollfd *control = &serve->slots[SLOT_CONTROL];
+    if (serve->slots[SLOT_USER].revents != 0) {
+        hear_user(serve);
+    }
+    for (unsigned i = 0; i < SERVE_CLIENTS_MAX; i++) {
+        if (line[1U + i].revents != 0) {
+            hear_line(serve, i);
+        }
+        if (control[1U + i].revents != 0) {
+            hear_control(serve, i);
+        }
+    }
+    if (line->revents != 0) {
+        (void)serve_port_accept(&serve->line_port);
+    }
+    if (control->revents != 0) {
+        int client = serve_port_accept(&serve->control_port);
+        if (client >= 0) {
+            serve_talk_begin(&serve->talk, (unsigned)client);
+        }
+    }
+}
+
+static void fill_slots(struct pollfd *slots, const struct serve_port *port, bool reads)
+{
+    slots[0] = (struct pollfd){.fd = port->listener, .events = POLLIN};
+    for (unsigned i = 0; i < SERVE_CLIENTS_MAX; i++) {
+        slots[1U + i] = (struct pollfd){.fd = reads ? port->clients[i] : -1, .events = POLLIN};
+    }
+}
+
+/* How long there is nothing to do. False: without end. */
+static bool find_rest(struct serve *serve, struct timespec *rest)
+{
+    uint64_t rest_ns = 0;
+    if (serve->options->milli_speed == 0) {
+        if (!serve_units_have_work(&serve->units)) {
+            return false;
+        }
+    } else {
+        uint64_t next = serve_units_next_tick(&serve->units);
+        if (next == TICK_NEVER) {
+            return false;
+        }
+        uint64_t due_ns = serve_clock_ns(&serve->clock, next);
+        uint64_t soon_ns = serve->rested_ns + REST_NS;
+        uint64_t now_ns = units_real_ns();
+        due_ns = due_ns < soon_ns ? soon_ns : due_ns;
+        rest_ns = due_ns > now_ns ? due_ns - now_ns : 0;
+    }
+    rest->tv_sec = (time_t)(rest_ns / NS_PER_SECOND);
+    rest->tv_nsec = (long)(rest_ns % NS_PER_SECOND);
+    return true;
+}
+
+/* False: the end has been asked for. */
+static bool wait_for_something(struct serve *serve)
+{
+    struct timespec rest;
+    bool limited = find_rest(serve, &rest);
+    fill_slots(&serve->slots[SLOT_LINE], &serve->line_port, serve_line_room(&serve->line, serve->units.now) > 0);
+    fill_slots(&serve->slots[SLOT_CONTROL], &serve->control_port, true);
+    serve_units_hear(&serve->units, &serve->line);
+    if (ppoll(serve->slots, SLOTS, limited ? &rest : NULL, NULL) <= 0) {
+        for (unsigned i = 0; i < SLOTS; i++) {
+            serve->slots[i].revents = 0;
+        }
+    }
+    return serve->slots[SLOT_SIGNAL].revents == 0;
+}
+
+static void serve_for_ever(struct serve *serve)
+{
+    serve->clock.milli_speed = serve->options->milli_speed;
+    serve_clock_set(&serve->clock, units_real_ns(), serve->units.now);
+    catch_up(serve);
+    while (wait_for_something(serve)) {
+        catch_up(serve);
+        hear_all(serve);
+        if (serve->touched) {
+            show_touch(serve);
+        }
+        pass_on(serve);
+    }
+}
+
+/* Descriptors 0 to 2 must be there, or sockets would take their numbers. */
+static void hold_standard_descriptors(void)
+{
+    int fd = open("/dev/null", O_RDWR);
+    while (fd >= 0 && fd <= STDERR_FILENO) {
+        fd = open("/dev/null", O_RDWR);
+    }
+    if (fd >= 0) {
+        (void)close(fd);
+    }
+}
+
+static enum exit_status begin(struct serve *serve)
+{
+    hold_standard_descriptors();
+    serve_line_init(&serve->line, &serve->line_port, !serve->options->unpaced);
+    serve_talk_init(&serve->talk, &serve->units, &serve->line_port, &serve->control_port);
+    serve->slots[SLOT_SIGNAL] = (struct pollfd){.fd = serve_signal_catch(), .events = POLLIN};
+    serve->slots[SLOT_USER] = (struct pollfd){.fd = STDIN_FILENO, .events = POLLIN};
+    if (serve->slots[SLOT_SIGNAL].fd < 0) {
+        return EXIT_REFUSED;
+    }
+    enum exit_status status = serve_units_begin(&serve->units, serve->options, &serve->line);
+    if (status == EXIT_DONE) {
+        status = open_ports(serve);
+    }
+    return status == EXIT_DONE ? tell_ready(serve) : status;
+}
+
+enum exit_status serve_run(const struct serve_options *options)
+{
+    struct serve *serve = calloc(1, sizeof *serve);
+    if (serve == NULL) {
+        complain("there is not memory enough for a line; close other programs");
+        return EXIT_REFUSED;
+    }
+    serve->options = options;
+    serve_port_init(&serve->line_port);
+    serve_port_init(&serve->control_port);
+    enum exit_status status = begin(serve);
+    if (status == EXIT_DONE) {
+        serve_for_ever(serve);
+        status = serve_units_save_rest(&serve->units) ? EXIT_DONE : EXIT_REFUSED;
+    }
+    serve_port_close(&serve->line_port);
+    serve_port_close(&serve->control_port);
+    serve_units_discard(&serve->units);
+    free(serve);
+    return status;
+}

@@ -1,0 +1,55 @@
+#include "serve_line.h"
+
+#include <assert.h>
+#include <string.h>
+
+/* Main has a pass behind each byte: else bytes that come on the same tick overrun it. */
+enum { UNPACED_TICKS = 1 };
+
+void serve_line_init(struct serve_line *line, struct serve_port *port, bool paced)
+{
+    line->heard_count = 0;
+    line->byte_ticks = paced ? HOST_LINE_BYTE_TICKS : UNPACED_TICKS;
+    line->last_tick = 0;
+    line->said_count = 0;
+    line->port = port;
+}
+
+uint32_t serve_line_room(struct serve_line *line, uint64_t now)
+{
+    uint32_t done = 0;
+    while (done < line->heard_count && line->heard[done].tick < now) {
+        done++;
+    }
+    line->heard_count -= done;
+    memmove(line->heard, line->heard + done, line->heard_count * sizeof line->heard[0]);
+    return SERVE_HEARD_MAX - line->heard_count;
+}
+
+void serve_line_put(struct serve_line *line, uint64_t now, const uint8_t *bytes, uint32_t count)
+{
+    assert(count <= SERVE_HEARD_MAX - line->heard_count);
+    for (uint32_t i = 0; i < count; i++) {
+        uint64_t begin = line->last_tick < now ? now : line->last_tick;
+        line->last_tick = begin + line->byte_ticks;
+        line->heard[line->heard_count++] = (struct host_line_byte){.tick = line->last_tick, .value = bytes[i]};
+    }
+}
+
+void serve_line_say(void *context, uint64_t tick, uint8_t value)
+{
+    struct serve_line *line = context;
+    (void)tick;
+    if (line->said_count == SERVE_SAID_MAX) {
+        serve_line_flush(line);
+    }
+    line->said[line->said_count++] = value;
+}
+
+void serve_line_flush(struct serve_line *line)
+{
+    if (line->said_count > 0) {
+        serve_port_write_all(line->port, line->said, line->said_count);
+    }
+    line->said_count = 0;
+}

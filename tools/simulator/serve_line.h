@@ -1,0 +1,45 @@
+/*
+ * The half-duplex line between clients and units: what clients send goes to every unit at the same tick, what units
+ * send to every client. Units do not hear each other.
+ */
+#ifndef SERVE_LINE_H
+#define SERVE_LINE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "host_machine.h"
+#include "serve_port.h"
+
+enum {
+    SERVE_HEARD_MAX = 4096, /* bytes from clients that are not yet at the units; more wait where they come from */
+    SERVE_SAID_MAX = 16384,
+};
+
+struct serve_line {
+    struct host_line_byte heard[SERVE_HEARD_MAX]; /* sorted by tick */
+    uint32_t heard_count;
+    uint32_t byte_ticks;                          /* from one byte to the next */
+    uint64_t last_tick;                           /* of the last byte that was put on the line */
+    uint8_t said[SERVE_SAID_MAX];                 /* by units, not yet given to clients */
+    uint32_t said_count;
+    struct serve_port *port;
+};
+
+/* `paced`: bytes take what they take at 19 200 Bd; else next to nothing. */
+void serve_line_init(struct serve_line *line, struct serve_port *port, bool paced);
+
+/* Forgets the bytes that all units have heard: those before `now`. Returns the room for more. */
+uint32_t serve_line_room(struct serve_line *line, uint64_t now);
+
+/* Puts bytes of a client on the line, now or behind what is there. There must be room; the machines are then to be
+ * given `heard` as their script. */
+void serve_line_put(struct serve_line *line, uint64_t now, const uint8_t *bytes, uint32_t count);
+
+/* Takes a byte of a unit; the listener's function, with the line as its context. */
+void serve_line_say(void *context, uint64_t tick, uint8_t value);
+
+/* Gives clients what units have said. */
+void serve_line_flush(struct serve_line *line);
+
+#endif

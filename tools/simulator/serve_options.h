@@ -1,0 +1,36 @@
+/*
+ * The options of `rkm04-host serve`, from the command line.
+ */
+#ifndef SERVE_OPTIONS_H
+#define SERVE_OPTIONS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "complain.h"
+
+enum {
+    SERVE_UNITS_MAX = 16, /* as many as there are addresses */
+    SERVE_NODE_MAX = 16,
+    SERVE_TCP_PORT = 5000, /* where it listens unless told otherwise */
+};
+
+struct serve_options {
+    const char *pty;      /* the name of the link to a pty; null: TCP */
+    const char *address;  /* to listen on */
+    const char *flash;    /* null: programs are kept until the end only */
+    uint32_t milli_speed; /* thousandths of real time; 0: as fast as possible */
+    uint16_t tcp_port;    /* 0: any free one */
+    uint16_t control_port;
+    bool control;         /* whether control_port was asked for */
+    bool tcp;
+    bool unpaced;
+    bool json;
+    uint8_t units;
+    uint8_t nodes[SERVE_UNITS_MAX];
+};
+
+/* Reads what stands behind `serve`. EXIT_DONE, or EXIT_USAGE after a complaint. */
+enum exit_status serve_options_read(struct serve_options *options, int count, char *const arguments[]);
+
+#endif

@@ -1,0 +1,11 @@
+/*
+ * Signals that end `serve`, as something to poll.
+ */
+#ifndef SERVE_SIGNAL_H
+#define SERVE_SIGNAL_H
+
+/* From now on SIGINT, SIGTERM and SIGHUP make the returned descriptor readable; writing to who has gone and reading in
+ * the background of a terminal are errors of those calls. -1 after a complaint. */
+int serve_signal_catch(void);
+
+#endif

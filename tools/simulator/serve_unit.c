@@ -1,0 +1,144 @@
+#include "serve_unit.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base_tick.h"
+#include "line.h"
+#include "serve_flash.h"
+#include "units.h"
+
+enum { SECONDS_DECIMALS = 3 };
+
+static bool copy_path(struct serve_unit *unit, const char *path)
+{
+    if (path == NULL) {
+        return true;
+    }
+    unit->flash_path = malloc(strlen(path) + 1U);
+    if (unit->flash_path == NULL) {
+        complain("there is not memory enough for a unit; close other programs");
+        return false;
+    }
+    memcpy(unit->flash_path, path, strlen(path) + 1U);
+    return true;
+}
+
+enum exit_status serve_unit_begin(struct serve_unit *unit, uint8_t node, const char *flash_path)
+{
+    enum exit_status status = EXIT_DONE;
+    unit->flash_path = NULL;
+    unit->saved_operations = 0;
+    unit->unsaved = false;
+    host_machine_init(&unit->machine, 0);
+    host_machine_select(&unit->machine);
+    host_machine_set_node(&unit->machine, node);
+    if (!copy_path(unit, flash_path)) {
+        return EXIT_REFUSED;
+    }
+    if (flash_path != NULL) {
+        status = serve_flash_load(&unit->machine, flash_path);
+    }
+    unit_init(&unit->unit);
+    unit_start(&unit->unit);
+    return status;
+}
+
+static uint64_t run_pass(void *context)
+{
+    return unit_poll(context);
+}
+
+void serve_unit_run(struct serve_unit *unit, uint64_t until_tick)
+{
+    host_machine_run(&unit->machine, until_tick, run_pass, NULL, &unit->unit);
+}
+
+bool serve_unit_has_work(const struct serve_unit *unit)
+{
+    const struct link *link = &unit->unit.link;
+    if (unit->machine.line.next_tick != TICK_NEVER || link->waiting || link_is_sending(link)) {
+        return true;
+    }
+    return !unit_is_idle(&unit->unit) && host_machine_next_tick(&unit->machine) != TICK_NEVER;
+}
+
+static bool write_file(struct serve_unit *unit)
+{
+    unit->unsaved = !serve_flash_save(&unit->machine, unit->flash_path);
+    return !unit->unsaved;
+}
+
+bool serve_unit_save(struct serve_unit *unit)
+{
+    if (unit->flash_path == NULL || unit->machine.flash_operations == unit->saved_operations) {
+        return true;
+    }
+    unit->saved_operations = unit->machine.flash_operations;
+    return write_file(unit);
+}
+
+bool serve_unit_save_rest(struct serve_unit *unit)
+{
+    return serve_unit_save(unit) && (!unit->unsaved || write_file(unit));
+}
+
+typedef char *put_item(const struct serve_unit *unit, unsigned index, char *at);
+
+static char *put_position(const struct serve_unit *unit, unsigned index, char *at)
+{
+    return line_put_signed(at, mover_position_steps(&unit->unit.mover[index]));
+}
+
+static char *put_moving(const struct serve_unit *unit, unsigned index, char *at)
+{
+    return line_put_string(at, mover_is_moving(&unit->unit.mover[index]) ? "true" : "false");
+}
+
+static char *put_led(const struct serve_unit *unit, unsigned index, char *at)
+{
+    return line_put_unsigned(at, unit->machine.led[index]);
+}
+
+static char *put_input(const struct serve_unit *unit, unsigned index, char *at)
+{
+    return line_put_unsigned(at, unit->machine.inputs >> index & 1U);
+}
+
+static char *put_output(const struct serve_unit *unit, unsigned index, char *at)
+{
+    return line_put_unsigned(at, unit->machine.outputs >> index & 1U);
+}
+
+static char *put_list(const struct serve_unit *unit, const char *name, put_item *put, unsigned count, char *at)
+{
+    at = line_put_string(at, ", \"");
+    at = line_put_string(at, name);
+    at = line_put_string(at, "\": [");
+    for (unsigned i = 0; i < count; i++) {
+        at = i == 0 ? at : line_put_string(at, ", ");
+        at = put(unit, i, at);
+    }
+    return line_put_string(at, "]");
+}
+
+char *serve_unit_put_status(const struct serve_unit *unit, char *at)
+{
+    at = line_put_string(at, "\"node\": ");
+    at = line_put_unsigned(at, unit->machine.line.node);
+    at = line_put_string(at, ", \"seconds\": ");
+    at = line_put_fixed(at, units_ns_of_ticks(unit->machine.now) / 1000000U, SECONDS_DECIMALS);
+    at = line_put_string(at, ", \"idle\": ");
+    at = line_put_string(at, unit_is_idle(&unit->unit) ? "true" : "false");
+    at = put_list(unit, "positions", put_position, UNIT_MOTORS, at);
+    at = put_list(unit, "moving", put_moving, UNIT_MOTORS, at);
+    at = put_list(unit, "leds", put_led, UNIT_MOTORS, at);
+    at = put_list(unit, "inputs", put_input, UNIT_INPUTS, at);
+    return put_list(unit, "outputs", put_output, UNIT_OUTPUTS, at);
+}
+
+void serve_unit_discard(struct serve_unit *unit)
+{
+    free(unit->flash_path);
+    unit->flash_path = NULL;
+}
