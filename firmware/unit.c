@@ -134,6 +134,9 @@ uint64_t unit_poll(struct unit *unit)
         wake = program < wake ? program : wake;
         wake = led < wake ? led : wake;
     }
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        mover_feed(&unit->mover[motor]);
+    }
     /* A motor polled before the one that wrote a variable may be waiting for it. */
     return unit->io.variables != variables ? now : wake;
 }

@@ -6,8 +6,8 @@
 #include "hal_time.h"
 
 enum {
-    START_SEGMENTS = 2, /* laid before the first pulse is armed: they must last while the others are laid */
-    CUT_SEGMENTS = 2,   /* handed over with a cut, likewise */
+    START_SEGMENTS = 1, /* laid before the first pulse is armed, so that four motors start in time for their first steps */
+    CUT_SEGMENTS = 2,   /* handed over with a cut; they must last while the others are laid */
 };
 
 void mover_init(struct mover *mover, unsigned motor)
@@ -27,10 +27,9 @@ static bool feed_segment(struct mover *mover)
     return fed;
 }
 
-/* Lays what is left, and lets the tick interrupt in between the segments. */
-static void feed_rest(struct mover *mover)
+void mover_feed(struct mover *mover)
 {
-    bool fed = true;
+    bool fed = mover->moving;
     while (fed) {
         hal_run_hold_tick();
         fed = feed_segment(mover);
@@ -77,9 +76,6 @@ void mover_start(struct mover *mover, const struct motion_order *order, bool bac
         step_channel_run(&mover->channel);
     }
     hal_run_release_tick();
-    if (mover->moving) {
-        feed_rest(mover);
-    }
 }
 
 /* A copy of the plan, laid anew at a point: a stop, or with a speed a change of speed. */
@@ -136,7 +132,6 @@ void mover_stop(struct mover *mover, enum hal_trace_stop cause)
     hal_run_hold_tick();
     stop_locked(mover, cause);
     hal_run_release_tick();
-    feed_rest(mover);
 }
 
 void mover_change_speed(struct mover *mover, uint32_t speed_steps_per_s)
@@ -147,7 +142,6 @@ void mover_change_speed(struct mover *mover, uint32_t speed_steps_per_s)
         hal_trace(hal_time_now(), mover->motor + 1U, HAL_TRACE_SPEED, speed_steps_per_s);
     }
     hal_run_release_tick();
-    feed_rest(mover);
 }
 
 /* The step interrupt rests when the queue is empty. If the planner was late there is more now: then the motor goes on,
@@ -157,10 +151,9 @@ void mover_poll(struct mover *mover)
     if (!mover->moving) {
         return;
     }
-    feed_rest(mover);
     hal_run_hold_tick();
     if (!step_channel_is_running(&mover->channel)) {
-        if (step_channel_room(&mover->channel) < STEP_QUEUE_SEGMENTS) {
+        if (step_channel_room(&mover->channel) < STEP_QUEUE_SEGMENTS || feed_segment(mover)) {
             step_channel_run(&mover->channel);
         } else {
             mover->moving = false;

@@ -133,6 +133,7 @@ static uint64_t main_pass(void *context)
         probe->corner_count = mover_corners(&probe->mover, probe->corners);
     }
     mover_poll(&probe->mover);
+    mover_feed(&probe->mover);
     return UINT64_MAX;
 }
 
