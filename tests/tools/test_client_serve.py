@@ -8,8 +8,10 @@ import signal
 import time
 
 import pytest
-from rkm04_tools.line import open_line
-from rkm04_tools.line_errors import UnitRefused
+from noisy_line import NoisyLine
+from rkm04_tools.line import Wait, open_line
+from rkm04_tools.line_errors import LineError, UnitRefused
+from rkm04_tools.messages import SET_COMMAND, request
 
 LISTENING = re.compile(r"listening on (socket://127\.0\.0\.1:\d+)")
 NODE = 3
@@ -111,6 +113,37 @@ def test_a_long_program_follows_one_that_moves(motor):
     motor.send("\\=5[" + "W1" * 550)
 
     assert waits_until(lambda: motor.position() == 5)
+
+
+@pytest.mark.parametrize(("seed", "echo"), [(1, False), (2, True)])
+def test_on_a_bad_line_what_is_confirmed_was_done_once(port, seed, echo):
+    steps = 25
+    bad = NoisyLine(port, seed, probability=0.25, echo=echo)
+    try:
+        with open_line(bad.port) as line:
+            for _ in range(steps):
+                answer = line.request(NODE, request(SET_COMMAND, 2, b"F1R"), Wait(0.03, 30))
+                assert answer == b"\x022\0\0"
+    finally:
+        bad.close()
+
+    with open_line(port) as line:
+        motor = line.unit(NODE).motor(2)
+        assert waits_until(lambda: not motor.table())
+        assert motor.position() == steps
+    assert bad.harmed > 5
+
+
+def test_a_line_that_only_harms_ends_in_a_typed_error(port):
+    bad = NoisyLine(port, seed=3, probability=1.0, echo=True)
+    try:
+        with open_line(bad.port) as line:
+            started = time.monotonic()
+            with pytest.raises(LineError):
+                line.unit(NODE).motor(1).position()
+            assert time.monotonic() - started < 3
+    finally:
+        bad.close()
 
 
 def test_what_the_unit_refuses_is_typed(motor):

@@ -11,7 +11,7 @@ from rkm04_tools.check import check_source
 from rkm04_tools.source import read_source
 
 ROOT = Path(__file__).resolve().parents[2]
-EXAMPLES = ROOT / "tools" / "examples"
+TICKS_PER_MS = 84_000
 
 
 @pytest.fixture
@@ -51,14 +51,18 @@ def test_programs_that_begin_with_a_reset_are_released_together(board_tool, writ
     assert [t for t, motor, _ in rows if motor == 1] == [t for t, motor, _ in rows if motor == 3]
 
 
-def test_inputs_count_from_the_time_at_which_programs_have_come(board_tool, write):
+def test_inputs_count_from_the_time_at_which_programs_have_come(board_tool, write, tmp_path):
     program = write("S100 O02 F10 R")
     inputs = write("# ms,input,level\n100,2,1\n", "inputs.csv")
 
-    result = board_tool(program, "--inputs", inputs, "--json")
+    steps = tmp_path / "steps.csv"
 
-    assert result.json["motors"][0]["pulses"] == 10
-    assert result.json["seconds_simulated"] == pytest.approx(0.2, abs=0.01)
+    result = board_tool(program, "--inputs", inputs, "--steps", steps, "--json")
+
+    ticks = [int(row.split(",")[0]) for row in steps.read_text().splitlines()[2:]]
+    behind_ms = ticks[0] / TICKS_PER_MS - result.json["began_ms"]
+    assert len(ticks) == 10
+    assert 100 < behind_ms < 120
 
 
 def test_only_changes_behind_the_start_are_put_later():

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
-from reference import Curve, single
+from reference import TICK_HZ, Curve, single
 from rkm04_tools import board
 from virtual_board import (
     TICKS_PER_MS,
@@ -279,3 +279,53 @@ def test_a_speed_that_is_sent_alone_changes_the_move_from_the_next_pulse(unit):
     assert positions[-1] == 3000
     assert any(fits(modelled, 0, 3000, curve) for curve in changed)
     assert modelled.late_steps == 0
+
+
+def known(fault: str) -> pytest.MarkDecorator:
+    """A fault of the firmware; the test fails when it is gone, so that this mark goes too."""
+    return pytest.mark.xfail(reason=fault, strict=True, raises=AssertionError)
+
+
+ONE_STEP = b"S2000 V16000 A60000 L30 F1 R D R D E"
+TEN_SECTIONS = b"S2000 %s R R R" % b" ".join(
+    b"V%d A%d F%d Y" % (2000 + 1400 * (i % 3), 60000 - 1000 * i, 1 + i) for i in range(10)
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "motors"),
+    [
+        (ONE_STEP, 1),
+        (TEN_SECTIONS, 1),
+        pytest.param(ONE_STEP, 4, marks=known("four moves of a step each are laid too slowly")),
+        pytest.param(TEN_SECTIONS, 4, marks=known("four short compound moves likewise")),
+    ],
+    ids=["one step", "ten sections", "four times one step", "four times ten sections"],
+)
+def test_the_quickest_moves_come_in_time(unit, text, motors):
+    programs = dict.fromkeys(range(1, motors + 1), text)
+
+    simulated, modelled = both(unit, programs, 5, together(programs))
+
+    assert differences(simulated, modelled) == []
+
+
+@pytest.mark.parametrize(
+    "motors",
+    [1, pytest.param(4, marks=known("the third and the fourth of four stops begin too late"))],
+)
+def test_a_guard_acts_within_a_millisecond_at_full_speed(unit, motors):
+    text = b"S500 V16000 A60000 M03 F60000 R"
+    sent = script(together(dict.fromkeys(range(1, motors + 1), text)))
+    edge_ms = sent.come_ms[-1] + 600
+    interval = TICK_HZ // 16000
+
+    modelled = unit.run(sent.lines, edge_ms / 1000 + 0.02, f"{edge_ms:.6f},3,1\n")
+
+    edge = round(edge_ms * TICKS_PER_MS) - first_tick(modelled.steps)
+    behind = []
+    for motor in range(1, motors + 1):
+        ticks, _ = of_motor(modelled.steps, motor)
+        changed = (ticks[1:] > edge) & (ticks[1:] - ticks[:-1] != interval)
+        behind.append(int(ticks[:-1][changed][0]) - edge)
+    assert max(behind) <= TICKS_PER_MS
