@@ -6,7 +6,7 @@
 #include "hal_time.h"
 
 enum {
-    START_SEGMENTS = 1, /* laid before the first pulse is armed, so that four motors start in time for their first steps */
+    START_SEGMENTS = 1, /* laid before the first pulse is armed: four motors must start in time for their first steps */
     CUT_SEGMENTS = 2,   /* handed over with a cut; they must last while the others are laid */
 };
 
@@ -89,7 +89,8 @@ static bool plan_anew(struct motion_plan *plan, const struct motion_point *at, u
  * False if nothing is left to change. */
 static bool mover_replan(struct mover *mover, uint32_t speed_steps_per_s)
 {
-    for (uint32_t lead_ticks = hal_step_lead_ticks(); lead_ticks < TICK_HZ; lead_ticks = 2U * lead_ticks + TICKS_PER_US) {
+    for (uint32_t lead_ticks = hal_step_lead_ticks(); lead_ticks < TICK_HZ;
+         lead_ticks = 2U * lead_ticks + TICKS_PER_US) {
         uint64_t now = hal_time_now();
         struct step_cursor at;
         struct step_segment segments[CUT_SEGMENTS];

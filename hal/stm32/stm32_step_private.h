@@ -35,8 +35,8 @@ enum {
     SPIN_TICKS = 2 * WRITE_TICKS,
     STUCK_TICKS = 5 * TICKS_PER_MS,
 
-    /* What planning a stop or a change of speed takes at 168 MHz, from the look at the clock to the cut: 20 us with
-     * few sections, more with many; the mover tries again then. */
+    /* The first lead for a stop or a change of speed. On the virtual board planning takes about 93 us from the look at
+     * the clock to the cut, so the first tries fail and the mover succeeds with a later one: too short yet. */
     LEAD_TICKS = 30 * TICKS_PER_US,
 };
 
