@@ -5,6 +5,9 @@ from __future__ import annotations
 import pytest
 
 PINS = "m1_step PA0\nm2_step PA1\n"
+ALL_PINS = PINS + "m3_step PA2\nm4_step PA3\n"
+LOW, HIGH = 0, 1
+FLAG = 2
 
 
 def test_compare_edges_stand_on_the_exact_ticks(run_image):
@@ -109,3 +112,86 @@ def test_a_compare_value_that_the_counter_stands_on_matches_if_asked_to(run_imag
     assert result[0] == 5
     assert result[1] == flag
     assert result[2] == flag
+
+
+def test_pwm_edges_stand_on_the_compare_value_and_on_the_turn(run_image):
+    run = run_image("timer_pwm", "--ticks", "timer", pins=ALL_PINS, defines=["EDGES"])
+    ticks = {m: [tick for tick, motor, _ in run.steps if motor == m] for m in range(1, 5)}
+
+    # Mode 1 is high below the value, mode 2 from it on; the second of each is upside down. The
+    # first levels come before the timer starts.
+    assert ticks[1][1:3] == ticks[4][1:3] == [100, 200]
+    assert ticks[2][:3] == ticks[3][:3] == [40, 140, 240]
+
+
+def test_pwm_of_0_is_always_low_and_above_the_period_always_high(run_image):
+    result = run_image("timer_pwm", defines=["ENDS"]).result
+
+    assert result[0] == 0b1110
+    assert result[1] == 0
+    assert result[2] == 0b1100  # the second one has matched on the last tick
+    assert result[3] == 0b00100
+    assert result[4] == 0b1110
+    assert result[5] == 0b11111  # those above the period set their flag when the counter turns
+
+
+@pytest.mark.parametrize(("options", "flag"), [([], 0), (["--match-equal"], FLAG)])
+def test_pwm_2_is_high_from_the_value_on_and_low_as_soon_as_it_lies_ahead(
+    run_image, options, flag
+):
+    result = run_image("timer_pwm", *options, defines=["MOVES"]).result
+
+    assert result[0:4] == [LOW, LOW, HIGH, FLAG]
+    assert result[4:7] == [LOW, LOW, HIGH]  # moved ahead, waiting, reached
+    assert result[7:10] == [LOW, HIGH, 0]  # ahead, then behind: high without a match
+    assert result[10:12] == [HIGH, flag]  # equal
+    assert result[12:14] == [LOW, HIGH]  # the counter set back
+    assert result[14:16] == [HIGH, LOW]  # and turning over
+
+
+@pytest.mark.parametrize(("options", "left"), [([], LOW), (["--pwm-at-once"], HIGH)])
+def test_pwm_behind_a_forced_level_waits_for_a_change_of_the_comparison(run_image, options, left):
+    result = run_image("timer_pwm", *options, defines=["FORCED"]).result
+
+    assert result[0:2] == [HIGH, HIGH]
+    assert result[2:5] == [LOW, HIGH, LOW]
+    assert result[5] == left
+    assert result[6] == HIGH
+    assert result[7:9] == [HIGH, LOW]  # from frozen it is shown at once
+
+
+def test_modes_that_wait_for_a_match_act_on_it_alone_and_flags_come_in_every_mode(run_image):
+    result = run_image("timer_pwm", defines=["MATCHES"]).result
+
+    assert result[0:2] == [LOW, HIGH]  # active on match
+    assert result[2:4] == [HIGH, LOW]  # inactive on match
+    assert result[4:6] == [HIGH, LOW]  # toggle
+    assert result[6:8] == [LOW, FLAG]  # frozen
+    assert result[8] == FLAG  # forced
+    assert result[9] == FLAG  # by EGR, which moves no output
+    assert result[10:12] == [LOW, LOW]  # high, upside down; then off
+
+
+def test_preload_holds_a_value_back_until_the_update(run_image):
+    result = run_image("timer_pwm", defines=["PRELOADED"]).result
+
+    assert result[0:3] == [HIGH, HIGH, 60]
+    assert result[3:5] == [LOW, LOW]
+    assert result[5] == HIGH
+    assert result[6] == 49
+    assert result[7:10] == [1, 0, 0]  # UIF by overflow; not with UDIS, nor by UG with URS
+
+
+def test_one_pulse_ends_with_any_update_and_a_period_of_0_blocks_the_counter(run_image):
+    result = run_image("timer_pwm", defines=["STOPS"]).result
+
+    assert result[0:2] == [0, LOW]
+    assert result[2] == 0
+    assert result[3] == 0
+
+
+@pytest.mark.parametrize("wait", [0, 3, 10])
+def test_a_read_of_the_counter_costs_a_load_and_the_wait_of_its_bus(run_image, wait):
+    result = run_image("timer_pwm", "--apb-wait", str(wait), defines=["READS"]).result
+
+    assert result[0] == 1 + 2 + wait

@@ -54,6 +54,7 @@ struct options {
     bool no_crystal;
     bool slow_flash;
     bool match_equal;
+    bool pwm_at_once;
     bool ticks_from_timer;
 };
 

@@ -16,9 +16,10 @@ uint32_t timer_width_mask(unsigned instance)
     return timer_is_wide(instance) ? UINT32_MAX : 0xFFFFU;
 }
 
+/* Section 18.4.12: the counter is blocked while the auto-reload value is null. */
 bool timer_runs(const struct timer *timer)
 {
-    return (timer->cr1 & TIMER_CR1_CEN) != 0;
+    return (timer->cr1 & TIMER_CR1_CEN) != 0 && timer->arr_used != 0;
 }
 
 uint64_t timer_tick_cycles(const struct board *board, unsigned instance)
@@ -107,7 +108,7 @@ void timer_match(struct board *board, unsigned instance, unsigned channel, uint6
     timer_match_output(board, instance, channel, cycle);
 }
 
-/* An update event (section 18.3.1): what was preloaded comes into force. */
+/* An update event (section 18.3.1): what was preloaded comes into force, and a timer of one pulse stops. */
 void timer_update_event(struct board *board, unsigned instance, bool by_software)
 {
     struct timer *timer = &board->timer[instance];
@@ -122,6 +123,9 @@ void timer_update_event(struct board *board, unsigned instance, bool by_software
     if (!by_software || (timer->cr1 & TIMER_CR1_URS) == 0) {
         timer->sr |= SR_UIF;
     }
+    if ((timer->cr1 & TIMER_CR1_OPM) != 0) {
+        timer->cr1 &= ~(uint32_t)TIMER_CR1_CEN;
+    }
 }
 
 /* The counter turns to 0. Section 18.4.5: a channel whose value lies above ARR sets its flag now. */
@@ -134,12 +138,9 @@ static void turn(struct board *board, unsigned instance, uint64_t cycle)
     timer->count = 0;
     timer->anchor_cycle = cycle;
     timer_update_event(board, instance, false);
-    if ((timer->cr1 & TIMER_CR1_OPM) != 0) {
-        timer->cr1 &= ~(uint32_t)TIMER_CR1_CEN;
-    }
     timer_plan(board, instance, cycle);
+    timer_update_outputs(board, instance, cycle);
     for (unsigned i = 0; i < TIMER_CHANNELS; i++) {
-        timer_update_output(board, instance, i, cycle);
         if (timer->channel[i].compare == 0) {
             timer_match(board, instance, i, cycle);
         }

@@ -19,6 +19,8 @@ struct timer_channel {
     uint32_t compare;  /* what the counter is compared with */
     uint32_t preload;  /* what CCR reads */
     uint64_t due;      /* cycle of the next match; NEVER: none before the counter turns over */
+    uint8_t mode;      /* OCxM, as it was when the output was looked at last */
+    bool below;        /* and whether the counter was below the value */
     bool reference;    /* OCxREF */
     bool pin_level;    /* what the pins were told last */
     bool pin_driven;
@@ -64,6 +66,7 @@ uint64_t timer_tick_cycles(const struct board *board, unsigned instance);
 
 /* For timer_output.c: the outputs follow what the registers say. */
 void timer_update_output(struct board *board, unsigned instance, unsigned channel, uint64_t cycle);
+void timer_update_outputs(struct board *board, unsigned instance, uint64_t cycle);
 void timer_match_output(struct board *board, unsigned instance, unsigned channel, uint64_t cycle);
 unsigned timer_output_mode(const struct timer *timer, unsigned channel);
 

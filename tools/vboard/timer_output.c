@@ -3,6 +3,7 @@
  * are those of the data sheet's table of alternate functions).
  */
 #include "board.h"
+#include "timer_private.h"
 
 enum {
     MODE_FROZEN,
@@ -64,12 +65,17 @@ static void tell_pins(struct board *board, unsigned instance, unsigned channel, 
     }
 }
 
+/* Section 18.4.7: in PWM mode the level changes only when the result of the comparison does, or when the mode was
+ * "frozen" before. What a channel shows that comes from another mode is not said; --pwm-at-once: the comparison. */
 void timer_update_output(struct board *board, unsigned instance, unsigned channel, uint64_t cycle)
 {
     struct timer *timer = &board->timer[instance];
     struct timer_channel *at = &timer->channel[channel];
     unsigned mode = timer_output_mode(timer, channel);
-    bool below = timer->count < at->compare && at->due != VTIME_NEVER;
+    bool below = timer_count_at(board, instance, cycle) < at->compare;
+    bool follows = below != at->below || at->mode == MODE_FROZEN || (board->options->pwm_at_once && mode != at->mode);
+    at->mode = (uint8_t)mode;
+    at->below = below;
     switch (mode) {
     case MODE_FORCE_INACTIVE:
     case MODE_FORCE_ACTIVE:
@@ -77,12 +83,19 @@ void timer_update_output(struct board *board, unsigned instance, unsigned channe
         break;
     case MODE_PWM1: /* active as long as the counter is below the value */
     case MODE_PWM2:
-        at->reference = below == (mode == MODE_PWM1);
+        at->reference = follows ? below == (mode == MODE_PWM1) : at->reference;
         break;
     default:
         break;
     }
     tell_pins(board, instance, channel, cycle);
+}
+
+void timer_update_outputs(struct board *board, unsigned instance, uint64_t cycle)
+{
+    for (unsigned i = 0; i < TIMER_CHANNELS; i++) {
+        timer_update_output(board, instance, i, cycle);
+    }
 }
 
 void timer_match_output(struct board *board, unsigned instance, unsigned channel, uint64_t cycle)
@@ -98,14 +111,8 @@ void timer_match_output(struct board *board, unsigned instance, unsigned channel
     case MODE_TOGGLE:
         at->reference = !at->reference;
         break;
-    case MODE_PWM1:
-        at->reference = false;
-        break;
-    case MODE_PWM2:
-        at->reference = true;
-        break;
     default:
         break;
     }
-    tell_pins(board, instance, channel, cycle);
+    timer_update_output(board, instance, channel, cycle);
 }

@@ -20,6 +20,7 @@ enum {
     TIM_OR = 0x50,
     CR1_MODELLED = 0x38F, /* not counting down, not centre-aligned; CKD does nothing here */
     SR_FLAGS = 0x1E5F,
+    CHANNEL_FLAGS = 0x1E,
     CCMR_PRELOAD = 1 << 3,
     CCER_MODELLED = 0x3333,
 };
@@ -90,6 +91,7 @@ static void write_cr1(struct board *board, unsigned instance, uint32_t value)
         timer->start_cycle = timer->start_cycle == VTIME_NEVER ? timer->anchor_cycle : timer->start_cycle;
     }
     timer->cr1 = value;
+    timer->arr_used = (value & TIMER_CR1_ARPE) != 0 ? timer->arr_used : timer->arr;
     timer_plan(board, instance, board->cpu.now);
 }
 
@@ -102,12 +104,24 @@ static void write_egr(struct board *board, unsigned instance, uint32_t value)
         timer->anchor_cycle = now;
         timer_update_event(board, instance, true);
     }
-    for (unsigned i = 0; i < TIMER_CHANNELS; i++) {
-        if ((value & 2U << i) != 0) {
-            timer_match(board, instance, i, now);
-        }
-    }
+    timer->sr |= value & CHANNEL_FLAGS; /* the flags; of the outputs section 18.4.6 says nothing */
     timer_plan(board, instance, now);
+    timer_update_outputs(board, instance, now);
+}
+
+/* Section 18.4.7, OCxPE: without preload what is written to the register is what the counter is compared with. */
+static bool preloads(const struct timer *timer, unsigned channel)
+{
+    return (timer->ccmr[channel / 2U] >> 8U * (channel % 2U) & CCMR_PRELOAD) != 0;
+}
+
+static void take_compare(struct board *board, unsigned instance, unsigned channel)
+{
+    struct timer_channel *at = &board->timer[instance].channel[channel];
+    at->compare = at->preload;
+    timer_find_match(board, instance, channel, board->cpu.now);
+    timer_set_event(board, instance);
+    timer_update_output(board, instance, channel, board->cpu.now);
 }
 
 static void write_ccmr(struct board *board, unsigned instance, unsigned index, uint32_t value)
@@ -120,20 +134,21 @@ static void write_ccmr(struct board *board, unsigned instance, unsigned index, u
         refuse(board, "clearing outputs by ETRF");
     }
     timer->ccmr[index] = value;
-    timer_update_output(board, instance, 2U * index, board->cpu.now);
-    timer_update_output(board, instance, 2U * index + 1U, board->cpu.now);
+    for (unsigned i = 2U * index; i < 2U * index + 2U; i++) {
+        if (!preloads(timer, i) && timer->channel[i].compare != timer->channel[i].preload) {
+            take_compare(board, instance, i);
+        } else {
+            timer_update_output(board, instance, i, board->cpu.now);
+        }
+    }
 }
 
 static void write_compare(struct board *board, unsigned instance, unsigned channel, uint32_t value)
 {
     struct timer *timer = &board->timer[instance];
-    struct timer_channel *at = &timer->channel[channel];
-    at->preload = value & timer_width_mask(instance);
-    if ((timer->ccmr[channel / 2U] >> 8U * (channel % 2U) & CCMR_PRELOAD) == 0) {
-        at->compare = at->preload;
-        timer_find_match(board, instance, channel, board->cpu.now);
-        timer_set_event(board, instance);
-        timer_update_output(board, instance, channel, board->cpu.now);
+    timer->channel[channel].preload = value & timer_width_mask(instance);
+    if (!preloads(timer, channel)) {
+        take_compare(board, instance, channel);
     }
 }
 
@@ -155,6 +170,7 @@ static bool write_counter(struct board *board, unsigned instance, uint32_t offse
         break;
     }
     timer_plan(board, instance, board->cpu.now);
+    timer_update_outputs(board, instance, board->cpu.now);
     return true;
 }
 
@@ -191,9 +207,7 @@ static bool write_register(struct board *board, unsigned instance, uint32_t offs
         return true;
     case TIM_CCER:
         timer->ccer = value & CCER_MODELLED;
-        for (unsigned i = 0; i < TIMER_CHANNELS; i++) {
-            timer_update_output(board, instance, i, board->cpu.now);
-        }
+        timer_update_outputs(board, instance, board->cpu.now);
         return true;
     case TIM_CNT:
     case TIM_PSC:
