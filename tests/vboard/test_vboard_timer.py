@@ -136,9 +136,7 @@ def test_pwm_of_0_is_always_low_and_above_the_period_always_high(run_image):
 
 
 @pytest.mark.parametrize(("options", "flag"), [([], 0), (["--match-equal"], FLAG)])
-def test_pwm_2_is_high_from_the_value_on_and_low_as_soon_as_it_lies_ahead(
-    run_image, options, flag
-):
+def test_pwm_2_is_high_from_the_value_on_and_low_as_soon_as_it_lies_ahead(run_image, options, flag):
     result = run_image("timer_pwm", *options, defines=["MOVES"]).result
 
     assert result[0:4] == [LOW, LOW, HIGH, FLAG]
