@@ -38,8 +38,12 @@ static inline int32_t wide_multiply_high(int32_t a, int32_t b)
     return wide_to_signed_32((uint32_t)(wide_from_signed((int64_t)a * b) >> 32U));
 }
 
-/* The number of bits of value up to its highest 1; 0 for 0. May be used in the step interrupt. */
-unsigned wide_bits(uint32_t value);
+/* The number of bits of value up to its highest 1; 0 for 0. Both compilers have the processor's instruction for it. May
+ * be used in the step interrupt. */
+static inline unsigned wide_bits(uint32_t value)
+{
+    return value != 0 ? 64U - (unsigned)__builtin_clzll(value) : 0U;
+}
 
 /* a * b, exact. */
 struct wide wide_multiply(uint64_t a, uint64_t b);
