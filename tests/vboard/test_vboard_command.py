@@ -85,3 +85,26 @@ def test_the_waveform_has_the_signals_of_the_simulator(run_image):
     names += [f"m{i}_{what}" for i in range(1, 5) for what in ("position", "speed")]
     assert all(f" {name} $end" in wave for name in names)
     assert "r168000.000" in wave  # 84 MHz / 500
+
+
+def test_a_profile_counts_each_cycle_once(run_image, tmp_path):
+    run = run_image("spin", "--profile", str(tmp_path / "profile.csv"))
+
+    head, *lines = (tmp_path / "profile.csv").read_text().splitlines()
+    rows = [line.split(",") for line in lines]
+    timer = [row for row in rows if row[0] == str(run.vector("TIM2")["number"])]
+    entered = next(int(row[2]) for row in timer if row[1] == "entry")
+    assert head == "exception,address,count,cycles,bus_cycles,register"
+    assert sum(int(row[3]) for row in rows) == run.summary["cycles"]
+    assert sum(int(row[3]) for row in timer) == run.vector("TIM2")["cycles"]
+    assert entered == run.vector("TIM2")["count"]
+    assert sum(int(row[2]) for row in rows if row[1][0] in "02") == run.summary["instructions"]
+
+
+def test_a_profile_names_the_register_and_the_waiting_for_it(run_image, tmp_path):
+    run_image("spin", "--profile", str(tmp_path / "profile.csv"))
+
+    rows = [line.split(",") for line in (tmp_path / "profile.csv").read_text().splitlines()[1:]]
+    accesses = [row for row in rows if row[5].startswith("4000")]
+    assert any(int(row[4]) > 0 for row in accesses)
+    assert all(row[5] for row in rows if int(row[4]) > 0)

@@ -69,6 +69,15 @@ def _sim(options: argparse.Namespace) -> int:
     return sim.run(options)
 
 
+def _bench(options: argparse.Namespace) -> int:
+    """Import what measures the image only when it is asked for."""
+    if options.target == "host":
+        return bench.run(options)
+    from rkm04_tools import bench_target
+
+    return bench_target.run(options)
+
+
 def _parser() -> Parser:
     parser = Parser(
         prog="rkm04",
@@ -152,7 +161,18 @@ def _add_serve(commands: Commands) -> None:
 
 def _add_bench(commands: Commands) -> None:
     title = "measure accuracy and speed, and compare them with their goals"
-    _add(commands, "bench", bench.run, title, "rkm04 bench --json")
+    command = _add(commands, "bench", _bench, title, "rkm04 bench --json")
+    command.add_argument(
+        "--target",
+        choices=["host", "stm32"],
+        default="host",
+        help="what is measured: the host build, or the image of a board (default: host)",
+    )
+    command.add_argument(
+        "--profile",
+        metavar="OUT",
+        help="stm32: only show where the cycles of a step go; OUT gets every instruction",
+    )
 
 
 def _add_board(commands: Commands) -> None:

@@ -158,6 +158,7 @@ void board_measure_event(struct board *board, uint64_t cycle)
 {
     (void)cycle;
     stats_reset(board);
+    profile_reset(board);
 }
 
 void board_end_event(struct board *board, uint64_t cycle)
@@ -196,7 +197,7 @@ static bool connect(struct board *board)
 {
     const struct options *options = board->options;
     if (!pins_read(&board->pins, options->pins) || !recorder_open(board) || !inputs_open(board) ||
-        !rs485_open(board) || !tty_open(board)) {
+        !rs485_open(board) || !tty_open(board) || !profile_open(board, options->profile)) {
         return false;
     }
     for (unsigned i = 0; i < options->stucks; i++) {
@@ -235,6 +236,7 @@ bool board_close(struct board *board)
 {
     bool good = recorder_close(board);
     good = rs485_close(board) && good;
+    good = profile_close(board) && good;
     return flash_save(board, board->options->flash) && good;
 }
 
@@ -244,6 +246,7 @@ void board_discard(struct board *board)
     inputs_close(board);
     recorder_discard(board);
     rs485_discard(board);
+    profile_discard(board);
     image_discard(&board->image);
     cpu_discard(&board->cpu);
     memory_discard(&board->memory);

@@ -23,6 +23,7 @@
 #include "options.h"
 #include "pins.h"
 #include "plain.h"
+#include "profile.h"
 #include "rcc.h"
 #include "recorder.h"
 #include "rs485.h"
@@ -76,6 +77,7 @@ struct board {
     struct inputs inputs;
     struct recorder recorder;
     struct stats stats;
+    struct profile profile;
 };
 
 /* Builds a board with its program, ready to run from power-on. False after a complaint. */

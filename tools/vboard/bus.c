@@ -95,7 +95,9 @@ static const char *refuse(struct board *board, const struct block *block, uint32
 static void wait_for_apb(struct board *board, uint32_t address, bool is_read)
 {
     struct cpu *cpu = &board->cpu;
+    uint64_t begin = cpu->now;
     if (address - PERIPHERAL_BASE >= APB_BYTES) {
+        profile_bus(board, address, 0);
         return;
     }
     if (cpu->now < board->bus.apb_busy_until) {
@@ -106,6 +108,7 @@ static void wait_for_apb(struct board *board, uint32_t address, bool is_read)
     } else {
         board->bus.apb_busy_until = cpu->now + board->bus.apb_wait;
     }
+    profile_bus(board, address, cpu->now - begin);
 }
 
 static uint32_t lanes(uint32_t address, unsigned bytes)

@@ -172,6 +172,9 @@ static void on_instruction(uc_engine *engine, uint64_t address64, uint32_t size,
     if (__builtin_expect((address & cpu->line_mask) != cpu->line, 0)) {
         enter_line(board, address);
     }
+    if (__builtin_expect(board->profile.on, 0)) {
+        profile_at(board, address);
+    }
     if (__builtin_expect(cpu->now >= cpu->deadline, 0) && (entry->flags & COST_IN_IT) == 0 &&
         look_around(board, address)) {
         return;
@@ -191,6 +194,7 @@ static void on_instruction(uc_engine *engine, uint64_t address64, uint32_t size,
     cpu->at = address;
     cpu->next = address + size;
     cpu->instructions++;
+    board->profile.row->count++;
 }
 
 static void on_trap(uc_engine *engine, uint32_t number, void *user)

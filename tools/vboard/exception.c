@@ -140,6 +140,7 @@ uint32_t exception_take(struct board *board, uint32_t return_address)
     struct cpu *cpu = &board->cpu;
     uint32_t exc_return = 0;
     uint64_t begin = cpu->now;
+    profile_pause(board);
     if (!push_frame(board, return_address, &exc_return)) {
         note_stacking_fault(board, SCB_CFSR_STKERR);
     }
@@ -149,7 +150,9 @@ uint32_t exception_take(struct board *board, uint32_t return_address)
     cpu->now += EXCEPTION_ENTRY_CYCLES;
     events_run(board, cpu->now); /* what comes now and is more urgent takes the place: late arrival */
     stats_begin(board, begin);
-    return enter_handler(board, nvic_next_pending(&board->nvic), exc_return);
+    uint32_t handler = enter_handler(board, nvic_next_pending(&board->nvic), exc_return);
+    profile_place(board, PROFILE_ENTRY);
+    return handler;
 }
 
 static uint32_t pop_frame(struct board *board, uint32_t exc_return)
@@ -191,6 +194,7 @@ uint32_t exception_return(struct board *board, uint32_t exc_return)
     unsigned exception = cpu_read(cpu, UC_ARM_REG_IPSR) & XPSR_EXCEPTION;
 
     events_run(board, cpu->now);
+    profile_pause(board);
     if ((exc_return & EXC_RETURN_MAGIC) != EXC_RETURN_MAGIC || !nvic_is_active(&board->nvic, exception)) {
         board_fail(board, "return from exception %u with EXC_RETURN %08x", exception, exc_return);
     }
@@ -207,10 +211,14 @@ uint32_t exception_return(struct board *board, uint32_t exc_return)
         stats_begin(board, cpu->now);
         cpu->now += EXCEPTION_TAIL_CYCLES;
         events_run(board, cpu->now);
-        return enter_handler(board, nvic_next_pending(&board->nvic), exc_return);
+        uint32_t handler = enter_handler(board, nvic_next_pending(&board->nvic), exc_return);
+        profile_place(board, PROFILE_ENTRY);
+        return handler;
     }
     cpu->now += EXCEPTION_EXIT_CYCLES;
+    profile_place(board, PROFILE_EXIT);
     stats_leave(board, exception);
+    profile_pause(board);
     uint32_t address = pop_frame(board, exc_return);
     cpu->now += cpu_fetch_wait(board, address);
     bool to_thread = (exc_return & RETURN_TO_THREAD) != 0;

@@ -28,6 +28,7 @@ const char options_usage[] =
     "  --watch SYMBOL        a variable to be shown in the summary; may be repeated\n"
     "  --stack-limit SYMBOL  the lowest address of the stack\n"
     "  --measure-from MS     the statistics begin then (0)\n"
+    "  --profile FILE        write where the cycles went, instruction by instruction\n"
     "cycle model:\n"
     "  --refill P            cycles to refill the pipeline, 1 to 3 (3)\n"
     "  --wait-states N       of the flash, 0 to 15 (as FLASH_ACR says)\n"
@@ -77,6 +78,7 @@ static const struct row rows[] = {
     TEXT("--steps", steps),
     TEXT("--vcd", vcd),
     TEXT("--flash", flash),
+    TEXT("--profile", profile),
     TEXT("--pty", pty),
     TEXT("--end-at", end_at),
     TEXT("--stack-limit", stack_limit),

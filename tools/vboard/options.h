@@ -29,6 +29,7 @@ struct options {
     const char *steps;
     const char *vcd;
     const char *flash;
+    const char *profile;
     const char *pty;
     const char *end_at;      /* symbol of a function; null: none */
     const char *stack_limit; /* symbol; null: found from the image */

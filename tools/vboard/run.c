@@ -108,6 +108,7 @@ static uint32_t after_sleep(struct board *board)
     bool wide = code != NULL && (code[1] & 0xF8U) >= 0xE8U;
     cpu->now++;
     cpu->instructions++;
+    board->profile.row->count++;
     if (cpu->stop == CPU_STOP_SLEEP || !cpu->event_register) {
         board_sleep(board);
     }
