@@ -54,6 +54,9 @@ void unit_init(struct unit *unit)
         .step_isr = unit_step_isr,
         .tick_isr = unit_tick_isr,
     };
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        unit->client.channel[motor] = &unit->mover[motor].channel;
+    }
 }
 
 static void unit_start_program(struct unit *unit, unsigned motor, uint64_t now_ticks)

@@ -81,5 +81,6 @@ struct step_segment motion_leg_segment(const struct motion_leg *leg)
         segment_from_start(leg, &segment);
     }
     segment.interval_ticks = first_interval(leg, &segment);
+    segment.pace_ticks = leg->accel == 0 ? (uint32_t)(STEP_QUANTA / leg->from_slope) : 0U;
     return segment;
 }

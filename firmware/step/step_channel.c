@@ -20,10 +20,10 @@ static bool cursor_begin_segment(struct step_cursor *cursor, const struct step_c
     }
     const struct step_segment *segment = queue_slot(channel, cursor->tail);
     step_generator_load(&cursor->generator, segment);
+    (void)step_generator_first(&cursor->generator);
     cursor->end += segment->steps;
     cursor->left = segment->steps - 1U;
     cursor->tail++;
-    (void)step_generator_next(&cursor->generator);
     return true;
 }
 
@@ -37,20 +37,20 @@ static bool cursor_advance(struct step_cursor *cursor, const struct step_channel
     return true;
 }
 
-/* Arms the first pulse of the next segment; the channel rests if there is none. */
-static void channel_begin_segment(struct step_channel *channel)
+/* Finds the first pulse of the next segment; the channel rests if there is none. */
+static bool channel_begin_segment(struct step_channel *channel)
 {
     uint32_t head = atomic_load_explicit(&channel->head, memory_order_acquire);
     uint32_t tail = channel->cursor.tail;
     if (!cursor_begin_segment(&channel->cursor, channel, head)) {
         atomic_store_explicit(&channel->running, false, memory_order_release);
-        return;
+        return false;
     }
-    hal_step_arm(channel->motor, channel->cursor.generator.tick);
     if (queue_slot(channel, tail)->marked) {
         atomic_store_explicit(&channel->marked, true, memory_order_relaxed);
     }
     atomic_store_explicit(&channel->taken, channel->cursor.tail, memory_order_release);
+    return true;
 }
 
 void step_channel_init(struct step_channel *channel, unsigned motor)
@@ -86,7 +86,9 @@ void step_channel_push(struct step_channel *channel, const struct step_segment *
 void step_channel_run(struct step_channel *channel)
 {
     atomic_store_explicit(&channel->running, true, memory_order_relaxed);
-    channel_begin_segment(channel);
+    if (channel_begin_segment(channel)) {
+        hal_step_arm(channel->motor, channel->cursor.generator.tick);
+    }
 }
 
 bool step_channel_is_running(const struct step_channel *channel)
@@ -181,14 +183,16 @@ bool step_channel_take_mark(struct step_channel *channel)
     return atomic_exchange_explicit(&channel->marked, false, memory_order_relaxed);
 }
 
+unsigned step_channel_next_segment_isr(struct step_channel *channel)
+{
+    return channel_begin_segment(channel) ? STEP_CHANNEL_ARM | STEP_CHANNEL_LOOK : STEP_CHANNEL_LOOK;
+}
+
 bool step_channel_pulse_isr(struct step_channel *channel)
 {
-    struct step_cursor *cursor = &channel->cursor;
-    if (cursor->left == 0) {
-        channel_begin_segment(channel);
-        return true;
+    unsigned next = step_channel_next_isr(channel);
+    if ((next & STEP_CHANNEL_ARM) != 0) {
+        hal_step_arm(channel->motor, channel->cursor.generator.tick);
     }
-    cursor->left--;
-    hal_step_arm(channel->motor, step_generator_next(&cursor->generator));
-    return false;
+    return (next & STEP_CHANNEL_LOOK) != 0;
 }

@@ -13,6 +13,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base_hint.h"
 #include "step_generator.h"
 #include "step_segment.h"
 
@@ -88,8 +89,27 @@ uint32_t step_channel_end_tick(const struct step_channel *channel);
 /* Whether a marked segment has begun since the last call. */
 bool step_channel_take_mark(struct step_channel *channel);
 
-/* The armed pulse has been made by hardware: counts it and arms the next. True when main should look: the move has
- * ended, or a marked segment has begun, or the queue has got shorter. */
+/* What follows a pulse. LOOK: main should look, as the move has ended, or a marked segment has begun, or the queue has
+ * got shorter. */
+enum { STEP_CHANNEL_ARM = 1, STEP_CHANNEL_LOOK = 2 };
+
+/* step_channel_next_isr where a segment ends. */
+unsigned step_channel_next_segment_isr(struct step_channel *channel);
+
+/* The armed pulse has been made by hardware: counts it and finds the next. With STEP_CHANNEL_ARM in the answer the
+ * caller arms it, at cursor.generator.tick. Inline, for a backend whose step interrupt is one function. */
+static inline unsigned step_channel_next_isr(struct step_channel *channel)
+{
+    struct step_cursor *cursor = &channel->cursor;
+    if (BASE_SELDOM(cursor->left == 0)) {
+        return step_channel_next_segment_isr(channel);
+    }
+    cursor->left--;
+    (void)step_generator_next(&cursor->generator);
+    return STEP_CHANNEL_ARM;
+}
+
+/* The same for other backends: arms the next pulse through hal_step. True when main should look. */
 bool step_channel_pulse_isr(struct step_channel *channel);
 
 #endif

@@ -1,17 +1,23 @@
 /*
  * The step generator: yields the tick of each pulse of a segment, rounded to the nearest, without accumulated error.
  *
- * State is the exact position and slope at the last pulse's tick. To find the next pulse it foretells the interval
- * from the last two, evaluates the exact position after it, and corrects it until the position is within half a tick's
- * way of the next whole step. The foretelling knows how far each pulse lies from its exact time, so on a ramp nine
- * pulses of ten need no correction and most others one tick; only near a stand does it divide.
- * Pure arithmetic: no queue, no pin, no clock. Called from the step interrupt; the planner calls it on copies.
+ * State is the exact position and slope at the last pulse's tick. On a ramp it foretells the next interval from the
+ * speed in the middle of it, evaluates the exact position after it, and corrects it until the position is within half
+ * a tick's way of the next whole step. The foretelling has the digits of 32-bit words: above some thousand steps/s it is
+ * nearly always right; below, where there is time, it is a tick or more off and the search goes on with division. At
+ * constant speed every interval is the same whole number of ticks or one more, and the position decides which.
+ * Pure arithmetic: no queue, no pin, no clock. Called from the step interrupt, for which the usual cases are inline; the
+ * planner calls it on copies.
  */
 #ifndef STEP_GENERATOR_H
 #define STEP_GENERATOR_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
+#include "base_hint.h"
+#include "base_wide.h"
+#include "step_scale.h"
 #include "step_segment.h"
 
 /* The longest interval between two pulses: 1.6 s, a motor at 0.63 steps/s. */
@@ -22,12 +28,11 @@ struct step_generator {
     uint64_t slope;    /* quanta a tick, at `tick` */
     int32_t accel;     /* quanta a tick^2 */
     uint32_t tick;     /* of the last pulse, or of the start */
-    uint32_t interval; /* from the pulse before, ticks */
+    uint32_t interval; /* from the pulse before; behind a load, where to look for the first pulse; ticks */
 
-    /* What foretells the next interval; in 1/32 ticks, and only as exact as that. */
-    uint32_t period;   /* exact time from the pulse before to the last one */
-    uint32_t change;   /* what each period adds to the one before, modulo 2^32 */
-    int32_t lag;       /* tick of the last pulse less its exact time */
+    /* At constant speed: the whole ticks of a step's time, and the part of the step that they leave. */
+    uint32_t pace_ticks;
+    uint64_t pace_rest;
 };
 
 /* Stands still at `tick`, on a whole step. */
@@ -36,8 +41,71 @@ void step_generator_start(struct step_generator *generator, uint32_t tick);
 /* Goes on with a segment from the present pulse. */
 void step_generator_load(struct step_generator *generator, const struct step_segment *segment);
 
-/* Moves on to the next pulse and returns its tick. There must be one: the position must reach the next step, within
- * STEP_INTERVAL_TICKS_MAX. */
-uint32_t step_generator_next(struct step_generator *generator);
+/* Moves on to the first pulse behind a load and returns its tick. */
+uint32_t step_generator_first(struct step_generator *generator);
+
+/* Moves on to the pulse that comes about `interval` ticks after the last one, where that was foretold wrongly. */
+uint32_t step_generator_search(struct step_generator *generator, uint32_t interval);
+
+/* Takes the position and slope after `interval` ticks for those of the next pulse. */
+static inline uint32_t step_generator_accept(struct step_generator *generator, uint64_t residual, uint64_t slope,
+                                             uint32_t interval)
+{
+    generator->residual = residual;
+    generator->slope = slope;
+    generator->interval = interval;
+    generator->tick += interval;
+    return generator->tick;
+}
+
+/* Whether a position is within half a tick's way of a whole step. */
+static inline bool step_generator_is_near(uint64_t residual, uint64_t slope)
+{
+    return residual + (slope >> 1U) <= slope;
+}
+
+/* The time that a way takes at a speed, of both the high word; to the nearest tick. */
+static inline uint32_t step_generator_foretell(uint64_t way, uint64_t slope)
+{
+    uint32_t speed = ((uint32_t)(slope >> 32U) + ((uint32_t)slope >> 31U)) | 1U;
+    return ((uint32_t)(way >> 32U) + speed / 2U) / speed;
+}
+
+/* The next pulse of a segment with acceleration. */
+static inline uint32_t step_generator_ramp(struct step_generator *generator)
+{
+    int64_t accel = generator->accel;
+    uint64_t way = STEP_QUANTA - generator->residual;
+    uint64_t about = generator->slope + wide_from_signed(accel * (int32_t)generator->interval);
+    uint32_t interval = step_generator_foretell(way, about);
+    uint64_t gain = wide_from_signed(accel * (int32_t)interval);
+    uint64_t middle = generator->slope + gain;
+    uint64_t residual = interval * middle - way;
+    uint64_t slope = middle + gain;
+    if (BASE_SELDOM(!step_generator_is_near(residual, slope))) {
+        return step_generator_search(generator, interval);
+    }
+    return step_generator_accept(generator, residual, slope, interval);
+}
+
+/* The next pulse at constant speed: what the pace leaves of each step adds up, until it makes a tick's way more than
+ * half. */
+static inline uint32_t step_generator_cruise(struct step_generator *generator)
+{
+    uint64_t residual = generator->residual - generator->pace_rest;
+    uint32_t interval = generator->pace_ticks;
+    if (wide_to_signed(residual + (generator->slope >> 1U)) < 0) {
+        residual += generator->slope;
+        interval++;
+    }
+    return step_generator_accept(generator, residual, generator->slope, interval);
+}
+
+/* Moves on to the next pulse, not the first, of a segment and returns its tick. There must be one: the position must
+ * reach the next step, within STEP_INTERVAL_TICKS_MAX. */
+static inline uint32_t step_generator_next(struct step_generator *generator)
+{
+    return generator->accel != 0 ? step_generator_ramp(generator) : step_generator_cruise(generator);
+}
 
 #endif

@@ -17,6 +17,7 @@ struct step_segment {
     int32_t accel;           /* quanta a tick^2; negative when braking, 0 at constant speed */
     uint32_t tick;           /* the moment that residual and slope are of; within 25 s of the first pulse */
     uint32_t interval_ticks; /* from `tick` to the first pulse, to a few ticks: where the generator begins to search */
+    uint32_t pace_ticks;     /* at constant speed: STEP_QUANTA / slope, rounded down; else 0 */
     uint32_t steps;          /* pulses on this segment, at least 1 */
     bool marked;             /* the channel reports when this segment begins (last section of a compound move) */
 };

@@ -6,11 +6,18 @@
 
 #include <stdbool.h>
 
+#include "base_limits.h"
+
+struct step_channel;
+
 struct hal_client {
     void *context;
 
     /* Step interrupt: the armed pulse of motor 0 to 3 has been made. True: main has something to do. */
     bool (*step_isr)(void *context, unsigned motor);
+
+    /* What step_isr works on, for a backend that counts cycles: it calls step_channel_next_isr itself, inline. */
+    struct step_channel *channel[UNIT_MOTORS];
 
     /* Tick interrupt, 1 kHz or faster, or whenever an input changes: senses the inputs for guards and stops. */
     void (*tick_isr)(void *context);

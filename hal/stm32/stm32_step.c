@@ -10,7 +10,7 @@ uint32_t stm32_late_steps;
 
 /* The tick for an edge, `now` being the time of a moment ago: one that leaves the driver too little low time, or is
  * past, is late and made as soon as may be. */
-static inline uint32_t made_good(uint32_t tick, uint32_t now)
+static uint32_t made_good(uint32_t tick, uint32_t now)
 {
     if ((int32_t)(tick - now) >= (int32_t)ROOM_TICKS) {
         return tick;
@@ -19,114 +19,144 @@ static inline uint32_t made_good(uint32_t tick, uint32_t now)
     return now + (uint32_t)ROOM_TICKS;
 }
 
-/* Puts the pin low and arms the next edge, whatever the channel did before. */
-static void arm(struct stm32_channel *channel)
+/* Puts the pin low and arms the next edge, whatever the channel did before. A late edge is not where the client has it,
+ * one behind the counter's wrap is no matter of being above it. */
+static void arm(unsigned motor, uint32_t tick)
 {
-    channel->edge = made_good(channel->next, TIM2_CNT);
+    struct stm32_channel *channel = &stm32_step.channel[motor];
+    uint32_t flag = flag_of(motor);
+    uint32_t now = TIM2_CNT;
+    uint32_t edge = made_good(tick, now);
+    bool plain = !PULSES_ARE_LONG && edge == tick && edge > now;
     set_mode(channel, MODE_LOW);
-    *channel->compare = channel->edge;
-    set_mode(channel, armed_mode());
+    *channel->compare = edge;
+    stm32_step.edge[motor] = edge;
+    set_enabled(plain ? stm32_step.plain | flag : stm32_step.plain & ~flag,
+                plain ? stm32_step.special & ~flag : stm32_step.special | flag);
+    set_mode(channel, armed_mode(motor));
 }
 
-/* The same behind an edge, as fast as can be: the mode was and will be that of an armed channel. */
-static inline void arm_again(struct stm32_channel *channel, uint32_t now)
+static void rest(unsigned motor, uint32_t edge)
 {
-    uint32_t tick = made_good(channel->next, now);
-    uint32_t modes = *channel->modes;
-    *channel->mode = modes ^ channel->lower;
-    *channel->compare = tick;
-    *channel->mode = modes;
-    channel->edge = tick;
-}
-
-static void rest(unsigned motor)
-{
+    uint32_t others = ~flag_of(motor);
     set_mode(&stm32_step.channel[motor], MODE_LOW);
-    set_enabled(stm32_step.enabled & ~flag_of(motor));
+    set_enabled(stm32_step.plain & others, stm32_step.special & others);
+    stm32_step.edge[motor] = edge;
+}
+
+/* What follows the pulse at `edge`. */
+static void follow(unsigned motor, uint32_t edge, unsigned next)
+{
+    if ((next & STEP_CHANNEL_LOOK) != 0) {
+        stm32_event_set();
+    }
+    if ((next & STEP_CHANNEL_ARM) != 0) {
+        arm(motor, stm32_step.client[motor]->cursor.generator.tick);
+    } else {
+        rest(motor, edge);
+    }
+}
+
+/* The time, once a pulse has been high long enough. */
+static inline uint32_t wait_out(uint32_t edge)
+{
+    uint32_t now = TIM2_CNT;
+    while (BASE_SELDOM(now - edge < (uint32_t)HIGH_TICKS)) {
+        now = TIM2_CNT;
+    }
+    return now;
 }
 
 /* Has the channel end the pulse. There are SPIN_TICKS at least until then. */
-static void fall_later(unsigned motor)
+static void fall_later(unsigned motor, unsigned next)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
-    *channel->compare = channel->edge + (uint32_t)HIGH_TICKS;
+    *channel->compare = stm32_step.edge[motor] + (uint32_t)HIGH_TICKS;
     set_mode(channel, stm32_step.connected ? MODE_FALL : MODE_LOW);
     stm32_step.falling |= flag_of(motor);
-    stm32_step.waiting |= stm32_step.asked ? flag_of(motor) : 0U;
-}
-
-static inline void serve_edge(unsigned motor)
-{
-    struct stm32_channel *channel = &stm32_step.channel[motor];
-    stm32_step.asked = false;
-    if (stm32_step.client.step_isr(stm32_step.client.context, motor)) {
-        stm32_event_set();
-    }
-    uint32_t now = TIM2_CNT;
-    while (now - channel->edge < (uint32_t)HIGH_TICKS) {
-        if (PULSES_ARE_LONG && now - channel->edge < (uint32_t)(HIGH_TICKS - SPIN_TICKS)) {
-            fall_later(motor);
-            return;
-        }
-        now = TIM2_CNT;
-    }
-    if (stm32_step.asked) {
-        arm_again(channel, now);
-    } else {
-        rest(motor);
-    }
+    stm32_step.waiting |= (next & STEP_CHANNEL_ARM) != 0 ? flag_of(motor) : 0U;
 }
 
 static void serve_fall(unsigned motor)
 {
-    bool asked = (stm32_step.waiting & flag_of(motor)) != 0;
+    unsigned next = (stm32_step.waiting & flag_of(motor)) != 0 ? STEP_CHANNEL_ARM : 0U;
     stm32_step.falling &= ~flag_of(motor);
     stm32_step.waiting &= ~flag_of(motor);
-    if (asked) {
-        arm(&stm32_step.channel[motor]);
-    } else {
-        rest(motor);
-    }
+    follow(motor, stm32_step.edge[motor], next);
 }
 
-void stm32_step_interrupt(void)
+static void serve_special(unsigned motor)
 {
-    uint32_t due = TIM2_SR & stm32_step.enabled;
-    TIM2_SR = ~due;
-    stm32_step.serving = true;
-    while (due != 0) {
-        unsigned motor = (unsigned)__builtin_ctz(due) - 1U;
-        due &= due - 1U;
-        if (PULSES_ARE_LONG && (stm32_step.falling & flag_of(motor)) != 0) {
-            serve_fall(motor);
-        } else {
-            serve_edge(motor);
-        }
-    }
-    stm32_step.serving = false;
-}
-
-/* From main the channel rests, or the pulse before is still being ended. The flag of a compare value long past goes
- * away behind the new value, whose own match is ROOM_TICKS off at least. */
-void hal_step_arm(unsigned motor, uint32_t tick)
-{
-    stm32_step.channel[motor].next = tick;
-    if (stm32_step.serving) {
-        stm32_step.asked = true;
+    uint32_t edge = stm32_step.edge[motor];
+    if (PULSES_ARE_LONG && (stm32_step.falling & flag_of(motor)) != 0) {
+        serve_fall(motor);
         return;
     }
+    unsigned next = step_channel_next_isr(stm32_step.client[motor]);
+    if (PULSES_ARE_LONG && TIM2_CNT - edge < (uint32_t)(HIGH_TICKS - SPIN_TICKS)) {
+        fall_later(motor, next);
+        return;
+    }
+    (void)wait_out(edge);
+    follow(motor, edge, next);
+}
+
+__attribute__((noinline)) static void serve_specials(void)
+{
+    uint32_t due = TIM2_SR & stm32_step.special;
+    TIM2_SR = ~due;
+    for (; due != 0; due &= due - 1U) {
+        serve_special((unsigned)__builtin_ctz(due) - 1U);
+    }
+}
+
+/* What is out of the ordinary is left to follow(): the end of a segment or of the move, a next edge that is late, one
+ * behind the counter's wrap. */
+static inline void serve_plain(unsigned motor)
+{
+    struct step_channel *client = stm32_step.client[motor];
+    uint32_t edge = client->cursor.generator.tick;
+    unsigned next = step_channel_next_isr(client);
+    uint32_t tick = client->cursor.generator.tick;
+    uint32_t now = wait_out(edge);
+    if (BASE_SELDOM(next != STEP_CHANNEL_ARM || tick <= now || (int32_t)(tick - now) < (int32_t)ROOM_TICKS)) {
+        follow(motor, edge, next);
+    } else {
+        (&TIM2_CCR1)[motor] = tick;
+    }
+}
+
+/* A special channel whose edge comes together with plain ones is served behind them: its flag calls once more. */
+void stm32_step_interrupt(void)
+{
+    uint32_t due = TIM2_SR & stm32_step.plain;
+    if (BASE_SELDOM(due == 0)) {
+        serve_specials();
+        return;
+    }
+    TIM2_SR = ~due;
+    do {
+        serve_plain((unsigned)__builtin_ctz(due) - 1U);
+        due &= due - 1U;
+    } while (BASE_SELDOM(due != 0));
+}
+
+/* Only from main, where the channel rests, or the pulse before is still being ended. The flag of a compare value long
+ * past goes away behind the new value, whose own match is ROOM_TICKS off at least. */
+void hal_step_arm(unsigned motor, uint32_t tick)
+{
     uint32_t mask = stm32_mask();
     if ((stm32_step.falling & flag_of(motor)) != 0) {
         stm32_step.waiting |= flag_of(motor);
     } else {
-        arm(&stm32_step.channel[motor]);
+        arm(motor, tick);
         TIM2_SR = ~flag_of(motor);
-        set_enabled(stm32_step.enabled | flag_of(motor));
     }
     stm32_unmask(mask);
 }
 
-/* A match less than WRITE_TICKS ahead counts as made: nothing may cut its pulse short. */
+/* A match less than WRITE_TICKS ahead counts as made: nothing may cut its pulse short. The pulse before may have been
+ * made just now. */
 bool hal_step_disarm(unsigned motor)
 {
     uint32_t flag = flag_of(motor);
@@ -135,10 +165,11 @@ bool hal_step_disarm(unsigned motor)
     if ((stm32_step.falling & flag) != 0) {
         taken = (stm32_step.waiting & flag) != 0;
         stm32_step.waiting &= ~flag;
-    } else if ((stm32_step.enabled & flag) != 0) {
-        taken = (int32_t)(stm32_step.channel[motor].edge - TIM2_CNT) > (int32_t)WRITE_TICKS;
+    } else if ((enabled() & flag) != 0) {
+        uint32_t now = TIM2_CNT;
+        taken = (int32_t)(edge_of(motor) - now) > (int32_t)WRITE_TICKS;
         if (taken) {
-            rest(motor);
+            rest(motor, now);
         }
     }
     stm32_unmask(mask);

@@ -9,9 +9,13 @@
  *      ___________/~~~~~~~~~~~~~~~~~~~~\______________/~~~
  *                 |  interrupt, client |    next armed
  *
- * The client's work takes longer than most drivers' minimum width, so the pin mostly is low at once behind it. What is
- * left of a wider pulse is waited for if that takes less than an interrupt would (SPIN_TICKS); else the same channel
+ * Finding the next pulse takes longer than most drivers' minimum width, so the pin mostly is low at once behind it. What
+ * is left of a wider pulse is waited for if that takes less than an interrupt would (SPIN_TICKS); else the same channel
  * makes the falling edge too, and its interrupt arms what comes next.
+ *
+ * A channel stands in PWM mode 2 (RM0090 18.3.9): its pin is high from the compare value on and low before it, so one
+ * write of the next value both ends a pulse and arms the next. That works while the counter does not wrap in between,
+ * and for short pulses; `special` has the channels that are armed in another mode.
  */
 #ifndef STM32_STEP_PRIVATE_H
 #define STM32_STEP_PRIVATE_H
@@ -19,6 +23,7 @@
 #include "base_limits.h"
 #include "base_tick.h"
 #include "board.h"
+#include "step_channel.h"
 #include "stm32_private.h"
 #include "stm32f4.h"
 
@@ -45,13 +50,11 @@ enum {
     MODE_RISE = 1, /* active on match */
     MODE_FALL = 2, /* inactive on match */
     MODE_LOW = 4,  /* forced inactive; matches are flagged all the same, RM0090 18.3.7 */
+    MODE_AFTER = 7, /* PWM mode 2: active from the compare value on */
     MODE_MASK = 7,
 };
 
 struct stm32_channel {
-    uint32_t edge;             /* tick of the armed edge, else of the last one */
-    uint32_t next;             /* tick that the client asked for, until it is armed */
-    uint32_t lower;            /* what turns MODE_RISE into MODE_LOW in the register; 0 while disconnected */
     uint32_t *modes;           /* what the register holds; two channels share it */
     volatile uint32_t *mode;   /* CCMR1 or CCMR2 */
     volatile uint32_t *compare;
@@ -60,14 +63,14 @@ struct stm32_channel {
 };
 
 struct stm32_step {
-    struct hal_client client;
-    bool serving;     /* the client is being called */
-    bool asked;       /* and has asked for a pulse */
-    bool connected;
-    bool may_move;
-    uint32_t enabled; /* flags of the channels that have an edge to come, as in DIER */
+    uint32_t plain;   /* flags of the channels that have an edge to come, in MODE_AFTER */
+    struct step_channel *client[UNIT_MOTORS];
+    uint32_t special; /* of those that have one in another mode */
     uint32_t falling; /* of those whose pulse is being ended by the channel */
     uint32_t waiting; /* of those falling that have a pulse to be armed behind it */
+    uint32_t edge[UNIT_MOTORS]; /* of a plain channel, the client knows it; else the armed edge, or the last one */
+    bool connected;
+    bool may_move;
     uint32_t modes[2];
     struct stm32_channel channel[UNIT_MOTORS];
 };
@@ -86,15 +89,30 @@ static inline void set_mode(const struct stm32_channel *channel, uint32_t mode)
 }
 
 /* The mode of an armed channel. While disconnected its pin stays low. */
-static inline uint32_t armed_mode(void)
+static inline uint32_t armed_mode(unsigned motor)
 {
-    return stm32_step.connected ? MODE_RISE : MODE_LOW;
+    uint32_t mode = (stm32_step.special & flag_of(motor)) != 0 ? MODE_RISE : MODE_AFTER;
+    return stm32_step.connected ? mode : MODE_LOW;
 }
 
-static inline void set_enabled(uint32_t flags)
+/* The channels that have an edge to come. */
+static inline uint32_t enabled(void)
 {
-    stm32_step.enabled = flags;
-    TIM2_DIER = flags;
+    return stm32_step.plain | stm32_step.special;
+}
+
+static inline void set_enabled(uint32_t plain, uint32_t special)
+{
+    stm32_step.plain = plain;
+    stm32_step.special = special;
+    TIM2_DIER = plain | special;
+}
+
+/* The tick of the armed edge, else of the last one. */
+static inline uint32_t edge_of(unsigned motor)
+{
+    bool plain = (stm32_step.plain & flag_of(motor)) != 0;
+    return plain ? stm32_step.client[motor]->cursor.generator.tick : stm32_step.edge[motor];
 }
 
 #endif

@@ -23,7 +23,7 @@ void hal_step_set_direction(unsigned motor, bool backward)
     if (channel->backward == backward) {
         return;
     }
-    wait_until_past(channel->edge, HOLD_TICKS);
+    wait_until_past(edge_of(motor), HOLD_TICKS);
     channel->backward = backward;
     write_direction(motor, stm32_step.connected);
     wait_until_past(TIM2_CNT, SETUP_TICKS);
@@ -36,15 +36,28 @@ static void write_directions(bool connected)
     }
 }
 
+/* An edge that is made at this moment, or is just being served, is left out: it would come late. Its interrupt arms the
+ * next one in the right mode. */
+static void write_mode(unsigned motor)
+{
+    struct stm32_channel *channel = &stm32_step.channel[motor];
+    uint32_t flag = flag_of(motor);
+    uint32_t edge = edge_of(motor);
+    bool armed = (enabled() & ~stm32_step.falling & flag) != 0;
+    bool soon = (int32_t)(edge - TIM2_CNT) <= (int32_t)WRITE_TICKS;
+    if (armed && soon) {
+        stm32_step.edge[motor] = edge;
+        set_enabled(stm32_step.plain & ~flag, stm32_step.special | flag);
+    }
+    set_mode(channel, armed && !soon ? armed_mode(motor) : (uint32_t)MODE_LOW);
+}
+
 static void write_all_modes(bool connected)
 {
     uint32_t mask = stm32_mask();
     stm32_step.connected = connected;
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        struct stm32_channel *channel = &stm32_step.channel[motor];
-        bool armed = (stm32_step.enabled & ~stm32_step.falling & flag_of(motor)) != 0;
-        channel->lower = (armed_mode() ^ MODE_LOW) * channel->one;
-        set_mode(channel, armed ? armed_mode() : (uint32_t)MODE_LOW);
+        write_mode(motor);
     }
     stm32_unmask(mask);
 }
@@ -85,14 +98,16 @@ void stm32_step_start(bool may_move)
     write_all_modes(may_move);
     TIM2_CCER = TIM2_CCER_CC1E | TIM2_CCER_CC2E | TIM2_CCER_CC3E | TIM2_CCER_CC4E |
                 (BOARD_STEP_LEVEL == 1U ? 0U : levels);
-    set_enabled(0);
+    set_enabled(0, 0);
     TIM2_SR = 0;
     TIM2_CR1 = TIM2_CR1_CEN;
 }
 
 void stm32_step_set_client(const struct hal_client *client)
 {
-    stm32_step.client = *client;
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        stm32_step.client[motor] = client->channel[motor];
+    }
 }
 
 /* Also before stm32_step_start. */
@@ -109,8 +124,8 @@ bool stm32_step_is_stuck(void)
 {
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         uint32_t mask = stm32_mask();
-        bool armed = (stm32_step.enabled & flag_of(motor)) != 0;
-        int32_t overdue = (int32_t)(TIM2_CNT - stm32_step.channel[motor].edge);
+        bool armed = (enabled() & flag_of(motor)) != 0;
+        int32_t overdue = (int32_t)(TIM2_CNT - edge_of(motor));
         stm32_unmask(mask);
         if (armed && overdue > (int32_t)STUCK_TICKS) {
             return true;

@@ -38,7 +38,7 @@ COMPILER = "arm-none-eabi-gcc"
 FLAGS = ["-std=c11", "-O2", "-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=soft"]
 CODE, RAM, RETURN = 0x0800_0000, 0x2000_0000, 0x0810_0000
 MEMORY = 0x20_0000
-GENERATOR, INTERRUPT = "step_generator_next", "step_channel_pulse_isr"
+GENERATOR, INTERRUPT = "find_next", "step_channel_pulse_isr"
 GOAL = 60
 PULSES_MAX = 3000
 
@@ -144,6 +144,7 @@ def run_move(counter: Counter, move: tuple[int, int, int, int]) -> dict[str, lis
     counter.watch(GENERATOR)
     counter.watch(INTERRUPT)
     for _ in range(min(move[3] - 2, PULSES_MAX)):
+        counter.call("bench_next")
         counter.call("bench_pulse")
     return counter.counts
 

@@ -297,7 +297,7 @@ TEN_SECTIONS = b"S2000 %s R R R" % b" ".join(
     [
         (ONE_STEP, 1),
         (TEN_SECTIONS, 1),
-        pytest.param(ONE_STEP, 4, marks=known("four moves of a step each are laid too slowly")),
+        (ONE_STEP, 4),
         pytest.param(TEN_SECTIONS, 4, marks=known("four short compound moves likewise")),
     ],
     ids=["one step", "ten sections", "four times one step", "four times ten sections"],
@@ -310,10 +310,7 @@ def test_the_quickest_moves_come_in_time(unit, text, motors):
     assert differences(simulated, modelled) == []
 
 
-@pytest.mark.parametrize(
-    "motors",
-    [1, pytest.param(4, marks=known("the third and the fourth of four stops begin too late"))],
-)
+@pytest.mark.parametrize("motors", [1, 4])
 def test_a_guard_acts_within_a_millisecond_at_full_speed(unit, motors):
     text = b"S500 V16000 A60000 M03 F60000 R"
     sent = script(together(dict.fromkeys(range(1, motors + 1), text)))

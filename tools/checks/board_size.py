@@ -17,7 +17,6 @@ BUDGETS = Path(__file__).resolve().parents[2] / "hal/stm32/budgets.json"
 
 # Calls through a pointer, which the compiler does not see: who calls, and what.
 POINTER_CALLS = {
-    "stm32_step_interrupt": {"unit_step_isr"},
     "stm32_tick_interrupt": {"unit_tick_isr"},
 }
 INDIRECT = "__indirect_call"

@@ -24,7 +24,7 @@ REFERENCES_MIN = 100  # fewer mean that the image was linked without them
 ENTRIES = [
     *(f"stm32_{name}_interrupt" for name in ("step", "tick", "line")),
     *("stm32_fault_entry", "stm32_fault_stop"),
-    *("unit_step_isr", "unit_tick_isr"),
+    "unit_tick_isr",
     *("hal_flash_read", "hal_flash_write_word", "hal_flash_erase"),
 ]
 

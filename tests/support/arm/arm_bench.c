@@ -16,6 +16,7 @@ static uint32_t armed_tick;
 void bench_begin(uint32_t start_speed, uint32_t speed, uint32_t accel, uint32_t steps);
 bool bench_feed(void);
 void bench_run(void);
+uint32_t bench_next(void);
 bool bench_pulse(void);
 uint32_t bench_armed(void);
 
@@ -45,6 +46,12 @@ void hal_step_release(void)
 {
 }
 
+/* A function of its own, to be counted. */
+__attribute__((noinline)) static uint32_t find_next(struct step_generator *generator)
+{
+    return step_generator_next(generator);
+}
+
 /* Plans a single move at tick 0. */
 void bench_begin(uint32_t start_speed, uint32_t speed, uint32_t accel, uint32_t steps)
 {
@@ -72,6 +79,13 @@ bool bench_feed(void)
 void bench_run(void)
 {
     step_channel_run(&channel);
+}
+
+/* The next tick alone, found as the channel will find it; 0 where a segment ends. */
+uint32_t bench_next(void)
+{
+    struct step_generator generator = channel.cursor.generator;
+    return channel.cursor.left == 0 ? 0 : find_next(&generator);
 }
 
 /* The work of one step interrupt; false after the last pulse. */

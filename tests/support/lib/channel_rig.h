@@ -76,6 +76,7 @@ static inline struct step_segment segment_behind(uint32_t pulse, uint32_t steps)
         .slope = STEP_QUANTA / INTERVAL,
         .tick = START + pulse * INTERVAL,
         .interval_ticks = INTERVAL,
+        .pace_ticks = INTERVAL,
         .steps = steps,
     };
 }

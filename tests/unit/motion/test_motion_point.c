@@ -41,11 +41,14 @@ static void advance(void)
         struct step_segment segment;
         TEST_ASSERT_TRUE(motion_plan_next(&plan, &segment));
         step_generator_load(&cursor.generator, &segment);
+        (void)step_generator_first(&cursor.generator);
         cursor.left = segment.steps;
         cursor.end += segment.steps;
+    } else {
+        (void)step_generator_next(&cursor.generator);
     }
     cursor.left--;
-    now = tick_extend(step_generator_next(&cursor.generator), now);
+    now = tick_extend(cursor.generator.tick, now);
 }
 
 /* At a whole step the square of the speed is that of the first ramp, of the last one or of the top speed, whichever is

@@ -23,6 +23,7 @@ static struct step_segment fast_behind(uint32_t pulse, uint32_t steps)
 {
     struct step_segment segment = segment_behind(pulse, steps);
     segment.slope *= 2U;
+    segment.pace_ticks /= 2U;
     segment.interval_ticks /= 2U;
     return segment;
 }

@@ -62,6 +62,7 @@ static void begin_move(unsigned motor, uint32_t interval_ticks, uint32_t steps, 
         .slope = STEP_QUANTA / interval_ticks,
         .tick = (uint32_t)machine.epoch,
         .interval_ticks = interval_ticks,
+        .pace_ticks = interval_ticks,
         .steps = steps,
     };
     step_channel_begin(&channels[motor], (uint32_t)machine.epoch, backward);
