@@ -25,6 +25,9 @@ static void unit_sense(struct unit *unit)
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         (void)mover_sense_isr(&unit->mover[motor], io_inputs(&unit->io));
     }
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        mover_plan_stop_isr(&unit->mover[motor]);
+    }
 }
 
 static void unit_tick_isr(void *context)

@@ -241,6 +241,21 @@ static void plan_brake(struct motion_plan *plan)
     plan->order.sections = (uint8_t)section;
 }
 
+bool motion_plan_brake(const struct motion_plan *plan, uint64_t step, uint64_t slope, struct motion_brake *brake)
+{
+    unsigned section = section_behind(plan, step);
+    if (plan->stopping || section == plan->order.sections) {
+        return false;
+    }
+    const struct motion_section *order = &plan->order.section[section];
+    uint64_t speed2 = motion_square((uint32_t)(slope / STEP_SLOPE_PER_SPEED));
+    uint64_t target = motion_square(plan->order.start_speed_steps_per_s);
+    uint64_t way = speed2 > target ? (speed2 - target) / (4U * (uint64_t)order->accel_steps_per_s2) : 0;
+    brake->accel = (int32_t)(order->accel_steps_per_s2 * STEP_ACCEL_PER_ACCEL);
+    brake->until = lower(step + way, section_begin(plan, section) + order->steps);
+    return true;
+}
+
 bool motion_plan_stop(struct motion_plan *plan, const struct motion_point *at)
 {
     unsigned section = section_behind(plan, at->step);

@@ -47,11 +47,20 @@ struct motion_plan {
     bool stopping;                            /* brakes down to S and ends there */
 };
 
+/* What may be done before a stop has been planned. */
+struct motion_brake {
+    int32_t accel;  /* quanta a tick^2 (step_scale.h) */
+    uint64_t until; /* the last step at which that is right for certain: half of the way down to S, in one section */
+};
+
 /* Plans a move from its start. */
 void motion_plan_begin(struct motion_plan *plan, const struct motion_order *order, uint64_t start_tick);
 
 /* The next segment; false if there is none left. */
 bool motion_plan_next(struct motion_plan *plan, struct step_segment *segment);
+
+/* How to brake from the step `step` on, where the motor has `slope`. False if the move is being stopped or ends there. */
+bool motion_plan_brake(const struct motion_plan *plan, uint64_t step, uint64_t slope, struct motion_brake *brake);
 
 /* Lays the plan anew from the point `at`, stopping down the ramp with the acceleration of each section that it comes
  * through. False, and nothing is changed, if the move is being stopped or ends there. */

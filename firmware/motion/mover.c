@@ -69,6 +69,7 @@ void mover_start(struct mover *mover, const struct motion_order *order, bool bac
         set_cause(mover, cause, start_tick);
     } else {
         motion_plan_begin(&mover->plan, order, start_tick);
+        mover->braking = false;
         for (unsigned i = 0; i < START_SEGMENTS; i++) {
             (void)feed_segment(mover);
         }
@@ -78,16 +79,10 @@ void mover_start(struct mover *mover, const struct motion_order *order, bool bac
     hal_run_release_tick();
 }
 
-/* A copy of the plan, laid anew at a point: a stop, or with a speed a change of speed. */
-static bool plan_anew(struct motion_plan *plan, const struct motion_point *at, uint32_t speed_steps_per_s)
-{
-    return speed_steps_per_s != 0 ? motion_plan_change_speed(plan, at, speed_steps_per_s) : motion_plan_stop(plan, at);
-}
-
 /* Cuts the plan at the first pulse that leaves time enough, and hands over what follows. Where planning takes longer
  * than the backend said, the motor has gone past that pulse and the next try looks twice as far ahead, up to a second.
  * False if nothing is left to change. */
-static bool mover_replan(struct mover *mover, uint32_t speed_steps_per_s)
+static bool change_speed(struct mover *mover, uint32_t speed_steps_per_s)
 {
     for (uint32_t lead_ticks = hal_step_lead_ticks(); lead_ticks < TICK_HZ;
          lead_ticks = 2U * lead_ticks + TICKS_PER_US) {
@@ -99,7 +94,7 @@ static bool mover_replan(struct mover *mover, uint32_t speed_steps_per_s)
             return false;
         }
         struct motion_point point = motion_point_of(&at, now);
-        if (!plan_anew(&plan, &point, speed_steps_per_s)) {
+        if (!motion_plan_change_speed(&plan, &point, speed_steps_per_s)) {
             return false;
         }
         unsigned count = 0;
@@ -114,6 +109,30 @@ static bool mover_replan(struct mover *mover, uint32_t speed_steps_per_s)
     return false;
 }
 
+/* Brakes at once: at high rates there is no time for planning before the next pulse. */
+static void brake(struct mover *mover)
+{
+    struct step_cursor now;
+    struct motion_brake brake;
+    if (step_channel_look(&mover->channel, &now) &&
+        motion_plan_brake(&mover->plan, step_cursor_pulse(&now), now.generator.slope, &brake)) {
+        mover->braking = step_channel_brake(&mover->channel, brake.accel, brake.until, &mover->brake);
+    }
+}
+
+/* All of it is laid at once: main may be held up by the flash for long. */
+static void plan_stop(struct mover *mover)
+{
+    struct step_segment segment;
+    struct motion_point point = motion_point_of(&mover->brake, hal_time_now());
+    mover->braking = false;
+    if (motion_plan_stop(&mover->plan, &point) && motion_plan_next(&mover->plan, &segment)) {
+        step_channel_splice(&mover->channel, &mover->brake, &segment);
+    }
+    while (feed_segment(mover)) {
+    }
+}
+
 static void stop_locked(struct mover *mover, enum hal_trace_stop cause)
 {
     if (!mover->moving || mover->cause != HAL_TRACE_STOP_NONE) {
@@ -124,7 +143,7 @@ static void stop_locked(struct mover *mover, enum hal_trace_stop cause)
         motion_plan_end(&mover->plan);
         step_channel_halt(&mover->channel);
     } else {
-        (void)mover_replan(mover, 0);
+        brake(mover);
     }
 }
 
@@ -132,6 +151,7 @@ void mover_stop(struct mover *mover, enum hal_trace_stop cause)
 {
     hal_run_hold_tick();
     stop_locked(mover, cause);
+    mover_plan_stop_isr(mover);
     hal_run_release_tick();
 }
 
@@ -139,7 +159,7 @@ void mover_change_speed(struct mover *mover, uint32_t speed_steps_per_s)
 {
     hal_run_hold_tick();
     bool changeable = mover->moving && mover->cause == HAL_TRACE_STOP_NONE && mover->guards.halt_high == 0;
-    if (changeable && mover_replan(mover, speed_steps_per_s)) {
+    if (changeable && change_speed(mover, speed_steps_per_s)) {
         hal_trace(hal_time_now(), mover->motor + 1U, HAL_TRACE_SPEED, speed_steps_per_s);
     }
     hal_run_release_tick();
@@ -217,6 +237,13 @@ bool mover_sense_isr(struct mover *mover, uint8_t inputs)
         stop_locked(mover, cause);
     }
     return stops;
+}
+
+void mover_plan_stop_isr(struct mover *mover)
+{
+    if (mover->braking) {
+        plan_stop(mover);
+    }
 }
 
 bool mover_pulse_isr(struct mover *mover)

@@ -30,8 +30,10 @@ struct mover {
     struct motion_plan plan;
     struct mover_guards guards;
     enum hal_trace_stop cause; /* why the move is being stopped or was stopped; NONE: not at all */
+    struct step_cursor brake; /* while `braking`: the pulse from which the motor brakes, and the stop is to be planned */
     uint8_t motor;
     bool moving;
+    bool braking;
 };
 
 /* Stands at position 0. */
@@ -79,8 +81,11 @@ bool mover_take_mark(struct mover *mover);
 /* The break points of the move in progress (motion_plan.h); 0 while standing. */
 unsigned mover_corners(const struct mover *mover, struct motion_corner corners[MOTION_CORNERS_MAX]);
 
-/* Tick interrupt: ends or stops the move if an input says so. True: main has something to do. */
+/* Tick interrupt: ends the move if an input says so, or begins to brake. True: main has something to do. */
 bool mover_sense_isr(struct mover *mover, uint8_t inputs);
+
+/* Tick interrupt, behind mover_sense_isr of all motors: plans the stop of a motor that has begun to brake. */
+void mover_plan_stop_isr(struct mover *mover);
 
 /* Step interrupt: the armed pulse has been made. True: main has something to do. */
 bool mover_pulse_isr(struct mover *mover);

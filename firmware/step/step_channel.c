@@ -86,7 +86,7 @@ void step_channel_push(struct step_channel *channel, const struct step_segment *
 void step_channel_run(struct step_channel *channel)
 {
     atomic_store_explicit(&channel->running, true, memory_order_relaxed);
-    if (channel_begin_segment(channel)) {
+    if ((step_channel_next_isr(channel) & STEP_CHANNEL_ARM) != 0) {
         hal_step_arm(channel->motor, channel->cursor.generator.tick);
     }
 }
@@ -96,12 +96,18 @@ bool step_channel_is_running(const struct step_channel *channel)
     return atomic_load_explicit(&channel->running, memory_order_acquire);
 }
 
-bool step_channel_foresee(struct step_channel *channel, uint32_t tick, struct step_cursor *cursor)
+bool step_channel_look(const struct step_channel *channel, struct step_cursor *cursor)
 {
     hal_step_hold();
     bool running = step_channel_is_running(channel);
     *cursor = channel->cursor;
     hal_step_release();
+    return running;
+}
+
+bool step_channel_foresee(const struct step_channel *channel, uint32_t tick, struct step_cursor *cursor)
+{
+    bool running = step_channel_look(channel, cursor);
     uint32_t head = atomic_load_explicit(&channel->head, memory_order_relaxed);
     while (running && tick_is_before(cursor->generator.tick, tick)) {
         running = cursor_advance(cursor, channel, head);
@@ -139,6 +145,47 @@ bool step_channel_cut(struct step_channel *channel, const struct step_cursor *at
     }
     hal_step_release();
     return in_time;
+}
+
+bool step_channel_brake(struct step_channel *channel, int32_t accel, uint64_t until, struct step_cursor *at)
+{
+    hal_step_hold();
+    bool running = step_channel_is_running(channel);
+    if (running) {
+        *at = channel->cursor;
+        uint64_t pulse = step_cursor_pulse(at);
+        channel->cursor.generator.accel = -accel;
+        channel->cursor.end = until > pulse ? until : pulse;
+        channel->cursor.left = (uint32_t)(channel->cursor.end - pulse);
+        atomic_store_explicit(&channel->head, channel->cursor.tail, memory_order_relaxed);
+    }
+    hal_step_release();
+    return running;
+}
+
+/* Goes on in the middle of a segment, the first `made` pulses of which have been made. */
+static void channel_join(struct step_channel *channel, const struct step_segment *segment, uint32_t made)
+{
+    struct step_cursor *cursor = &channel->cursor;
+    uint32_t interval = cursor->generator.interval;
+    step_generator_load(&cursor->generator, segment);
+    cursor->generator.residual -= made * STEP_QUANTA;
+    cursor->generator.interval = interval;
+    cursor->left = segment->steps - made;
+}
+
+void step_channel_splice(struct step_channel *channel, const struct step_cursor *at,
+                         const struct step_segment *segment)
+{
+    hal_step_hold();
+    uint64_t pulse = step_cursor_pulse(&channel->cursor);
+    channel_join(channel, segment, (uint32_t)(pulse - step_cursor_pulse(at)));
+    channel->cursor.end = pulse + channel->cursor.left;
+    bool rests = !step_channel_is_running(channel);
+    hal_step_release();
+    if (rests) {
+        step_channel_run(channel);
+    }
 }
 
 void step_channel_halt(struct step_channel *channel)

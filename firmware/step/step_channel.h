@@ -58,15 +58,27 @@ uint32_t step_channel_room(const struct step_channel *channel);
 /* Appends a segment; there must be room. */
 void step_channel_push(struct step_channel *channel, const struct step_segment *segment);
 
-/* Arms the first pulse of what has been pushed, if any. */
+/* Arms the next pulse, the first of what has been pushed; rests if there is none. Not while running. */
 void step_channel_run(struct step_channel *channel);
 
 /* Whether a pulse is still to come. */
 bool step_channel_is_running(const struct step_channel *channel);
 
+/* The pulse that is armed. False at rest. */
+bool step_channel_look(const struct step_channel *channel, struct step_cursor *cursor);
+
 /* The pulse at which a change can take effect: the armed one, or the first that is due at or after `tick`, which
  * gives the caller time to plan. False if no pulse is left there. */
-bool step_channel_foresee(struct step_channel *channel, uint32_t tick, struct step_cursor *cursor);
+bool step_channel_foresee(const struct step_channel *channel, uint32_t tick, struct step_cursor *cursor);
+
+/* Stops what was queued and brakes, from the armed pulse `at` on and to the pulse `until` at most: a stop-gap that takes
+ * effect at once, while the segments behind `at` are being planned. False, and nothing is changed, at rest. */
+bool step_channel_brake(struct step_channel *channel, int32_t accel, uint64_t until, struct step_cursor *at);
+
+/* Puts the first planned segment behind `at` in the place of the stop-gap. The pulses that were made in the meantime
+ * are on it already: both brake alike, and it has no fewer pulses. */
+void step_channel_splice(struct step_channel *channel, const struct step_cursor *at,
+                         const struct step_segment *segment);
 
 /* From the pulse `at` on, nothing that was queued is left, and `count` new segments follow. False, and nothing is
  * changed, if the motor has gone past that pulse in the meantime. */

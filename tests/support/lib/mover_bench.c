@@ -44,6 +44,7 @@ static void tick_isr(void *context)
 {
     struct mover_bench *bench = context;
     bench->stops_sensed += mover_sense_isr(&bench->mover, hal_io_read_inputs()) ? 1U : 0U;
+    mover_plan_stop_isr(&bench->mover);
 }
 
 static uint64_t main_pass(void *context)

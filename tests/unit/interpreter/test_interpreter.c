@@ -28,6 +28,7 @@ static void tick_isr(void *context)
     (void)context;
     (void)io_sample_isr(&io);
     (void)mover_sense_isr(&mover, io_inputs(&io));
+    mover_plan_stop_isr(&mover);
 }
 
 static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
@@ -239,6 +240,7 @@ void test_an_x_that_only_the_mover_has_seen_ends_the_program(const char *text)
     take("X03F900R");
     run_ms(300);
     (void)mover_sense_isr(&mover, 4);
+    mover_plan_stop_isr(&mover);
     take(text);
     run_ms(2000);
     TEST_ASSERT_EQUAL_INT(INTERPRETER_ENDED, interpreter.state);
@@ -250,6 +252,7 @@ void test_an_x_that_only_the_mover_has_seen_does_not_end_what_follows_a_reset(vo
     take("X03F900R");
     run_ms(300);
     (void)mover_sense_isr(&mover, 4);
+    mover_plan_stop_isr(&mover);
     take("\\T01");
     run_ms(2000);
     TEST_ASSERT_EQUAL_HEX8(1, io.outputs);

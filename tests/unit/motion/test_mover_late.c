@@ -1,3 +1,5 @@
+#include <string.h>
+
 #include "base_tick.h"
 #include "mock_hal_run.h"
 #include "mock_hal_step.h"
@@ -16,9 +18,12 @@ static bool is_armed;
 static uint32_t lead_ticks;
 static uint64_t planning_ticks; /* that pass until the cut */
 static uint64_t handing_ticks;  /* that pass after the cut */
-static unsigned holds;          /* since planning began: the first foresees, the second cuts */
+static uint64_t braking_ticks;  /* that pass while a stop is planned */
+static unsigned holds;          /* since planning began: the first foresees, the second cuts; a stop looks, brakes, joins */
+static bool stops;
 static unsigned cuts_tried;
 static uint64_t pulses;
+static uint64_t pulse_tick[2000];
 static unsigned changes_traced;
 
 /* Pulse k stands at k * 5250 ticks. */
@@ -33,6 +38,7 @@ static void make_pulses_until(uint64_t tick)
     while (is_armed && armed <= tick) {
         now = armed > now ? armed : now;
         is_armed = false;
+        pulse_tick[pulses] = armed;
         pulses++;
         (void)mover_pulse_isr(&mover);
     }
@@ -52,7 +58,9 @@ static void hold_seen(int calls)
 {
     (void)calls;
     holds++;
-    if (holds % 2U == 0) {
+    if (stops) {
+        make_pulses_until(holds == 3 ? now + braking_ticks : now);
+    } else if (holds % 2U == 0) {
         cuts_tried++;
         make_pulses_until(now + planning_ticks);
     }
@@ -61,7 +69,7 @@ static void hold_seen(int calls)
 static void release_seen(int calls)
 {
     (void)calls;
-    if (holds % 2U == 0 && handing_ticks != 0) {
+    if (!stops && holds % 2U == 0 && handing_ticks != 0) {
         make_pulses_until(now + handing_ticks);
     }
 }
@@ -95,6 +103,8 @@ void setUp(void)
     lead_ticks = 0;
     planning_ticks = 0;
     handing_ticks = 0;
+    braking_ticks = 0;
+    stops = false;
     holds = 0;
     cuts_tried = 0;
     pulses = 0;
@@ -127,6 +137,14 @@ static void start(const struct motion_order *order, unsigned made)
     TEST_ASSERT_EQUAL_UINT64(made, pulses);
 }
 
+static void stop(void)
+{
+    holds = 0;
+    stops = true;
+    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
+    stops = false;
+}
+
 static void run_to_the_end(void)
 {
     planning_ticks = 0;
@@ -139,25 +157,92 @@ static void run_to_the_end(void)
     TEST_ASSERT_EQUAL_UINT64(pulses, mover_steps_made(&mover));
 }
 
-void test_without_a_lead_a_stop_takes_effect_at_the_next_pulse(void)
+void test_a_stop_below_the_start_speed_takes_effect_at_the_next_pulse(void)
 {
     start(&fast, 10);
+    braking_ticks = 3 * 5250;
 
-    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
+    stop();
     run_to_the_end();
 
     TEST_ASSERT_EQUAL_UINT64(11, pulses);
+    TEST_ASSERT_EQUAL_INT(HAL_TRACE_STOP_COMMAND, mover_stop_cause(&mover));
 }
 
-void test_a_stop_takes_effect_at_the_first_pulse_that_leaves_the_lead(void)
+/* From 16 000 steps/s down to 100 takes 2133 steps at 60 000 steps/s^2, and from the 50th pulse of a ramp the 50 back. */
+static const struct motion_order ramped = {
+    .section = {{4000, 16000, 60000}},
+    .start_speed_steps_per_s = 100,
+    .sections = 1,
+};
+
+/* Ends of moves that were stopped behind pulse 50, by the time that planning took. */
+static void assert_stopped_alike(uint64_t planning)
+{
+    static uint64_t expected[sizeof pulse_tick / sizeof *pulse_tick];
+    setUp();
+    start(&ramped, 50);
+    stop();
+    run_to_the_end();
+    uint64_t made = pulses;
+    memcpy(expected, pulse_tick, sizeof expected);
+
+    setUp();
+    start(&ramped, 50);
+    braking_ticks = planning;
+    stop();
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT64(made, pulses);
+    for (unsigned i = 0; i < made; i++) {
+        TEST_ASSERT_UINT64_WITHIN(1, expected[i], pulse_tick[i]);
+    }
+}
+
+void test_a_stop_makes_the_same_pulses_however_long_planning_takes(void)
+{
+    assert_stopped_alike(1);
+    assert_stopped_alike(TICK_HZ / 1000U);
+    assert_stopped_alike(TICK_HZ / 200U);
+}
+
+/* Half of the way down to S is made without a plan, then the motor waits for it. */
+void test_a_stop_that_is_planned_much_too_late_ends_on_its_step_all_the_same(void)
+{
+    start(&ramped, 50);
+    stop();
+    run_to_the_end();
+    uint64_t made = pulses;
+
+    setUp();
+    start(&ramped, 50);
+    braking_ticks = TICK_HZ;
+    stop();
+    TEST_ASSERT_EQUAL_UINT64((made + 51U) / 2U, pulses);
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT64(made, pulses);
+}
+
+/* The pulse behind which the interval is another. */
+static unsigned first_change(void)
+{
+    unsigned k = 1;
+    while (pulse_tick[k] - pulse_tick[k - 1U] == pulse_tick[1] - pulse_tick[0]) {
+        k++;
+    }
+    return k;
+}
+
+void test_a_change_of_speed_takes_effect_at_the_first_pulse_that_leaves_the_lead(void)
 {
     start(&fast, 10);
     lead_ticks = 2 * 5250 + 1;
 
-    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
+    mover_change_speed(&mover, 8000);
     run_to_the_end();
 
-    TEST_ASSERT_EQUAL_UINT64(13, pulses);
+    TEST_ASSERT_EQUAL_UINT(13, first_change());
 }
 
 void test_planning_within_the_lead_is_in_time_at_the_first_try(void)
@@ -166,26 +251,26 @@ void test_planning_within_the_lead_is_in_time_at_the_first_try(void)
     lead_ticks = 2 * 5250 + 1;
     planning_ticks = 2 * 5250;
 
-    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
+    mover_change_speed(&mover, 8000);
     run_to_the_end();
 
-    TEST_ASSERT_EQUAL_UINT64(13, pulses);
+    TEST_ASSERT_EQUAL_UINT(13, first_change());
     TEST_ASSERT_EQUAL_UINT(1, cuts_tried);
 }
 
-/* The lead ends at pulse 12, planning lasts nearly until pulse 13; the second lead, twice as long and 1 us, ends just after pulse 16. */
+/* The lead ends at pulse 12, planning lasts nearly until pulse 13; the second lead, twice as long and 1 us, ends just
+ * after pulse 16. */
 void test_planning_that_takes_longer_than_the_lead_is_tried_again_with_twice_the_lead(void)
 {
     start(&fast, 10);
     lead_ticks = 5250 + 2625;
     planning_ticks = 3 * 5250 - 1;
 
-    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
+    mover_change_speed(&mover, 8000);
     run_to_the_end();
 
-    TEST_ASSERT_EQUAL_UINT64(17, pulses);
+    TEST_ASSERT_EQUAL_UINT(17, first_change());
     TEST_ASSERT_EQUAL_UINT(2, cuts_tried);
-    TEST_ASSERT_EQUAL_INT(HAL_TRACE_STOP_COMMAND, mover_stop_cause(&mover));
 }
 
 void test_a_change_of_speed_that_was_tried_again_keeps_the_target(void)
@@ -216,15 +301,13 @@ void test_a_change_that_is_planned_after_the_end_of_the_move_changes_nothing(voi
     TEST_ASSERT_EQUAL_UINT64(1000, pulses);
 }
 
-void test_a_stop_that_the_move_ends_before_changes_nothing(void)
+void test_a_stop_behind_which_no_pulse_is_left_changes_nothing(void)
 {
-    start(&fast, 998);
-    lead_ticks = 3 * 5250;
+    start(&fast, 999);
 
-    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
-
-    TEST_ASSERT_EQUAL_UINT(0, cuts_tried);
+    stop();
     run_to_the_end();
+
     TEST_ASSERT_EQUAL_UINT64(1000, pulses);
 }
 
@@ -237,19 +320,6 @@ void test_a_change_of_speed_that_the_move_ends_before_is_not_traced(void)
     run_to_the_end();
 
     TEST_ASSERT_EQUAL_UINT(0, changes_traced);
-    TEST_ASSERT_EQUAL_UINT64(1000, pulses);
-}
-
-void test_a_move_that_ends_while_its_stop_is_planned_has_ended(void)
-{
-    start(&fast, 995);
-    lead_ticks = 5250 + 2625;
-    planning_ticks = 10 * 5250;
-
-    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
-
-    TEST_ASSERT_EQUAL_UINT(1, cuts_tried);
-    run_to_the_end();
     TEST_ASSERT_EQUAL_UINT64(1000, pulses);
 }
 
