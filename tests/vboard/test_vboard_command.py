@@ -108,3 +108,29 @@ def test_a_profile_names_the_register_and_the_waiting_for_it(run_image, tmp_path
     accesses = [row for row in rows if row[5].startswith("4000")]
     assert any(int(row[4]) > 0 for row in accesses)
     assert all(row[5] for row in rows if int(row[4]) > 0)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("constant", "write SYMBOL=HEXBYTES"),
+        ("nothing=00", "no such constant"),
+        ("result=00", "no such constant"),
+        ("constant=000000", "not 4 bytes"),
+        ("constant=0000000G", "not 4 bytes"),
+    ],
+)
+def test_what_cannot_be_set_is_one_line(run_image, text, told):
+    run = run_image("preset", "--set", text)
+
+    assert run.status == 1
+    assert told in run.told
+    assert run.told.count("\n") == 1
+
+
+def test_a_constant_can_be_set(run_image):
+    plain = run_image("preset")
+    run = run_image("preset", "--set", "constant=78563412")
+
+    assert plain.result[0] == 7
+    assert run.result[0] == 0x12345678

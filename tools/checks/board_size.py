@@ -19,6 +19,8 @@ BUDGETS = Path(__file__).resolve().parents[2] / "hal/stm32/budgets.json"
 POINTER_CALLS = {
     "stm32_tick_interrupt": {"unit_tick_isr"},
 }
+# Folders of the build whose objects are not of the image.
+OTHERS = {"CompilerIdC", "rkm04_bench.dir"}
 INDIRECT = "__indirect_call"
 
 # Functions of the compiler's libraries come without figures; these are above what their code pushes
@@ -61,7 +63,7 @@ def call_graph(folder: Path) -> Stage:
     """Everything that was compiled for the image."""
     graph = Stage("image")
     for path in sorted(folder.rglob("*.ci")):
-        if "CompilerIdC" not in path.parts:
+        if not OTHERS.intersection(path.parts):
             graph.add_calls(path)
     return graph
 

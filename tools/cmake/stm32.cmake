@@ -6,12 +6,17 @@ set(script ${PROJECT_SOURCE_DIR}/hal/stm32/stm32f405.ld)
 set(elf $<TARGET_FILE:rkm04_image>)
 set(output ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${image})
 
-add_executable(rkm04_image firmware/main.c)
-set_target_properties(rkm04_image PROPERTIES OUTPUT_NAME ${image} SUFFIX .elf LINK_DEPENDS ${script})
-target_link_libraries(rkm04_image PRIVATE rkm04_unit rkm04_hal_stm32 rkm04_warnings)
-# Relocations stay in the image (-q): they tell the checks what refers to what.
-target_link_options(rkm04_image PRIVATE -nostartfiles --specs=nano.specs -T ${script}
-    -Wl,--gc-sections -Wl,-q -Wl,--fatal-warnings -Wl,-Map=${output}.map)
+# rkm04_add_image(<target> <name> <main>): the unit with a main, for the board.
+function(rkm04_add_image target name main)
+    add_executable(${target} ${main})
+    set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} SUFFIX .elf LINK_DEPENDS ${script})
+    target_link_libraries(${target} PRIVATE rkm04_unit rkm04_hal_stm32 rkm04_warnings)
+    # Relocations stay in the image (-q): they tell the checks what refers to what.
+    target_link_options(${target} PRIVATE -nostartfiles --specs=nano.specs -T ${script}
+        -Wl,--gc-sections -Wl,-q -Wl,--fatal-warnings -Wl,-Map=${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name}.map)
+endfunction()
+rkm04_add_image(rkm04_image ${image} firmware/main.c)
+rkm04_add_image(rkm04_bench ${image}-bench hal/stm32/bench/bench_main.c)
 
 set(checks ${PROJECT_SOURCE_DIR}/tools/checks)
 set(board_header ${PROJECT_SOURCE_DIR}/hal/stm32/boards/${RKM04_BOARD}/board.h)

@@ -1,24 +1,37 @@
-"""Runs of a target image on the virtual board, for `bench --target stm32`.
+"""Runs of target images on the virtual board, for `bench --target stm32`.
 
-Programs come by the line as in `sim --target stm32`: each is held by `[` until all have come, then
-`]` releases them on the same tick.
+Two images: that of the board, whose programs come by the line as in `sim --target stm32`, and the
+bench image, which is the same but for its main: that one takes its moves from a table
+(hal/stm32/bench/bench_main.c), so that they may be faster than the language allows.
 """
 
 from __future__ import annotations
 
 import csv
-from collections.abc import Mapping
-from dataclasses import dataclass
+import struct
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from rkm04_tools import board, virtual_board
+from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.frame import Frame
 from rkm04_tools.sim_board import ANSWER_MS, BYTE_MS, LATE, NODE, READY_MS, SET_COMMAND
 
 STEP_VECTOR = "TIM2"
+MOTORS = range(1, 5)
+TICKS_PER_MS = 84_000
+
+STACK_BOTTOM = "stm32_stack_bottom"
+TABLE, REPORT, DONE = "bench_table", "bench_report", "bench_done"
+"""Symbols of the images."""
+
+MOVES_BEGIN_MS = 3.0
+"""The bench image is up by then, and no move of it has begun."""
+BENCH_SECONDS_MAX = 20.0
 
 
 @dataclass(frozen=True)
@@ -40,7 +53,9 @@ class Model:
 
 
 GATE = Model(3)
+"""What budgets and goals are held against."""
 BESIDE = Model(2)
+"""Nearer to published figures of such parts."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +67,7 @@ class Line:
 
 
 def programs(texts: Mapping[int, bytes]) -> Line:
-    """Programs of some motors, released together."""
+    """Programs of some motors: held by `[` until all have come, then released together."""
     at, come, lines = READY_MS, 0.0, ""
     for motor, text in [*((m, b"[" + t) for m, t in texts.items()), (0, b"]")]:
         data = Frame(NODE, 0, SET_COMMAND + b"%d" % motor + text).encode()
@@ -63,17 +78,33 @@ def programs(texts: Mapping[int, bytes]) -> Line:
 
 
 @dataclass(frozen=True)
+class Move:
+    """A move of the bench image: steps, steps/s, steps/s^2."""
+
+    steps: int
+    start_speed: int
+    speed: int
+    accel: int
+    delay_ticks: int = 0
+
+    @property
+    def packed(self) -> bytes:
+        """As struct bench_move."""
+        values = (self.steps, self.start_speed, self.speed, self.accel, self.delay_ticks)
+        return struct.pack("<5I", *values)
+
+
+@dataclass(frozen=True)
 class Ran:
     """What a run told."""
 
     summary: dict[str, Any]
-    steps_file: Path
-    profile_file: Path
+    folder: Path
 
     @property
     def load(self) -> float:
-        """Cycles not asleep, of all."""
-        return float(self.summary["load"])
+        """Cycles not asleep, of all, in percent."""
+        return 100 * float(self.summary["load"])
 
     @property
     def late(self) -> int:
@@ -85,15 +116,31 @@ class Ran:
         """Of all motors."""
         return sum(int(motor["pulses"]) for motor in self.summary["motors"])
 
-    def vector(self, name: str = STEP_VECTOR) -> dict[str, Any]:
-        """What an exception has cost; all 0 if it never came."""
-        nothing = dict.fromkeys(("count", "cycles", "min", "median", "max", "latency_max"), 0)
-        return next((v for v in self.summary["vectors"] if v["name"] == name), nothing)
+    @property
+    def positions(self) -> list[int]:
+        """Of the drivers."""
+        return [int(motor["position"]) for motor in self.summary["motors"]]
+
+    @property
+    def stack_used(self) -> int:
+        """The deepest that the stack ever was, in bytes."""
+        return int(self.summary["stack"]["used"])
+
+    @property
+    def step_interrupt(self) -> dict[str, int]:
+        """How often it ran, and its cycles: all, min, median, max."""
+        nothing = dict.fromkeys(("count", "cycles", "min", "median", "max"), 0)
+        return next((v for v in self.summary["vectors"] if v["name"] == STEP_VECTOR), nothing)
+
+    @property
+    def profile_file(self) -> Path:
+        """Where the cycles went, if that was asked for."""
+        return self.folder / "profile.csv"
 
     def ticks(self) -> dict[int, np.ndarray]:
-        """The ticks of all pulses of each motor, from power-on."""
+        """The ticks of all pulses of each motor, from power-on, if they were asked for."""
         found: dict[int, list[int]] = {}
-        with self.steps_file.open() as file:
+        with (self.folder / "steps.csv").open() as file:
             for row in csv.DictReader(line for line in file if not line.startswith("#")):
                 found.setdefault(int(row["motor"]), []).append(int(row["tick"]))
         return {motor: np.array(ticks, dtype=np.int64) for motor, ticks in found.items()}
@@ -101,35 +148,79 @@ class Ran:
 
 @dataclass(frozen=True)
 class Rig:
-    """The virtual board with an image."""
+    """The virtual board with the images of a board in it, and the cycle model."""
 
     program: Path
-    elf: Path
-    board: str
+    image: board.Image
     folder: Path
+    model: Model = GATE
+
+    @property
+    def elf(self) -> Path:
+        """The image of the board."""
+        return self.image.file("elf")
+
+    @property
+    def bench_elf(self) -> Path:
+        """The bench image."""
+        return self.elf.with_name(f"{self.image.board}-bench.elf")
+
+    def beside(self, name: str, model: Model) -> Rig:
+        """The same in a folder of its own."""
+        folder = self.folder / name
+        folder.mkdir()
+        return replace(self, folder=folder, model=model)
 
     def run(
-        self, seconds: float, line: str = "", inputs: str = "", *options: str, model: Model = GATE,
-        steps: bool = False, profile: bool = False,
+        self, seconds: float, line: str = "", inputs: str = "", *options: str,
+        steps: bool = False, profile: bool = False, flash: Path | None = None,
     ) -> Ran:  # fmt: skip
-        """Run the image from power-on."""
-        arguments = ["--elf", str(self.elf), "--for", f"{seconds:.9f}", *model.options]
-        arguments += ["--watch", LATE, "--stack-limit", "stm32_stack_bottom"]
-        texts = {"pins": virtual_board.board_pins(self.board), "line-script": line}
-        for name, text in {**texts, "inputs": inputs}.items():
+        """Run the image of the board from power-on."""
+        files = {"line-script": line, "inputs": inputs}
+        kept = ["--flash", str(flash)] if flash else []
+        arguments = [*self._files(files, steps, profile), *kept, *options]
+        return self._run(self.elf, seconds, arguments)
+
+    def run_moves(
+        self, moves: Sequence[Move], *options: str, line: str = "", stop_at_late: bool = False
+    ) -> Ran:
+        """Run the bench image to the end of its moves; those of motors 1, 2 and so on."""
+        none = Move(0, 0, 0, 0)
+        table = b"".join(move.packed for move in [*moves, *[none] * (len(MOTORS) - len(moves))])
+        put = (table + struct.pack("<I", stop_at_late)).hex()
+        arguments = ["--set", f"{TABLE}={put}", "--end-at", DONE, "--watch", REPORT]
+        arguments += [*self._files({"line-script": line}), *options]
+        return self._run(self.bench_elf, BENCH_SECONDS_MAX, arguments)
+
+    def _files(
+        self, texts: Mapping[str, str], steps: bool = False, profile: bool = False
+    ) -> list[str]:
+        arguments = []
+        for name, text in {**texts, "pins": virtual_board.board_pins(self.image.board)}.items():
             if text:
                 path = self.folder / name
                 path.write_text(text)
                 arguments += [f"--{name}", str(path)]
-        steps_file, profile_file = self.folder / "steps.csv", self.folder / "profile.csv"
-        arguments += ["--steps", str(steps_file)] if steps else []
-        arguments += ["--profile", str(profile_file)] if profile else []
-        summary = virtual_board.run(self.program, [*arguments, *options])
-        return Ran(summary, steps_file, profile_file)
+        arguments += ["--steps", str(self.folder / "steps.csv")] if steps else []
+        return arguments + (["--profile", str(self.folder / "profile.csv")] if profile else [])
+
+    def _run(self, elf: Path, seconds: float, arguments: Sequence[str]) -> Ran:
+        common = ["--elf", str(elf), "--for", f"{seconds:.9f}", *self.model.options]
+        common += ["--watch", LATE, "--stack-limit", STACK_BOTTOM]
+        ran = Ran(virtual_board.run(self.program, [*common, *arguments]), self.folder)
+        if ran.summary["resets"]["power"] != 1 or ran.summary["resets"]["watchdog"]:
+            raise Failure("the image was reset during a run of the bench", NOT_SO)
+        return ran
+
+
+def ended_well(ran: Ran, moves: Sequence[Move]) -> bool:
+    """Whether the moves of a bench image came to their ends: unit and drivers agree."""
+    wanted = [move.steps for move in moves] + [0] * (len(MOTORS) - len(moves))
+    _, *places, ended = ran.summary["watch"][REPORT]
+    return ended == len(moves) and places == wanted and ran.positions == wanted
 
 
 def rig(folder: Path, name: str = board.DEFAULT_BOARD) -> Rig:
-    """The image of a board, built if need be."""
+    """The images of a board, built if need be."""
     program = virtual_board.program_path()
-    image = board.build(name)
-    return Rig(program, image.file("elf"), name, folder)
+    return Rig(program, board.build(name), folder)

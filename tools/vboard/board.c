@@ -182,6 +182,15 @@ static bool find_end(struct board *board)
     return true;
 }
 
+static bool set_constants(struct board *board)
+{
+    bool good = true;
+    for (unsigned i = 0; good && i < board->options->sets; i++) {
+        good = image_set(board, board->options->set[i]);
+    }
+    return good;
+}
+
 static void set_cycle_model(struct board *board)
 {
     const struct options *options = board->options;
@@ -224,8 +233,8 @@ bool board_init(struct board *board, const struct options *options)
         return false;
     }
     set_cycle_model(board);
-    if (!flash_load(board, options->flash) || !image_load(board, options->elf) || !find_end(board) ||
-        !connect(board)) {
+    if (!flash_load(board, options->flash) || !image_load(board, options->elf) || !set_constants(board) ||
+        !find_end(board) || !connect(board)) {
         return false;
     }
     board_reset(board, RESET_POWER);

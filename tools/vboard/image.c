@@ -129,6 +129,56 @@ bool image_find_symbol(const struct image *image, const char *name, uint32_t *va
     return false;
 }
 
+static int hex_digit(char digit)
+{
+    static const char digits[] = "0123456789abcdef";
+    const char *found = digit == '\0' ? NULL : strchr(digits, digit);
+    return found == NULL ? -1 : (int)(found - digits);
+}
+
+/* False if the text is not exactly so many bytes. */
+static bool put_hex(uint8_t *to, uint32_t bytes, const char *text)
+{
+    if (strlen(text) != (size_t)bytes * 2U) {
+        return false;
+    }
+    for (uint32_t i = 0; i < bytes; i++) {
+        int high = hex_digit(text[2U * i]);
+        int low = hex_digit(text[2U * i + 1U]);
+        if (high < 0 || low < 0) {
+            return false;
+        }
+        to[i] = (uint8_t)(high << 4 | low);
+    }
+    return true;
+}
+
+bool image_set(struct board *board, const char *text)
+{
+    enum { NAME_BYTES_MAX = 64 };
+    char name[NAME_BYTES_MAX] = "";
+    const char *equals = strchr(text, '=');
+    size_t length = equals == NULL ? 0 : (size_t)(equals - text);
+    uint32_t address = 0;
+    uint32_t bytes = 0;
+    if (length == 0 || length >= NAME_BYTES_MAX) {
+        complain("--set %s: write SYMBOL=HEXBYTES", text);
+        return false;
+    }
+    memcpy(name, text, length);
+    bool known = image_find_symbol(&board->image, name, &address, &bytes);
+    uint8_t *to = known && memory_is_flash(address) ? memory_find(&board->memory, address, bytes) : NULL;
+    if (to == NULL) {
+        complain("--set %s: the program has no such constant", name);
+        return false;
+    }
+    if (!put_hex(to, bytes, equals + 1)) {
+        complain("--set %s: not %u bytes in lower-case hexadecimal digits", name, (unsigned)bytes);
+        return false;
+    }
+    return true;
+}
+
 const char *image_function_at(const struct image *image, uint32_t address)
 {
     Elf32_Shdr symbols;

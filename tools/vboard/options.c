@@ -25,6 +25,7 @@ const char options_usage[] =
     "  --steps, --vcd FILE   write pulses and waveforms\n"
     "  --ticks reset|timer   the steps' ticks count from power-on or from the start of TIM2 (reset)\n"
     "  --flash FILE          content of the flash, read before and written after\n"
+    "  --set SYMBOL=HEX      bytes put over a constant of the program; may be repeated\n"
     "  --watch SYMBOL        a variable to be shown in the summary; may be repeated\n"
     "  --stack-limit SYMBOL  the lowest address of the stack\n"
     "  --measure-from MS     the statistics begin then (0)\n"
@@ -144,6 +145,14 @@ static bool read_special(struct options *options, const char *name, const char *
             return false;
         }
         options->watch[options->watches++] = text;
+        return true;
+    }
+    if (strcmp(name, "--set") == 0) {
+        if (options->sets == OPTIONS_SETS_MAX) {
+            complain("--set %s: one too many; %d can be set", text, OPTIONS_SETS_MAX);
+            return false;
+        }
+        options->set[options->sets++] = text;
         return true;
     }
     if (strcmp(name, "--stuck") == 0) {

@@ -13,6 +13,7 @@
 enum {
     OPTIONS_WATCHES_MAX = 32,
     OPTIONS_STUCK_MAX = 16,
+    OPTIONS_SETS_MAX = 8,
 };
 
 struct options_stuck {
@@ -35,6 +36,8 @@ struct options {
     const char *stack_limit; /* symbol; null: found from the image */
     const char *watch[OPTIONS_WATCHES_MAX];
     unsigned watches;
+    const char *set[OPTIONS_SETS_MAX]; /* NAME=HEXBYTES */
+    unsigned sets;
     struct options_stuck stuck[OPTIONS_STUCK_MAX];
     unsigned stucks;
     bool tcp;
