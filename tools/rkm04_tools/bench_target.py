@@ -69,6 +69,7 @@ FIGURES = [
          budget="load_16000_percent"),
     Goal("load_16000_cruise", "... in the cruise", "%", 15),
     Goal("late_16000", "... late steps", "steps", 0),
+    Goal("latency_16000", "... a step interrupt waited for at most", "cycles"),
     Goal("line_busy", "... the line was busy for", "%"),
     Goal("load_200000_together", "load at 4 x 200 000 steps/s, ramps and line, due together", "%"),
     Goal("late_200000_together", "... late steps", "steps", 0),

@@ -21,6 +21,12 @@ The simulation ends when all programs have come to rest, or at the limit of time
 and tells its load and its late steps; it has no --trace and no --plot. Its programs come by the
 line; INPUTS count from then, the files that are written from power-on.
 """
+BENCH_NOTES = """\
+--target stm32 runs the image of the reference board, and a bench image with moves beyond the limits
+of the language, on the virtual board (modelled, not measured): cycles of a step, highest rates,
+load, late steps, reaction to inputs, start-up, stack, flash and RAM, each with two cycle models.
+hal/stm32/bench/README.md tells what each figure means. About two minutes.
+"""
 STATUSES = """\
 exit status: 0 done; 1 what was asked about is not so (a program has errors, a unit refuses);
   2 wrong usage; 3 no connection
@@ -72,6 +78,8 @@ def _sim(options: argparse.Namespace) -> int:
 def _bench(options: argparse.Namespace) -> int:
     """Import what measures the image only when it is asked for."""
     if options.target == "host":
+        if options.profile:
+            raise Failure("--profile needs --target stm32")
         return bench.run(options)
     from rkm04_tools import bench_target
 
@@ -161,7 +169,8 @@ def _add_serve(commands: Commands) -> None:
 
 def _add_bench(commands: Commands) -> None:
     title = "measure accuracy and speed, and compare them with their goals"
-    command = _add(commands, "bench", _bench, title, "rkm04 bench --json")
+    example = "rkm04 bench --json\n  rkm04 bench --target stm32 --profile listing.txt"
+    command = _add(commands, "bench", _bench, title, f"{example}\n\n{BENCH_NOTES.rstrip()}")
     command.add_argument(
         "--target",
         choices=["host", "stm32"],
@@ -171,7 +180,8 @@ def _add_bench(commands: Commands) -> None:
     command.add_argument(
         "--profile",
         metavar="OUT",
-        help="stm32: only show where the cycles of a step go; OUT gets every instruction",
+        help="with --target stm32: only show where the cycles of a step interrupt go; OUT gets "
+        "every instruction",
     )
 
 

@@ -141,6 +141,7 @@ def load_language(rig: Rig) -> Figures:
         "load_16000": whole.load,
         "load_16000_cruise": cruise.load,
         "late_16000": whole.late,
+        "latency_16000": whole.step_interrupt["latency_max"],
         "line_busy": 100 * busy_ms / (end - begin),
         "stack_used": max(whole.stack_used, cruise.stack_used),
     }

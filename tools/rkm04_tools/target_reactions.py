@@ -15,6 +15,7 @@ from statistics import median
 
 import numpy as np
 
+from rkm04_tools.table import thousands
 from rkm04_tools.target_run import MOTORS, TICKS_PER_MS, Line, Rig, programs
 
 SEED = 20261121
@@ -67,7 +68,7 @@ class Reaction:
     def name(self) -> str:
         """For the table."""
         motors = "1 motor" if self.motors == 1 else f"{self.motors} motors"
-        return f"{self.kind}, {self.speed} steps/s, {motors}"
+        return f"{self.kind}, {thousands(self.speed)} steps/s, {motors}"
 
 
 def spread(times: Sequence[float]) -> dict[str, float]:

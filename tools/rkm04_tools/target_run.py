@@ -128,8 +128,8 @@ class Ran:
 
     @property
     def step_interrupt(self) -> dict[str, int]:
-        """How often it ran, and its cycles: all, min, median, max."""
-        nothing = dict.fromkeys(("count", "cycles", "min", "median", "max"), 0)
+        """How often it ran, its cycles (all, min, median, max), and how long it had to wait."""
+        nothing = dict.fromkeys(("count", "cycles", "min", "median", "max", "latency_max"), 0)
         return next((v for v in self.summary["vectors"] if v["name"] == STEP_VECTOR), nothing)
 
     @property
