@@ -1,5 +1,6 @@
 #include "motion_leg.h"
 
+#include "step_generator.h"
 #include "step_scale.h"
 
 /* (speed * STEP_SLOPE_PER_SPEED)^2, where STEP_SLOPE_PER_SPEED^2 = 2 * STEP_ACCEL_PER_ACCEL * STEP_QUANTA. */
@@ -61,7 +62,7 @@ static void segment_from_end(const struct motion_leg *leg, struct step_segment *
     segment->accel = -(int32_t)leg->accel;
 }
 
-/* Where the generator begins to search: on a ramp the speed at the first pulse gives the time, in cruise the way. */
+/* About when the first pulse comes: on a ramp the speed at the first pulse gives the time, in cruise the way. */
 static uint32_t first_interval(const struct motion_leg *leg, const struct step_segment *segment)
 {
     if (leg->accel == 0) {
@@ -80,7 +81,7 @@ struct step_segment motion_leg_segment(const struct motion_leg *leg)
     } else {
         segment_from_start(leg, &segment);
     }
-    segment.interval_ticks = first_interval(leg, &segment);
+    step_generator_aim(&segment, first_interval(leg, &segment));
     segment.pace_ticks = leg->accel == 0 ? (uint32_t)(STEP_QUANTA / leg->from_slope) : 0U;
     return segment;
 }

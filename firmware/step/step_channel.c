@@ -20,7 +20,6 @@ static bool cursor_begin_segment(struct step_cursor *cursor, const struct step_c
     }
     const struct step_segment *segment = queue_slot(channel, cursor->tail);
     step_generator_load(&cursor->generator, segment);
-    (void)step_generator_first(&cursor->generator);
     cursor->end += segment->steps;
     cursor->left = segment->steps - 1U;
     cursor->tail++;
@@ -163,24 +162,15 @@ bool step_channel_brake(struct step_channel *channel, int32_t accel, uint64_t un
     return running;
 }
 
-/* Goes on in the middle of a segment, the first `made` pulses of which have been made. */
-static void channel_join(struct step_channel *channel, const struct step_segment *segment, uint32_t made)
-{
-    struct step_cursor *cursor = &channel->cursor;
-    uint32_t interval = cursor->generator.interval;
-    step_generator_load(&cursor->generator, segment);
-    cursor->generator.residual -= made * STEP_QUANTA;
-    cursor->generator.interval = interval;
-    cursor->left = segment->steps - made;
-}
-
 void step_channel_splice(struct step_channel *channel, const struct step_cursor *at,
                          const struct step_segment *segment)
 {
+    struct step_cursor *cursor = &channel->cursor;
     hal_step_hold();
-    uint64_t pulse = step_cursor_pulse(&channel->cursor);
-    channel_join(channel, segment, (uint32_t)(pulse - step_cursor_pulse(at)));
-    channel->cursor.end = pulse + channel->cursor.left;
+    uint32_t made = (uint32_t)(step_cursor_pulse(cursor) - step_cursor_pulse(at));
+    step_generator_join(&cursor->generator, segment, made);
+    cursor->left = segment->steps - made;
+    cursor->end = step_cursor_pulse(at) + segment->steps;
     bool rests = !step_channel_is_running(channel);
     hal_step_release();
     if (rests) {

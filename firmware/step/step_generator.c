@@ -13,22 +13,42 @@ void step_generator_start(struct step_generator *generator, uint32_t tick)
     *generator = (struct step_generator){.tick = tick};
 }
 
+static void take_motion(struct step_generator *generator, const struct step_segment *segment)
+{
+    generator->accel = segment->accel;
+    generator->pace_ticks = segment->pace_ticks;
+    generator->pace_rest = STEP_QUANTA - segment->pace_ticks * segment->slope;
+}
+
 void step_generator_load(struct step_generator *generator, const struct step_segment *segment)
+{
+    take_motion(generator, segment);
+    generator->residual = segment->residual;
+    generator->slope = segment->slope;
+    generator->interval = segment->tick - generator->tick;
+    generator->tick = segment->tick;
+}
+
+void step_generator_join(struct step_generator *generator, const struct step_segment *segment, uint32_t made)
 {
     uint64_t accel = wide_from_signed(segment->accel);
     uint64_t shift = wide_from_signed(tick_difference(generator->tick, segment->tick));
-
-    generator->accel = segment->accel;
-    generator->residual = segment->residual + shift * (segment->slope + accel * shift);
+    take_motion(generator, segment);
+    generator->residual = segment->residual + shift * (segment->slope + accel * shift) + STEP_QUANTA - made * STEP_QUANTA;
     generator->slope = segment->slope + 2U * accel * shift;
-    generator->pace_ticks = segment->pace_ticks;
-    generator->pace_rest = STEP_QUANTA - segment->pace_ticks * segment->slope;
-    generator->interval = segment->tick + segment->interval_ticks - generator->tick;
 }
 
-uint32_t step_generator_first(struct step_generator *generator)
+void step_generator_aim(struct step_segment *segment, uint32_t interval_ticks)
 {
-    return step_generator_search(generator, generator->interval);
+    struct step_generator generator = {
+        .residual = segment->residual,
+        .slope = segment->slope,
+        .accel = segment->accel,
+        .tick = segment->tick,
+    };
+    segment->tick = step_generator_search(&generator, interval_ticks);
+    segment->residual = generator.residual;
+    segment->slope = generator.slope;
 }
 
 /* Where the search for a pulse stands: position and slope after `interval` ticks. */

@@ -28,7 +28,7 @@ struct step_generator {
     uint64_t slope;    /* quanta a tick, at `tick` */
     int32_t accel;     /* quanta a tick^2 */
     uint32_t tick;     /* of the last pulse, or of the start */
-    uint32_t interval; /* from the pulse before; behind a load, where to look for the first pulse; ticks */
+    uint32_t interval; /* from the pulse before, ticks */
 
     /* At constant speed: the whole ticks of a step's time, and the part of the step that they leave. */
     uint32_t pace_ticks;
@@ -38,11 +38,15 @@ struct step_generator {
 /* Stands still at `tick`, on a whole step. */
 void step_generator_start(struct step_generator *generator, uint32_t tick);
 
-/* Goes on with a segment from the present pulse. */
+/* Goes on with a segment, on its first pulse. */
 void step_generator_load(struct step_generator *generator, const struct step_segment *segment);
 
-/* Moves on to the first pulse behind a load and returns its tick. */
-uint32_t step_generator_first(struct step_generator *generator);
+/* Stays on its pulse, which lies on a segment too: the segment's first `made` pulses have been made. */
+void step_generator_join(struct step_generator *generator, const struct step_segment *segment, uint32_t made);
+
+/* Completes a segment that stands on another moment, within 25 s before its first pulse: residual and slope are those of
+ * `tick`, and no pulse has been made. The first pulse comes about `interval_ticks` later; nearer is found faster. */
+void step_generator_aim(struct step_segment *segment, uint32_t interval_ticks);
 
 /* Moves on to the pulse that comes about `interval` ticks after the last one, where that was foretold wrongly. */
 uint32_t step_generator_search(struct step_generator *generator, uint32_t interval);
@@ -101,7 +105,7 @@ static inline uint32_t step_generator_cruise(struct step_generator *generator)
     return step_generator_accept(generator, residual, generator->slope, interval);
 }
 
-/* Moves on to the next pulse, not the first, of a segment and returns its tick. There must be one: the position must
+/* Moves on to the next pulse of a segment and returns its tick. There must be one: the position must
  * reach the next step, within STEP_INTERVAL_TICKS_MAX. */
 static inline uint32_t step_generator_next(struct step_generator *generator)
 {

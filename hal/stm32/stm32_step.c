@@ -110,16 +110,38 @@ __attribute__((noinline)) static void serve_specials(void)
     }
 }
 
-/* What is out of the ordinary is left to follow(): the end of a segment or of the move, a next edge that is late, one
- * behind the counter's wrap. */
-static inline void serve_plain(unsigned motor)
+/* Whether it takes more than a write of the compare value to arm the next edge: behind the counter's wrap, or late. */
+static inline bool needs_care(uint32_t tick, uint32_t now)
+{
+    return BASE_SELDOM(tick <= now) || BASE_SELDOM((int32_t)(tick - now) < (int32_t)ROOM_TICKS);
+}
+
+/* Where a segment ends, and perhaps the move. */
+__attribute__((noinline)) static void serve_border(unsigned motor)
 {
     struct step_channel *client = stm32_step.client[motor];
     uint32_t edge = client->cursor.generator.tick;
     unsigned next = step_channel_next_isr(client);
     uint32_t tick = client->cursor.generator.tick;
-    uint32_t now = wait_out(edge);
-    if (BASE_SELDOM(next != STEP_CHANNEL_ARM || tick <= now || (int32_t)(tick - now) < (int32_t)ROOM_TICKS)) {
+    if ((next & STEP_CHANNEL_ARM) == 0 || needs_care(tick, wait_out(edge))) {
+        follow(motor, edge, next);
+    } else {
+        (&TIM2_CCR1)[motor] = tick;
+    }
+    stm32_event_set();
+}
+
+static inline void serve_plain(unsigned motor)
+{
+    struct step_channel *client = stm32_step.client[motor];
+    uint32_t edge = client->cursor.generator.tick;
+    if (BASE_SELDOM(client->cursor.left == 0)) {
+        serve_border(motor);
+        return;
+    }
+    unsigned next = step_channel_next_isr(client);
+    uint32_t tick = client->cursor.generator.tick;
+    if (needs_care(tick, wait_out(edge))) {
         follow(motor, edge, next);
     } else {
         (&TIM2_CCR1)[motor] = tick;

@@ -20,7 +20,7 @@ COSTS_IN_RAM = {
     "skipped in IT": 201,
     "two skipped in IT": 301,
     "short divisions": 200,
-    "long divisions": 1202,
+    "long divisions": 1204,
 }
 
 

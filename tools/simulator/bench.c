@@ -62,7 +62,6 @@ static void walk_move(const struct laid_move *move)
     step_generator_start(&generator, move->start_tick);
     for (uint32_t i = 0; i < move->segments; i++) {
         step_generator_load(&generator, &move->segment[i]);
-        (void)step_generator_first(&generator);
         for (uint32_t left = move->segment[i].steps - 1U; left > 0; left--) {
             (void)step_generator_next(&generator);
         }

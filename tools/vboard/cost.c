@@ -160,6 +160,9 @@ static void price_float(struct cost *cost, const cs_insn *instruction)
 static uint8_t register_number(const cs_insn *instruction, unsigned operand)
 {
     arm_reg reg = (arm_reg)instruction->detail->arm.operands[operand].reg;
+    if (reg == ARM_REG_LR) {
+        return COST_REGISTER_LR;
+    }
     return reg >= ARM_REG_R0 && reg <= ARM_REG_R12 ? (uint8_t)(reg - ARM_REG_R0) : 0;
 }
 

@@ -27,6 +27,9 @@ enum cost_flag {
 };
 
 /* What must be looked at before such an instruction is executed. */
+/* The number of the link register in an instruction. */
+enum { COST_REGISTER_LR = 14 };
+
 enum cost_kind {
     COST_PLAIN,
     COST_UNKNOWN, /* not decoded yet */

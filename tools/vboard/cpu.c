@@ -96,10 +96,15 @@ static bool look_around(struct board *board, uint32_t address)
     return true;
 }
 
+static uint32_t read_operand(struct cpu *cpu, unsigned number)
+{
+    return cpu_read(cpu, number == COST_REGISTER_LR ? (int)UC_ARM_REG_LR : (int)UC_ARM_REG_R0 + (int)number);
+}
+
 static uint32_t division_cycles(struct cpu *cpu, struct cost cost)
 {
-    uint32_t dividend = cpu_read(cpu, UC_ARM_REG_R0 + (cost.more & 0xF));
-    uint32_t divisor = cpu_read(cpu, UC_ARM_REG_R0 + (cost.more >> 4));
+    uint32_t dividend = read_operand(cpu, cost.more & 0xFU);
+    uint32_t divisor = read_operand(cpu, cost.more >> 4);
     if (dividend < divisor || divisor == 0) {
         return 0;
     }

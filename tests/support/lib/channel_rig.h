@@ -72,13 +72,14 @@ static inline void channel_rig_check(void)
 /* Pulses INTERVAL ticks apart, the first one INTERVAL behind pulse number `pulse` of the move. */
 static inline struct step_segment segment_behind(uint32_t pulse, uint32_t steps)
 {
-    return (struct step_segment){
+    struct step_segment segment = {
         .slope = STEP_QUANTA / INTERVAL,
         .tick = START + pulse * INTERVAL,
-        .interval_ticks = INTERVAL,
         .pace_ticks = INTERVAL,
         .steps = steps,
     };
+    step_generator_aim(&segment, INTERVAL);
+    return segment;
 }
 
 static inline void push(uint32_t pulse, uint32_t steps)

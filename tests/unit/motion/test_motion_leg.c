@@ -1,5 +1,6 @@
 #include "motion_leg.h"
 #include "motion_profile.h"
+#include "segment_view.h"
 #include "step_scale.h"
 #include "unity.h"
 
@@ -116,12 +117,11 @@ void test_a_segment_of_a_cruise_holds_place_and_speed_at_its_start(void)
 
     struct step_segment segment = motion_leg_segment(&leg);
 
-    TEST_ASSERT_EQUAL_UINT32(5000, segment.tick);
-    TEST_ASSERT_EQUAL_UINT64(STEP_QUANTA / 4U, segment.residual);
+    TEST_ASSERT_EQUAL_UINT64(STEP_QUANTA / 4U, seen_at(&segment, 5000).residual);
     TEST_ASSERT_EQUAL_UINT64(slope_of(1000), segment.slope);
     TEST_ASSERT_EQUAL_INT32(0, segment.accel);
     TEST_ASSERT_EQUAL_UINT32(10, segment.steps);
-    TEST_ASSERT_EQUAL_UINT32(84000 / 4 * 3, segment.interval_ticks);
+    TEST_ASSERT_EQUAL_UINT32(5000 + 84000 / 4 * 3, segment.tick);
 }
 
 void test_a_cruise_that_starts_between_ticks_is_given_from_the_next_tick(void)
@@ -132,18 +132,17 @@ void test_a_cruise_that_starts_between_ticks_is_given_from_the_next_tick(void)
 
     struct step_segment segment = motion_leg_segment(&leg);
 
-    TEST_ASSERT_EQUAL_UINT32(5001, segment.tick);
-    TEST_ASSERT_EQUAL_UINT64(slope_of(1000) / 2U, segment.residual);
+    TEST_ASSERT_EQUAL_UINT64(slope_of(1000) / 2U, seen_at(&segment, 5001).residual);
 }
 
-void test_a_cruise_whose_first_step_is_due_before_the_next_tick_is_searched_from_there(void)
+void test_a_cruise_whose_first_step_is_due_before_the_next_tick_has_it_there(void)
 {
     struct motion_leg leg = cruise(1000, 10);
     leg.start.fraction = HALF_TICK;
     leg.from.quanta = STEP_QUANTA - 1U;
     motion_leg_set_end(&leg);
 
-    TEST_ASSERT_EQUAL_UINT32(0, motion_leg_segment(&leg).interval_ticks);
+    TEST_ASSERT_EQUAL_UINT32(5001, motion_leg_segment(&leg).tick);
 }
 
 void test_a_rising_ramp_is_given_from_its_start(void)
@@ -154,9 +153,8 @@ void test_a_rising_ramp_is_given_from_its_start(void)
 
     struct step_segment segment = motion_leg_segment(&leg);
 
-    TEST_ASSERT_EQUAL_UINT32(5000, segment.tick);
-    TEST_ASSERT_EQUAL_UINT64(12345, segment.residual);
-    TEST_ASSERT_EQUAL_UINT64(slope_of(100), segment.slope);
+    TEST_ASSERT_EQUAL_UINT64(12345, seen_at(&segment, 5000).residual);
+    TEST_ASSERT_EQUAL_UINT64(slope_of(100), seen_at(&segment, 5000).slope);
     TEST_ASSERT_EQUAL_INT32(1000 * STEP_ACCEL_PER_ACCEL, segment.accel);
     TEST_ASSERT_EQUAL_UINT32(40, segment.steps);
 }
@@ -170,9 +168,8 @@ void test_a_rising_ramp_that_starts_between_ticks_is_given_from_the_next_tick(vo
 
     struct step_segment segment = motion_leg_segment(&leg);
 
-    TEST_ASSERT_EQUAL_UINT32(5001, segment.tick);
-    TEST_ASSERT_EQUAL_UINT64(slope_of(100) / 2U + leg.accel / 4U, segment.residual);
-    TEST_ASSERT_EQUAL_UINT64(slope_of(100) + leg.accel, segment.slope);
+    TEST_ASSERT_EQUAL_UINT64(slope_of(100) / 2U + leg.accel / 4U, seen_at(&segment, 5001).residual);
+    TEST_ASSERT_EQUAL_UINT64(slope_of(100) + leg.accel, seen_at(&segment, 5001).slope);
 }
 
 void test_a_falling_ramp_is_given_from_its_start_by_its_end(void)
@@ -182,9 +179,8 @@ void test_a_falling_ramp_is_given_from_its_start_by_its_end(void)
 
     struct step_segment segment = motion_leg_segment(&leg);
 
-    TEST_ASSERT_EQUAL_UINT32(5000, segment.tick);
-    TEST_ASSERT_EQUAL_HEX64(0, segment.residual);
-    TEST_ASSERT_EQUAL_UINT64(slope_of(300), segment.slope);
+    TEST_ASSERT_EQUAL_HEX64(0, seen_at(&segment, 5000).residual);
+    TEST_ASSERT_EQUAL_UINT64(slope_of(300), seen_at(&segment, 5000).slope);
     TEST_ASSERT_EQUAL_INT32(-1000 * (int32_t)STEP_ACCEL_PER_ACCEL, segment.accel);
 }
 
@@ -196,9 +192,8 @@ void test_a_falling_ramp_that_starts_between_ticks_is_given_from_the_tick_before
 
     struct step_segment segment = motion_leg_segment(&leg);
 
-    TEST_ASSERT_EQUAL_UINT32(5000, segment.tick);
-    TEST_ASSERT_EQUAL_HEX64(0U - (slope_of(300) / 2U + leg.accel / 4U), segment.residual);
-    TEST_ASSERT_EQUAL_UINT64(slope_of(300) + leg.accel, segment.slope);
+    TEST_ASSERT_EQUAL_HEX64(0U - (slope_of(300) / 2U + leg.accel / 4U), seen_at(&segment, 5000).residual);
+    TEST_ASSERT_EQUAL_UINT64(slope_of(300) + leg.accel, seen_at(&segment, 5000).slope);
 }
 
 /* 16 000 s from V16000 to S1 with A1: the position of its start, seen back from the end, exceeds 64 bits. */
@@ -217,21 +212,24 @@ void test_the_longest_falling_ramp_wraps_without_loss(void)
     struct step_segment segment = motion_leg_segment(&leg);
 
     TEST_ASSERT_EQUAL_UINT64(UINT64_C(15999) * TICK_HZ, leg.end.ticks);
-    TEST_ASSERT_EQUAL_HEX64(0, segment.residual);
-    TEST_ASSERT_EQUAL_UINT64(slope_of(16000), segment.slope);
+    TEST_ASSERT_EQUAL_HEX64(0, seen_at(&segment, 0).residual);
+    TEST_ASSERT_EQUAL_UINT64(slope_of(16000), seen_at(&segment, 0).slope);
 }
 
-void test_the_first_interval_of_a_ramp_is_the_time_to_the_speed_at_its_first_pulse(void)
+/* A step up reaches the square root of 100^2 + 2000, a step down that of 300^2 - 2000, by 1000 steps/s each second. */
+void test_a_segment_of_a_ramp_stands_on_its_first_pulse_whatever_the_guess(void)
 {
-    struct motion_leg up = ramp(100, 300);
-    struct motion_leg down = ramp(300, 100);
-    up.pulse_slope = slope_of(110);
-    down.pulse_slope = slope_of(295);
-    motion_leg_set_end(&up);
-    motion_leg_set_end(&down);
+    for (uint32_t wrong = 0; wrong < 20; wrong += 5) {
+        struct motion_leg up = ramp(100, 300);
+        struct motion_leg down = ramp(300, 100);
+        up.pulse_slope = slope_of(101 + wrong);
+        down.pulse_slope = slope_of(299 - wrong);
+        motion_leg_set_end(&up);
+        motion_leg_set_end(&down);
 
-    TEST_ASSERT_EQUAL_UINT32(TICK_HZ / 100U, motion_leg_segment(&up).interval_ticks);
-    TEST_ASSERT_EQUAL_UINT32(TICK_HZ / 200U, motion_leg_segment(&down).interval_ticks);
+        TEST_ASSERT_EQUAL_UINT32(5000 + 801739, motion_leg_segment(&up).tick);
+        TEST_ASSERT_EQUAL_UINT32(5000 + 281573, motion_leg_segment(&down).tick);
+    }
 }
 
 void test_a_new_segment_is_not_marked(void)

@@ -1,4 +1,5 @@
 #include "motion_plan.h"
+#include "segment_view.h"
 #include "step_scale.h"
 #include "unity.h"
 
@@ -95,9 +96,8 @@ void test_the_first_segment_begins_at_the_start_of_the_move(void)
 
     (void)take_segments();
 
-    TEST_ASSERT_EQUAL_UINT32(1000, segments[0].tick);
-    TEST_ASSERT_EQUAL_UINT64(0, segments[0].residual);
-    TEST_ASSERT_EQUAL_UINT64(100U * STEP_SLOPE_PER_SPEED, segments[0].slope);
+    TEST_ASSERT_EQUAL_UINT64(0, seen_at(&segments[0], 1000).residual);
+    TEST_ASSERT_EQUAL_UINT64(100U * STEP_SLOPE_PER_SPEED, seen_at(&segments[0], 1000).slope);
 }
 
 void test_a_short_move_is_two_ramps(void)

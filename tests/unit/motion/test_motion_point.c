@@ -41,7 +41,6 @@ static void advance(void)
         struct step_segment segment;
         TEST_ASSERT_TRUE(motion_plan_next(&plan, &segment));
         step_generator_load(&cursor.generator, &segment);
-        (void)step_generator_first(&cursor.generator);
         cursor.left = segment.steps;
         cursor.end += segment.steps;
     } else {

@@ -21,10 +21,13 @@ void tearDown(void)
 /* Twice as fast. */
 static struct step_segment fast_behind(uint32_t pulse, uint32_t steps)
 {
-    struct step_segment segment = segment_behind(pulse, steps);
-    segment.slope *= 2U;
-    segment.pace_ticks /= 2U;
-    segment.interval_ticks /= 2U;
+    struct step_segment segment = {
+        .slope = STEP_QUANTA / INTERVAL * 2U,
+        .tick = START + pulse * INTERVAL,
+        .pace_ticks = INTERVAL / 2,
+        .steps = steps,
+    };
+    step_generator_aim(&segment, INTERVAL / 2);
     return segment;
 }
 

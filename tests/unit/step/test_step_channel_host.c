@@ -58,13 +58,13 @@ static void start_machine(uint64_t epoch)
 
 static void begin_move(unsigned motor, uint32_t interval_ticks, uint32_t steps, bool backward)
 {
-    const struct step_segment segment = {
+    struct step_segment segment = {
         .slope = STEP_QUANTA / interval_ticks,
         .tick = (uint32_t)machine.epoch,
-        .interval_ticks = interval_ticks,
         .pace_ticks = interval_ticks,
         .steps = steps,
     };
+    step_generator_aim(&segment, interval_ticks);
     step_channel_begin(&channels[motor], (uint32_t)machine.epoch, backward);
     step_channel_push(&channels[motor], &segment);
     step_channel_run(&channels[motor]);

@@ -17,7 +17,7 @@ enum { TICK_PARTS = 100, TOLERANCE_PARTS = 51 };
 #define STEP_PARTS (UINT64_C(2) * TICK_PARTS * TICK_PARTS * TICK_HZ)
 
 static struct step_generator generator;
-static bool loaded; /* and no pulse since */
+static bool loaded; /* and its first pulse not yet looked at */
 
 void setUp(void)
 {
@@ -27,15 +27,16 @@ void tearDown(void)
 {
 }
 
-static void load(const struct step_segment *segment)
+static void load(struct step_segment segment, uint32_t interval_ticks)
 {
-    step_generator_load(&generator, segment);
+    step_generator_aim(&segment, interval_ticks);
+    step_generator_load(&generator, &segment);
     loaded = true;
 }
 
 static uint32_t next_pulse(void)
 {
-    uint32_t tick = loaded ? step_generator_first(&generator) : step_generator_next(&generator);
+    uint32_t tick = loaded ? generator.tick : step_generator_next(&generator);
     loaded = false;
     return tick;
 }
@@ -45,13 +46,12 @@ static uint64_t slope_of(uint32_t speed_steps_per_s)
     return speed_steps_per_s * STEP_SLOPE_PER_SPEED;
 }
 
-static struct step_segment segment_of(const struct motion *motion, uint32_t interval_ticks)
+static struct step_segment segment_of(const struct motion *motion)
 {
     return (struct step_segment){
         .slope = slope_of(motion->speed_steps_per_s),
         .accel = motion->accel_steps_per_s2 * (int32_t)STEP_ACCEL_PER_ACCEL,
         .tick = motion->start_tick,
-        .interval_ticks = interval_ticks,
         .pace_ticks = motion->accel_steps_per_s2 == 0 ? TICK_HZ / motion->speed_steps_per_s : 0U,
         .steps = 1,
     };
@@ -59,9 +59,8 @@ static struct step_segment segment_of(const struct motion *motion, uint32_t inte
 
 static void begin(const struct motion *motion, uint32_t interval_ticks)
 {
-    struct step_segment segment = segment_of(motion, interval_ticks);
     step_generator_start(&generator, motion->start_tick);
-    load(&segment);
+    load(segment_of(motion), interval_ticks);
 }
 
 /* The position after so many hundredths of a tick. */
@@ -161,9 +160,8 @@ void test_the_slowest_speed_is_exact_across_many_wraps_of_the_counter(void)
 void test_the_longest_interval_is_found(void)
 {
     struct step_segment segment = {.slope = STEP_QUANTA / STEP_INTERVAL_TICKS_MAX + 1U, .steps = 1};
-    segment.interval_ticks = STEP_INTERVAL_TICKS_MAX - 1000U;
     step_generator_start(&generator, 0);
-    load(&segment);
+    load(segment, STEP_INTERVAL_TICKS_MAX - 1000U);
 
     TEST_ASSERT_UINT32_WITHIN(1, STEP_INTERVAL_TICKS_MAX, next_pulse());
 }
@@ -223,14 +221,14 @@ void test_the_last_pulses_down_to_nearly_a_stand_are_exact(void)
 static void assert_exact_behind_corner(uint32_t corner_ticks)
 {
     const struct motion cruise = {.speed_steps_per_s = 1000};
-    struct step_segment ramp = segment_of(&(struct motion){corner_ticks, 1000, 60000}, 84000);
+    struct step_segment ramp = segment_of(&(struct motion){corner_ticks, 1000, 60000});
     begin(&cruise, 84000);
     for (unsigned k = 1; k <= 5; k++) {
         (void)next_pulse();
     }
     ramp.residual = slope_of(1000) * corner_ticks - 5U * STEP_QUANTA;
 
-    load(&ramp);
+    load(ramp, 84000);
 
     /* Six steps from the start are 6 - corner * 1000 / f from the corner; 0.1 step in the middle of the ramp. */
     uint32_t tick = next_pulse();
@@ -259,17 +257,25 @@ void test_a_segment_that_begins_on_the_present_pulse_is_exact(void)
     assert_exact_behind_corner(5 * 84000);
 }
 
-void test_a_load_does_not_move_the_present_pulse(void)
+/* Two ramps that touch: what follows is the same from any pulse on. */
+void test_a_segment_is_joined_on_any_of_its_pulses(void)
 {
-    const struct motion motion = {.speed_steps_per_s = 1000};
-    struct step_segment other = segment_of(&motion, 84000);
-    begin(&motion, 84000);
-    (void)next_pulse();
-    other.tick = 84000 + 500;
-
-    load(&other);
-
-    TEST_ASSERT_EQUAL_UINT32(84000, generator.tick);
+    const struct motion motion = {.speed_steps_per_s = 700, .accel_steps_per_s2 = 60000};
+    struct step_segment segment = segment_of(&motion);
+    step_generator_aim(&segment, TICK_HZ / 700U);
+    begin(&motion, TICK_HZ / 700U);
+    for (uint32_t made = 1; made <= 100; made++) {
+        (void)next_pulse();
+        struct step_generator joined = generator;
+        joined.residual = 0;
+        joined.slope = 0;
+        joined.accel = 1;
+        step_generator_join(&joined, &segment, made);
+        TEST_ASSERT_EQUAL_HEX64(generator.residual, joined.residual);
+        TEST_ASSERT_EQUAL_HEX64(generator.slope, joined.slope);
+        TEST_ASSERT_EQUAL_INT32(generator.accel, joined.accel);
+        TEST_ASSERT_EQUAL_UINT32(generator.tick, joined.tick);
+    }
 }
 
 /* What makes it fast: above some thousand steps/s the speed in the middle of an interval foretells its end. */

@@ -21,7 +21,7 @@ BOTH(not_taken, "cmp r5, r5\n" HUNDRED("bne 1f\n1:"))
 BOTH(skipped, "cmp r5, r5\n" HUNDRED("it ne\n addne r3, r3, #1"))
 BOTH(skipped_wide, "cmp r5, r5\n" HUNDRED("itt ne\n addne.w r3, r3, #1\n addne r3, r3, #1"))
 BOTH(divide_small, HUNDRED("udiv r3, r6, r5"))
-BOTH(divide_large, "mvns r7, r6\n movs r6, #1\n" HUNDRED("udiv r3, r7, r6"))
+BOTH(divide_large, "mov r12, lr\n mvns r7, r6\n mov lr, #1\n" HUNDRED("udiv r3, r7, lr") "mov lr, r12\n")
 
 static uint32_t memory[4] = {(uint32_t)(uintptr_t)memory, 1, 2, 3};
 
