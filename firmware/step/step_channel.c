@@ -36,22 +36,6 @@ static bool cursor_advance(struct step_cursor *cursor, const struct step_channel
     return true;
 }
 
-/* Finds the first pulse of the next segment; the channel rests if there is none. */
-static bool channel_begin_segment(struct step_channel *channel)
-{
-    uint32_t head = atomic_load_explicit(&channel->head, memory_order_acquire);
-    uint32_t tail = channel->cursor.tail;
-    if (!cursor_begin_segment(&channel->cursor, channel, head)) {
-        atomic_store_explicit(&channel->running, false, memory_order_release);
-        return false;
-    }
-    if (queue_slot(channel, tail)->marked) {
-        atomic_store_explicit(&channel->marked, true, memory_order_relaxed);
-    }
-    atomic_store_explicit(&channel->taken, channel->cursor.tail, memory_order_release);
-    return true;
-}
-
 void step_channel_init(struct step_channel *channel, unsigned motor)
 {
     *channel = (struct step_channel){.direction = 1, .motor = (uint8_t)motor};
@@ -222,7 +206,17 @@ bool step_channel_take_mark(struct step_channel *channel)
 
 unsigned step_channel_next_segment_isr(struct step_channel *channel)
 {
-    return channel_begin_segment(channel) ? STEP_CHANNEL_ARM | STEP_CHANNEL_LOOK : STEP_CHANNEL_LOOK;
+    uint32_t head = atomic_load_explicit(&channel->head, memory_order_acquire);
+    uint32_t tail = channel->cursor.tail;
+    if (!cursor_begin_segment(&channel->cursor, channel, head)) {
+        atomic_store_explicit(&channel->running, false, memory_order_release);
+        return STEP_CHANNEL_LOOK;
+    }
+    if (queue_slot(channel, tail)->marked) {
+        atomic_store_explicit(&channel->marked, true, memory_order_relaxed);
+    }
+    atomic_store_explicit(&channel->taken, tail + 1U, memory_order_release);
+    return STEP_CHANNEL_ARM | STEP_CHANNEL_LOOK;
 }
 
 bool step_channel_pulse_isr(struct step_channel *channel)

@@ -113,10 +113,11 @@ unsigned step_channel_next_segment_isr(struct step_channel *channel);
 static inline unsigned step_channel_next_isr(struct step_channel *channel)
 {
     struct step_cursor *cursor = &channel->cursor;
-    if (BASE_SELDOM(cursor->left == 0)) {
+    uint32_t left = cursor->left - 1U;
+    if (BASE_SELDOM(left > cursor->left)) {
         return step_channel_next_segment_isr(channel);
     }
-    cursor->left--;
+    cursor->left = left;
     (void)step_generator_next(&cursor->generator);
     return STEP_CHANNEL_ARM;
 }

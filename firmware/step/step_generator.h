@@ -68,23 +68,23 @@ static inline bool step_generator_is_near(uint64_t residual, uint64_t slope)
     return residual + (slope >> 1U) <= slope;
 }
 
-/* The time that a way takes at a speed, of both the high word; to the nearest tick. */
-static inline uint32_t step_generator_foretell(uint64_t way, uint64_t slope)
+/* The time that the way to the next step takes at a speed, of both the high word; to the nearest tick. */
+static inline uint32_t step_generator_foretell(uint64_t residual, uint64_t slope)
 {
+    uint32_t way = (uint32_t)(STEP_QUANTA >> 32U) - (uint32_t)(residual >> 32U);
     uint32_t speed = ((uint32_t)(slope >> 32U) + ((uint32_t)slope >> 31U)) | 1U;
-    return ((uint32_t)(way >> 32U) + speed / 2U) / speed;
+    return (way + speed / 2U) / speed;
 }
 
 /* The next pulse of a segment with acceleration. */
 static inline uint32_t step_generator_ramp(struct step_generator *generator)
 {
     int64_t accel = generator->accel;
-    uint64_t way = STEP_QUANTA - generator->residual;
     uint64_t about = generator->slope + wide_from_signed(accel * (int32_t)generator->interval);
-    uint32_t interval = step_generator_foretell(way, about);
+    uint32_t interval = step_generator_foretell(generator->residual, about);
     uint64_t gain = wide_from_signed(accel * (int32_t)interval);
     uint64_t middle = generator->slope + gain;
-    uint64_t residual = interval * middle - way;
+    uint64_t residual = generator->residual + interval * middle - STEP_QUANTA;
     uint64_t slope = middle + gain;
     if (BASE_SELDOM(!step_generator_is_near(residual, slope))) {
         return step_generator_search(generator, interval);

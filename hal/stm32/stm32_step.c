@@ -45,7 +45,7 @@ static void rest(unsigned motor, uint32_t edge)
 }
 
 /* What follows the pulse at `edge`. */
-static void follow(unsigned motor, uint32_t edge, unsigned next)
+__attribute__((noinline)) static void follow(unsigned motor, uint32_t edge, unsigned next)
 {
     if ((next & STEP_CHANNEL_LOOK) != 0) {
         stm32_event_set();
@@ -121,7 +121,7 @@ __attribute__((noinline)) static void serve_border(unsigned motor)
 {
     struct step_channel *client = stm32_step.client[motor];
     uint32_t edge = client->cursor.generator.tick;
-    unsigned next = step_channel_next_isr(client);
+    unsigned next = step_channel_next_segment_isr(client);
     uint32_t tick = client->cursor.generator.tick;
     if ((next & STEP_CHANNEL_ARM) == 0 || needs_care(tick, wait_out(edge))) {
         follow(motor, edge, next);

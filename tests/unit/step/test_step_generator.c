@@ -286,7 +286,7 @@ static unsigned foretold_of(const struct motion *motion, unsigned pulses)
     (void)next_pulse();
     for (unsigned k = 0; k < pulses; k++) {
         uint64_t middle = generator.slope + wide_from_signed((int64_t)generator.accel * (int32_t)generator.interval);
-        uint32_t guess = step_generator_foretell(STEP_QUANTA - generator.residual, middle);
+        uint32_t guess = step_generator_foretell(generator.residual, middle);
         (void)next_pulse();
         foretold += generator.interval == guess ? 1U : 0U;
     }
