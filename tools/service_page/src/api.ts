@@ -1,0 +1,35 @@
+import type { Curve, CurveRequest, Example, Problem } from "./protocol";
+
+const SUPERSEDED = 409;
+
+async function post<T>(path: string, body: unknown): Promise<T | null> {
+    const response = await fetch(path, {
+        method: "POST",
+        headers: { "Content-Type": "application/json" },
+        body: JSON.stringify(body),
+    });
+    if (response.status === SUPERSEDED) {
+        return null;
+    }
+    const answer = (await response.json()) as T & { error?: { cause?: string } | null };
+    if (!response.ok) {
+        throw new Error(answer.error?.cause ?? `${path}: ${response.status}`);
+    }
+    return answer;
+}
+
+/** What the firmware's parser says of a program. */
+export async function checkProgram(text: string): Promise<Problem[]> {
+    const answer = await post<{ problems: Problem[] }>("/api/check", { text });
+    return answer?.problems ?? [];
+}
+
+/** What programs would do; null if a later call took the place of this one. */
+export function computeCurve(request: CurveRequest): Promise<Curve | null> {
+    return post<Curve>("/api/curve", request);
+}
+
+export async function fetchExamples(): Promise<Example[]> {
+    const response = await fetch("/api/examples");
+    return response.ok ? ((await response.json()) as Example[]) : [];
+}

@@ -1,0 +1,162 @@
+import { byId, make } from "./dom";
+import { language, t } from "./i18n";
+import type { Link } from "./link";
+import type { Log } from "./log";
+import { ALL_MOTORS, MOTORS, type MessageName, type ToService } from "./protocol";
+import { Cell } from "./signal";
+
+const MESSAGES: MessageName[] = ["version", "send", "store", "position", "program", "table", "progress"];
+const RESET_ASKS_MS = 4000;
+const FLASH_MS = 600;
+
+export interface ShownProgram {
+    motor: number;
+    text: string;
+}
+
+/** What goes to the unit when the user says so: messages, resume, reset, speed, and above all Stop. */
+export class Commands {
+    readonly motor = new Cell<number>(MOTORS[0]);
+    readonly #link: Link;
+    readonly #log: Log;
+    readonly #program: () => ShownProgram;
+    readonly #message = byId("message", HTMLSelectElement);
+    readonly #reset = byId("reset", HTMLButtonElement);
+    readonly #progress = byId("progress", HTMLProgressElement);
+    #asksReset = 0;
+    #sending: number | null = null;
+
+    constructor(link: Link, log: Log, program: () => ShownProgram) {
+        this.#link = link;
+        this.#log = log;
+        this.#program = program;
+        this.#addMotors();
+        this.#listen();
+        link.on("progress", ({ id, from, value }) => this.#showProgress(id, from, value));
+        link.on("answer", ({ id, from }) => {
+            if (id === this.#sending && this.#isMine(from)) {
+                this.#endProgress();
+            }
+        });
+        link.isOpen.onChange(() => this.#endProgress());
+        language.watch(() => this.#translate());
+        this.motor.onChange(() => this.describe());
+    }
+
+    /** Words of the button: what is going to be sent, and where to. */
+    describe(): void {
+        const motor = this.motor.value;
+        for (const radio of document.querySelectorAll<HTMLInputElement>("input[name=motor]")) {
+            radio.checked = Number(radio.value) === motor;
+        }
+        const words = { program: this.#program().motor, motor };
+        const isSend = this.#message.value === "send";
+        const hint = t(motor === ALL_MOTORS ? "send.toAll" : "send.toOne", words);
+        byId("send-hint", HTMLElement).textContent = isSend ? hint : "";
+    }
+
+    /** Stops all motors: at once, whatever else is under way. */
+    stop(): void {
+        const button = byId("stop", HTMLButtonElement);
+        button.dataset.pressed = "true";
+        window.setTimeout(() => delete button.dataset.pressed, FLASH_MS);
+        this.#say("stop", { type: "stop", id: this.#link.nextId() });
+    }
+
+    #listen(): void {
+        const click = (id: string, action: () => void): void =>
+            byId(id, HTMLButtonElement).addEventListener("click", action);
+        click("stop", () => this.stop());
+        click("resume", () => this.#say("resume", { type: "resume", id: this.#link.nextId() }));
+        click("reset", () => this.#askReset());
+        byId("speed-form", HTMLFormElement).addEventListener("submit", (event) => {
+            event.preventDefault();
+            const value = byId("speed", HTMLInputElement).valueAsNumber;
+            const id = this.#link.nextId();
+            this.#say("speed", { type: "speed", id, motor: this.motor.value, value });
+        });
+        byId("message-form", HTMLFormElement).addEventListener("submit", (event) => {
+            event.preventDefault();
+            this.#request();
+        });
+        this.#message.addEventListener("change", () => this.describe());
+        const escape = (event: KeyboardEvent): void => {
+            if (event.key === "Escape" && !event.repeat) {
+                this.stop();
+            }
+        };
+        window.addEventListener("keydown", escape, { capture: true });
+    }
+
+    #request(): void {
+        const message = this.#message.value as MessageName;
+        const id = this.#link.nextId();
+        const text = message === "send" ? { text: this.#program().text } : {};
+        if (message === "send") {
+            this.#sending = id;
+        }
+        this.#say(message, { type: "request", id, message, motor: this.motor.value, ...text });
+    }
+
+    /** A click that was not sent must not look as if it had been. */
+    #say(name: string, message: ToService): void {
+        if (!this.#link.send(message)) {
+            this.#log.say(name, { cause: t("state.notSent"), next: "" });
+        }
+    }
+
+    /** The first press asks, the second one within a few seconds resets. */
+    #askReset(): void {
+        window.clearTimeout(this.#asksReset);
+        if (this.#asksReset !== 0) {
+            this.#forgetReset();
+            this.#say("reset", { type: "reset", id: this.#link.nextId() });
+            return;
+        }
+        this.#reset.textContent = t("reset.sure");
+        this.#reset.classList.add("danger");
+        this.#asksReset = window.setTimeout(() => this.#forgetReset(), RESET_ASKS_MS);
+    }
+
+    #forgetReset(): void {
+        this.#asksReset = 0;
+        this.#reset.textContent = t("reset.name");
+        this.#reset.classList.remove("danger");
+    }
+
+    #isMine(from: number | null | undefined): boolean {
+        return from === undefined || from === this.#link.client;
+    }
+
+    #showProgress(id: number, from: number | null | undefined, value: number): void {
+        if (id === this.#sending && this.#isMine(from)) {
+            this.#progress.hidden = false;
+            this.#progress.value = value;
+        }
+    }
+
+    #endProgress(): void {
+        this.#sending = null;
+        this.#progress.hidden = true;
+    }
+
+    #addMotors(): void {
+        const host = byId("motors", HTMLElement);
+        for (const motor of [ALL_MOTORS, ...MOTORS]) {
+            const radio = make("input", { type: "radio", name: "motor", value: String(motor) });
+            radio.addEventListener("change", () => this.motor.set(motor));
+            host.append(make("label", {}, radio, make("span", { id: `motor-name-${motor}` }, String(motor))));
+        }
+    }
+
+    #translate(): void {
+        const chosen = this.#message.value || "send";
+        this.#message.replaceChildren(
+            ...MESSAGES.map((name) => make("option", { value: name }, `${t(`message.${name}`)} – ${t(`about.${name}`)}`)),
+        );
+        this.#message.value = chosen;
+        byId("motor-name-0", HTMLElement).textContent = t("motor.allShort");
+        this.#forgetReset();
+        this.describe();
+    }
+}

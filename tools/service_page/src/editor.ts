@@ -1,0 +1,143 @@
+import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
+import { lintGutter, lintKeymap, linter, setDiagnostics } from "@codemirror/lint";
+import { highlightSelectionMatches, openSearchPanel, search, searchKeymap } from "@codemirror/search";
+import { Compartment, EditorState, type Extension } from "@codemirror/state";
+import {
+    EditorView,
+    drawSelection,
+    highlightActiveLine,
+    highlightActiveLineGutter,
+    keymap,
+    lineNumbers,
+} from "@codemirror/view";
+import { highlighting } from "./highlight";
+import { language, t } from "./i18n";
+import { phrases } from "./phrases";
+import type { Problem } from "./protocol";
+import { toDiagnostic } from "./problems";
+
+/**
+ * One editor on the page, with a document, an undo history and a cursor for each of the programs. Programs are
+ * counted from 0 here.
+ */
+export class Editor {
+    readonly #view: EditorView;
+    readonly #states: EditorState[];
+    readonly #words = new Compartment();
+    readonly #onEdit: () => void;
+    #shown = 0;
+
+    constructor(host: HTMLElement, texts: string[], onEdit: () => void) {
+        this.#onEdit = onEdit;
+        this.#states = texts.map((text) => this.#newState(text));
+        this.#view = new EditorView({ parent: host, state: this.#stateAt(0) });
+        language.onChange(() => this.#translate());
+    }
+
+    text(index: number): string {
+        return this.#current(index).doc.toString();
+    }
+
+    /** Replaces a program; undo brings the old one back. */
+    replace(index: number, text: string): void {
+        const state = this.#current(index);
+        const change = { changes: { from: 0, to: state.doc.length, insert: text } };
+        if (index === this.#shown) {
+            this.#view.dispatch(change);
+        } else {
+            this.#states[index] = state.update(change).state;
+            this.#onEdit();
+        }
+    }
+
+    show(index: number): void {
+        this.#states[this.#shown] = this.#view.state;
+        this.#shown = index;
+        this.#view.setState(this.#stateAt(index));
+    }
+
+    /** Underlines what the parser found, if it was found in the text that is here now. */
+    mark(index: number, text: string, problems: Problem[]): void {
+        const state = this.#current(index);
+        if (state.doc.toString() !== text) {
+            return;
+        }
+        const found = setDiagnostics(state, problems.map((problem) => toDiagnostic(state.doc, problem)));
+        if (index === this.#shown) {
+            this.#view.dispatch(found);
+        } else {
+            this.#states[index] = state.update(found).state;
+        }
+    }
+
+    /** Puts the cursor at a line and column of the shown program; both count from 1. */
+    goTo(line: number, column: number): void {
+        const problem: Problem = { line, column, end_column: column, severity: "error", message: "" };
+        const { from } = toDiagnostic(this.#view.state.doc, problem);
+        this.#view.dispatch({ selection: { anchor: from }, scrollIntoView: true });
+        this.#view.focus();
+    }
+
+    find(): void {
+        openSearchPanel(this.#view);
+    }
+
+    focus(): void {
+        this.#view.focus();
+    }
+
+    #stateAt(index: number): EditorState {
+        const state = this.#states[index];
+        if (state === undefined) {
+            throw new Error(`there is no program ${index}`);
+        }
+        return state;
+    }
+
+    #current(index: number): EditorState {
+        return index === this.#shown ? this.#view.state : this.#stateAt(index);
+    }
+
+    #newState(text: string): EditorState {
+        return EditorState.create({
+            doc: text,
+            extensions: [
+                lineNumbers(),
+                highlightActiveLine(),
+                highlightActiveLineGutter(),
+                history(),
+                drawSelection(),
+                highlightSelectionMatches(),
+                search({ top: true }),
+                highlighting,
+                linter(null),
+                lintGutter(),
+                EditorView.lineWrapping,
+                keymap.of([...defaultKeymap, ...historyKeymap, ...searchKeymap, ...lintKeymap]),
+                EditorView.updateListener.of((update) => {
+                    if (update.docChanged) {
+                        this.#onEdit();
+                    }
+                }),
+                this.#words.of(this.#translated()),
+            ],
+        });
+    }
+
+    #translated(): Extension {
+        return [
+            EditorState.phrases.of(phrases()),
+            EditorView.contentAttributes.of({ "aria-label": t("editor.label"), spellcheck: "false" }),
+        ];
+    }
+
+    #translate(): void {
+        const effects = this.#words.reconfigure(this.#translated());
+        this.#view.dispatch({ effects });
+        this.#states.forEach((state, index) => {
+            if (index !== this.#shown) {
+                this.#states[index] = state.update({ effects }).state;
+            }
+        });
+    }
+}

@@ -1,0 +1,108 @@
+import { byId, make } from "./dom";
+import { isKey, language, t } from "./i18n";
+import type { Link } from "./link";
+import type { Answer, Trouble } from "./protocol";
+import { troubleText } from "./trouble";
+
+const KEPT_MAX = 200;
+
+interface Entry {
+    at: Date;
+    answer: Answer;
+}
+
+/** All answers of the unit, the youngest on top: in words, and as the bytes that were on the line. */
+export class Log {
+    readonly #list = byId("log", HTMLElement);
+    readonly #spoken = byId("spoken", HTMLElement);
+    readonly #toEditor: (motor: number, text: string) => void;
+    #entries: Entry[] = [];
+
+    constructor(link: Link, toEditor: (motor: number, text: string) => void) {
+        this.#toEditor = toEditor;
+        link.on("answer", (answer) => this.#add(answer));
+        const bytes = byId("log-bytes", HTMLInputElement);
+        bytes.addEventListener("change", () => (this.#list.dataset.bytes = String(bytes.checked)));
+        byId("log-clear", HTMLButtonElement).addEventListener("click", () => {
+            this.#entries = [];
+            this.#showAll();
+        });
+        language.watch(() => this.#showAll());
+    }
+
+    /** Something that the page itself has to say, beside the answers. */
+    say(message: string, trouble: Trouble): void {
+        const bytes = { request_bytes: null, answer_bytes: null };
+        this.#add({ id: null, message, node: 0, motor: null, ...bytes, text: null, error: trouble });
+    }
+
+    #add(answer: Answer): void {
+        const entry = { at: new Date(), answer };
+        this.#entries.unshift(entry);
+        this.#entries.length = Math.min(this.#entries.length, KEPT_MAX);
+        this.#list.querySelector(".log-empty")?.remove();
+        this.#list.prepend(this.#show(entry));
+        while (this.#list.childElementCount > KEPT_MAX) {
+            this.#list.lastElementChild?.remove();
+        }
+        this.#spoken.textContent = `${this.#title(answer)}: ${this.#words(answer)}`;
+    }
+
+    #showAll(): void {
+        const empty = make("li", { class: "log-empty" }, t("log.empty"));
+        const shown = this.#entries.map((entry) => this.#show(entry));
+        this.#list.replaceChildren(...(shown.length > 0 ? shown : [empty]));
+    }
+
+    #title(answer: Answer): string {
+        const key = `message.${answer.message}`;
+        return isKey(key) ? t(key) : answer.message;
+    }
+
+    #words(answer: Answer): string {
+        return answer.error ? troubleText(answer.error) : (answer.text ?? t("log.done"));
+    }
+
+    #show({ at, answer }: Entry): HTMLElement {
+        const time = make("time", {}, at.toLocaleTimeString(language.value, { hour12: false }));
+        const title = make("b", {}, this.#title(answer));
+        const head = make("div", { class: "log-head" }, time, title);
+        if (answer.motor !== null) {
+            head.append(make("span", { class: "log-who" }, this.#who(answer)));
+        }
+        const words = make("div", { class: "log-words" }, this.#words(answer));
+        const item = make("li", { class: "log-item", "data-message": answer.message }, head, words);
+        item.classList.toggle("is-bad", answer.error !== null);
+        if (answer.message === "program" && answer.text && answer.motor) {
+            head.append(this.#editorButton(answer.motor, answer.text));
+        }
+        this.#addBytes(item, answer);
+        return item;
+    }
+
+    #who(answer: Answer): string {
+        const node = t("log.node", { node: answer.node });
+        const motor = answer.motor === 0 ? t("motor.all") : t("motor.one", { motor: answer.motor ?? 0 });
+        return `${node} · ${motor}`;
+    }
+
+    #addBytes(item: HTMLElement, answer: Answer): void {
+        const rows = [
+            ["→", "log.request", answer.request_message, answer.request_bytes],
+            ["←", "log.answer", answer.answer_message, answer.answer_bytes],
+        ] as const;
+        for (const [arrow, label, message, frame] of rows) {
+            if (frame) {
+                const row = make("div", { class: "log-bytes", title: t(label) }, make("i", {}, arrow));
+                row.append(make("code", { title: t("log.message") }, message ?? ""), make("code", { class: "frame", title: t("log.frame") }, frame));
+                item.append(row);
+            }
+        }
+    }
+
+    #editorButton(motor: number, text: string): HTMLElement {
+        const button = make("button", { type: "button", class: "link" }, t("log.toEditor"));
+        button.addEventListener("click", () => this.#toEditor(motor, text));
+        return button;
+    }
+}

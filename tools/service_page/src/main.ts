@@ -1,0 +1,52 @@
+import { Commands } from "./commands";
+import { Connection } from "./connection";
+import { byId } from "./dom";
+import { setUpLanguage } from "./i18n";
+import { Link } from "./link";
+import { LiveView } from "./live";
+import { Log } from "./log";
+import { Plan } from "./plan";
+import { Programs } from "./programs";
+import { ALL_MOTORS } from "./protocol";
+
+/*
+ * Puts the parts together. The parts do not know each other; what one of them needs of another is handed in
+ * here. Nothing on this page acts on a unit except what the user presses (commands.ts, connection.ts).
+ */
+const link = new Link();
+setUpLanguage(byId("language", HTMLSelectElement));
+
+const plan: Plan = new Plan(() => programs.texts());
+const programs: Programs = new Programs(
+    () => plan.programsChanged(),
+    (example) => plan.setInputs(example.inputs ?? []),
+);
+const log = new Log(link, (motor, text) => programs.replace(motor, text));
+const commands = new Commands(link, log, () => {
+    const motor = programs.shown.value;
+    return { motor, text: programs.text(motor) };
+});
+new Connection(link);
+new LiveView(link);
+
+commands.motor.onChange((motor) => {
+    if (motor !== ALL_MOTORS && motor !== programs.shown.value) {
+        programs.shown.set(motor);
+    }
+});
+programs.shown.onChange((motor) => {
+    if (commands.motor.value === ALL_MOTORS) {
+        commands.describe();
+    } else if (commands.motor.value !== motor) {
+        commands.motor.set(motor);
+    }
+});
+link.on("answer", ({ message, motor, error }) => {
+    const isShown = motor === ALL_MOTORS || motor === programs.shown.value;
+    if (message === "send" && isShown && error?.line !== undefined) {
+        programs.goTo(error.line, error.column ?? 1);
+    }
+});
+
+plan.programsChanged();
+link.open();

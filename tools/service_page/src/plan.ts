@@ -1,0 +1,232 @@
+import { computeCurve } from "./api";
+import { Chart, type Range } from "./chart";
+import { toChartData, valueAt } from "./curve";
+import { byId, debounced, make } from "./dom";
+import { language, numberText, t } from "./i18n";
+import { formatInputs, parseInputs, type InputChange } from "./inputs_text";
+import { MOTORS, type Curve, type CurveRequest } from "./protocol";
+import { keep, recall } from "./storage";
+import { Zoom } from "./zoom";
+
+const POINTS = 2000;
+const TYPING_MS = 60;
+const ZOOMING_MS = 150;
+
+/** Names this page to the service, which drops a computation when the same page asks for another. */
+const PAGE = crypto.randomUUID();
+
+/** What the programs would do: two plots that follow the text, without any unit. */
+export class Plan {
+    readonly #root = byId("plan", HTMLElement);
+    readonly #status = byId("plan-status", HTMLElement);
+    readonly #inputs = byId("plan-inputs", HTMLInputElement);
+    readonly #seconds = byId("plan-seconds", HTMLSelectElement);
+    readonly #zoom = new Zoom(() => this.#zoomed());
+    readonly #shown = new Set<number>(MOTORS);
+    readonly #programs: () => Record<string, string>;
+    readonly #charts: { speed: Chart; position: Chart };
+    readonly #refresh = debounced(TYPING_MS, () => void this.#compute());
+    readonly #refine = debounced(ZOOMING_MS, () => void this.#computePart());
+    #curve: Curve | null = null;
+    #trouble: string | null = null;
+    #isComputing = false;
+    #isStale = false;
+    #count = 0;
+
+    constructor(programs: () => Record<string, string>) {
+        this.#programs = programs;
+        this.#charts = { speed: this.#chart("plan-speed", false), position: this.#chart("plan-position", true) };
+        this.#inputs.value = recall("inputs", "");
+        this.#seconds.value = recall("seconds", "60");
+        this.#inputs.addEventListener("input", () => this.#settingsChanged());
+        this.#seconds.addEventListener("change", () => this.#settingsChanged());
+        byId("zoom-in", HTMLButtonElement).addEventListener("click", () => this.#zoom.by(3));
+        byId("zoom-out", HTMLButtonElement).addEventListener("click", () => this.#zoom.by(-3));
+        byId("zoom-reset", HTMLButtonElement).addEventListener("click", () => this.#zoom.reset());
+        this.#addMotorSwitches();
+        language.onChange(() => this.#draw());
+    }
+
+    /** To be called when a program has changed; the curve follows shortly. */
+    programsChanged(): void {
+        this.#refresh();
+    }
+
+    /** Takes over the inputs that belong to an example. */
+    setInputs(changes: InputChange[]): void {
+        this.#inputs.value = formatInputs(changes);
+        this.#settingsChanged();
+    }
+
+    #settingsChanged(): void {
+        keep("inputs", this.#inputs.value);
+        keep("seconds", this.#seconds.value);
+        this.#inputs.setAttribute("aria-invalid", String(parseInputs(this.#inputs.value) === null));
+        this.#refresh();
+    }
+
+    #request(range?: Range): CurveRequest {
+        return {
+            programs: this.#programs(),
+            inputs: parseInputs(this.#inputs.value) ?? [],
+            seconds: Number(this.#seconds.value),
+            points: POINTS,
+            page: PAGE,
+            ...(range ? { range } : {}),
+        };
+    }
+
+    /** One computation at a time, so that a slow one is shown too before the next begins. */
+    async #compute(): Promise<void> {
+        if (this.#isComputing) {
+            this.#isStale = true;
+            return;
+        }
+        this.#isComputing = true;
+        try {
+            await this.#fetch(this.#request());
+        } catch (error) {
+            this.#trouble = String(error);
+        }
+        this.#isComputing = false;
+        this.#draw();
+        if (this.#isStale) {
+            this.#isStale = false;
+            await this.#compute();
+        } else if (this.#zoom.part) {
+            this.#refine();
+        }
+    }
+
+    async #fetch(request: CurveRequest): Promise<void> {
+        if (Object.keys(request.programs).length === 0) {
+            this.#curve = null;
+            this.#trouble = null;
+            return;
+        }
+        const curve = await computeCurve(request);
+        if (curve === null) {
+            return;
+        }
+        this.#trouble = curve.error;
+        if (curve.error === null) {
+            this.#curve = curve;
+            this.#zoom.setWhole(curve.seconds);
+        }
+    }
+
+    /** Fills a part that was zoomed into with all its detail. */
+    async #computePart(): Promise<void> {
+        const range = this.#zoom.part;
+        if (range === null || this.#isComputing) {
+            return;
+        }
+        const detail = await computeCurve(this.#request(range)).catch(() => null);
+        if (detail?.error === null && this.#zoom.part === range && !this.#isComputing) {
+            this.#plot(detail);
+        }
+    }
+
+    #zoomed(): void {
+        this.#draw();
+        this.#refine();
+    }
+
+    #draw(): void {
+        if (this.#curve) {
+            this.#plot(this.#curve);
+        } else {
+            this.#plot({ seconds: 1, ended: true, motors: {}, outputs: [], error: null });
+        }
+        this.#count += 1;
+        this.#root.dataset.state = this.#trouble !== null ? "old" : this.#curve ? "new" : "empty";
+        this.#root.dataset.drawn = String(this.#count);
+        this.#tell(null);
+    }
+
+    #plot(curve: Curve): void {
+        const motors = Object.values(curve.motors);
+        this.#root.dataset.points = String(motors.reduce((sum, motor) => sum + motor.t.length, 0));
+        this.#root.dataset.pulses = String(motors.reduce((sum, motor) => sum + motor.pulses, 0));
+        this.#charts.speed.setData(toChartData(curve, "speed", this.#shown));
+        this.#charts.position.setData(toChartData(curve, "position", this.#shown));
+    }
+
+    /** Says what is under the cursor, or what the whole is. */
+    #tell(seconds: number | null): void {
+        this.#status.dataset.kind = this.#trouble === null ? "ok" : "old";
+        if (seconds !== null && this.#curve) {
+            this.#status.replaceChildren(...this.#valuesAt(this.#curve, seconds));
+        } else if (this.#trouble !== null) {
+            this.#status.textContent = t("plan.old");
+            this.#status.title = this.#trouble;
+        } else if (this.#curve === null) {
+            this.#status.textContent = t("plan.empty");
+        } else {
+            this.#status.replaceChildren(...this.#summary(this.#curve));
+        }
+    }
+
+    #valuesAt(curve: Curve, seconds: number): Node[] {
+        const parts = [make("b", {}, `${numberText(seconds, 3)} s`)];
+        for (const [motor, one] of Object.entries(curve.motors)) {
+            const speed = valueAt(one, "speed", seconds) ?? 0;
+            const position = valueAt(one, "position", seconds);
+            const words = { speed: numberText(speed), position: position === null ? "–" : numberText(position) };
+            parts.push(this.#motorMark(motor, t("plan.at", words)));
+        }
+        return parts;
+    }
+
+    #summary(curve: Curve): Node[] {
+        const end = t(curve.ended ? "plan.ends" : "plan.goesOn", { seconds: numberText(curve.seconds, 3) });
+        const parts = [make("b", {}, end)];
+        for (const [motor, one] of Object.entries(curve.motors)) {
+            const words = { moves: numberText(one.moves), pulses: numberText(one.pulses), peak: numberText(one.peak) };
+            const text = one.error ? `${t("plan.fails")}: ${one.error}` : t("plan.summary", words);
+            parts.push(this.#motorMark(motor, text));
+        }
+        return parts;
+    }
+
+    #motorMark(motor: string, text: string): HTMLElement {
+        const dot = make("i", { class: "dot", style: `--c: var(--motor-${motor})` }, motor);
+        return make("span", { class: "nowrap" }, dot, text);
+    }
+
+    #addMotorSwitches(): void {
+        const host = byId("plan-motors", HTMLElement);
+        for (const motor of MOTORS) {
+            const box = make("input", { type: "checkbox", checked: "" });
+            const label = make("label", { class: "motor-switch", style: `--c: var(--motor-${motor})` }, box, `M${motor}`);
+            box.addEventListener("change", () => {
+                this.#shown[box.checked ? "add" : "delete"](motor);
+                this.#draw();
+            });
+            host.append(label);
+        }
+    }
+
+    #chart(id: string, showsTime: boolean): Chart {
+        const chart = new Chart({
+            host: byId(id, HTMLElement),
+            group: "plan",
+            range: () => this.#zoom.range,
+            showsTime,
+            onCursor: (seconds) => this.#tell(seconds),
+            onSelect: (range) => this.#zoom.show(range),
+            onDoubleClick: () => this.#zoom.reset(),
+        });
+        chart.surface.addEventListener("wheel", (event) => this.#wheel(event, chart), { passive: false });
+        return chart;
+    }
+
+    /** The wheel zooms; where there is nothing more to widen, it scrolls the page. */
+    #wheel(event: WheelEvent, chart: Chart): void {
+        if (event.deltaY > 0 && this.#zoom.part === null) {
+            return;
+        }
+        event.preventDefault();
+        this.#zoom.by(Math.sign(-event.deltaY), chart.xAt(event.clientX));
+    }
+}
