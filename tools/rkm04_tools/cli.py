@@ -10,7 +10,7 @@ from functools import partial
 from typing import NoReturn, TypeAlias
 
 from rkm04_tools import bench, check, serve
-from rkm04_tools.client_options import add_client_commands
+from rkm04_tools.client_options import NODE_HELP, PORT_HELP, add_client_commands
 from rkm04_tools.failure import INTERRUPTED, NOT_SO, Failure
 
 SIM_NOTES = """\
@@ -26,6 +26,11 @@ BENCH_NOTES = """\
 of the language, on the virtual board (modelled, not measured): cycles of a step, highest rates,
 load, late steps, reaction to inputs, start-up, stack, flash and RAM, each with two cycle models.
 hal/stm32/bench/README.md tells what each figure means. About two minutes.
+"""
+SERVICE_NOTES = """\
+Without --port and RKM04_PORT it connects to a virtual unit of its own. Nothing moves on connecting.
+The page is for this machine only: its address has a token, and 127.0.0.1 is not to be reached from
+others. Ctrl-C ends it, and the virtual unit with it; a unit on a line is left as it is.\
 """
 STATUSES = """\
 exit status: 0 done; 1 what was asked about is not so (a program has errors, a unit refuses);
@@ -86,6 +91,13 @@ def _bench(options: argparse.Namespace) -> int:
     return bench_target.run(options)
 
 
+def _service(options: argparse.Namespace) -> int:
+    """Import the server only when it is needed: others have not even installed it."""
+    from rkm04_tools.service import command
+
+    return command.run(options)
+
+
 def _parser() -> Parser:
     parser = Parser(
         prog="rkm04",
@@ -99,6 +111,7 @@ def _parser() -> Parser:
     _add_bench(commands)
     _add_board(commands)
     _add_serve(commands)
+    _add_service(commands)
     add_client_commands(partial(_add, commands))
     return parser
 
@@ -165,6 +178,21 @@ def _add_sim(commands: Commands) -> None:
 def _add_serve(commands: Commands) -> None:
     title = "units without hardware: they run in real time and speak the line"
     serve.add_arguments(_add(commands, "serve", serve.run, title, serve.EXAMPLE))
+
+
+def _add_service(commands: Commands) -> None:
+    title = "the service program: a page in the browser to write, see and run programs"
+    example = "rkm04 service\n  rkm04 service --port COM5 --node 3 --no-browser"
+    command = _add(commands, "service", _service, title, f"{example}\n\n{SERVICE_NOTES}")
+    command.add_argument("--port", metavar="PORT", help=f"connect there first; {PORT_HELP}")
+    command.add_argument("--node", metavar="N", help=NODE_HELP)
+    command.add_argument(
+        "--listen", metavar="N", type=int,
+        help="the port of the page (default: 8404, or a free one if that is taken)",
+    )  # fmt: skip
+    command.add_argument(
+        "--no-browser", dest="browser", action="store_false", help="only print the address"
+    )
 
 
 def _add_bench(commands: Commands) -> None:

@@ -95,7 +95,7 @@ def read_record(steps: Path, trace: Path, inputs: Path | None, seconds: float) -
         round(seconds * hz),
         {int(m): _of_motor(table, int(m)) for m in np.unique(table[:, 1])},
         _read_trace(trace),
-        _read_inputs(inputs) if inputs else [],
+        read_inputs(inputs) if inputs else [],
     )
 
 
@@ -125,7 +125,7 @@ def _read_trace(path: Path) -> list[Event]:
     return [Event(int(tick), int(motor), name, value) for tick, motor, name, value in cells]
 
 
-def _read_inputs(path: Path) -> list[tuple[float, int, int]]:
+def read_inputs(path: Path) -> list[tuple[float, int, int]]:
     """Read an inputs file that the simulator has accepted."""
     lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
     cells = (line.partition(COMMENT)[0].split(",") for line in lines)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "line.h"
+#include "units.h"
 
 enum { SECONDS_DECIMALS = 9 };
 
@@ -15,6 +16,7 @@ enum { SECONDS_DECIMALS = 9 };
 const char options_usage[] =
     "usage: rkm04-host sim --motor N=FILE ... [--inputs FILE] [--for SECONDS]\n"
     "                      [--steps OUT.csv] [--trace OUT.csv] [--vcd OUT.vcd] [--epoch TICKS]\n"
+    "                      [--curve OUT.json [--points N] [--from SECONDS] [--to SECONDS]] [--real SECONDS]\n"
     "       rkm04-host serve [--help] ...\n"
     "       rkm04-host check FILE\n"
     "       rkm04-host opcodes\n"
@@ -25,6 +27,9 @@ const char options_usage[] =
     "         --inputs FILE   levels of the inputs over time: lines ms,input,level\n"
     "         --for SECONDS   ends after so much of the unit's time if not before (60)\n"
     "         --steps, --trace, --vcd  write pulses, events, waveforms\n"
+    "         --curve         writes speeds and positions over time, in at most N points a motor (2000),\n"
+    "                         of the whole time or from one moment to another\n"
+    "         --real SECONDS  ends after so much real time too\n"
     "         --epoch TICKS   what the unit's clock shows at the start (0)\n"
     "serve    runs units in real time for whoever connects; serve --help says more\n"
     "check    parses a program (- is standard input) and prints commands and errors (JSON)\n"
@@ -64,6 +69,48 @@ static bool read_duration(struct options *options, const char *value)
     return true;
 }
 
+static bool read_seconds(const char *name, const char *value, uint64_t *ns)
+{
+    if (!read_number(value, SECONDS_DECIMALS, DURATION_NS_MAX, ns)) {
+        complain("%s %s: not a time; write seconds with up to 9 decimals, as 2.5", name, value);
+        return false;
+    }
+    return true;
+}
+
+static bool read_from(struct options *options, const char *value)
+{
+    uint64_t ns = 0;
+    bool good = read_seconds("--from", value, &ns);
+    options->paths.range.from_tick = units_ticks_of_ns(ns);
+    return good;
+}
+
+static bool read_to(struct options *options, const char *value)
+{
+    uint64_t ns = 0;
+    bool good = read_seconds("--to", value, &ns);
+    options->paths.range.to_tick = units_ticks_of_ns(ns);
+    return good;
+}
+
+static bool read_real(struct options *options, const char *value)
+{
+    return read_seconds("--real", value, &options->real_ns);
+}
+
+static bool read_points(struct options *options, const char *value)
+{
+    uint64_t points = 0;
+    if (!read_number(value, 0, CURVE_POINTS_MAX, &points) || points < CURVE_POINTS_MIN) {
+        complain("--points %s: write how many points a curve may have, %d to %d", value, CURVE_POINTS_MIN,
+                 CURVE_POINTS_MAX);
+        return false;
+    }
+    options->paths.range.points = (uint32_t)points;
+    return true;
+}
+
 static bool read_epoch(struct options *options, const char *value)
 {
     if (!read_number(value, 0, EPOCH_MAX, &options->epoch)) {
@@ -85,6 +132,9 @@ static const char **find_path(struct options *options, const char *name)
     if (strcmp(name, "--trace") == 0) {
         return &options->paths.trace;
     }
+    if (strcmp(name, "--curve") == 0) {
+        return &options->paths.curve;
+    }
     return strcmp(name, "--vcd") == 0 ? &options->paths.vcd : NULL;
 }
 
@@ -92,13 +142,19 @@ typedef bool read_option(struct options *options, const char *value);
 
 static read_option *find_reader(const char *name)
 {
-    if (strcmp(name, "--motor") == 0) {
-        return read_motor;
+    static const struct {
+        const char *name;
+        read_option *read;
+    } readers[] = {
+        {"--motor", read_motor},   {"--for", read_duration}, {"--epoch", read_epoch}, {"--real", read_real},
+        {"--points", read_points}, {"--from", read_from},    {"--to", read_to},
+    };
+    for (size_t i = 0; i < sizeof readers / sizeof readers[0]; i++) {
+        if (strcmp(name, readers[i].name) == 0) {
+            return readers[i].read;
+        }
     }
-    if (strcmp(name, "--for") == 0) {
-        return read_duration;
-    }
-    return strcmp(name, "--epoch") == 0 ? read_epoch : NULL;
+    return NULL;
 }
 
 static bool read_pair(struct options *options, const char *name, const char *value)
@@ -127,12 +183,16 @@ static bool is_same(const char *a, const char *b)
 
 static bool paths_differ(const struct recorder_paths *paths)
 {
-    bool same = is_same(paths->steps, paths->trace) || is_same(paths->steps, paths->vcd) ||
-                is_same(paths->trace, paths->vcd);
-    if (same) {
-        complain("two outputs go to the same file; give --steps, --trace and --vcd a file each");
+    const char *const all[] = {paths->steps, paths->trace, paths->vcd, paths->curve};
+    for (size_t i = 1; i < sizeof all / sizeof all[0]; i++) {
+        for (size_t j = 0; j < i; j++) {
+            if (is_same(all[i], all[j])) {
+                complain("two outputs go to the same file; give --steps, --trace, --vcd and --curve a file each");
+                return false;
+            }
+        }
     }
-    return !same;
+    return true;
 }
 
 static bool has_program(const struct options *options)
@@ -148,7 +208,10 @@ static bool has_program(const struct options *options)
 
 enum exit_status options_read(struct options *options, int count, char *const arguments[])
 {
-    *options = (struct options){.duration_ns = OPTIONS_DURATION_NS};
+    *options = (struct options){
+        .duration_ns = OPTIONS_DURATION_NS,
+        .paths.range = {.points = CURVE_POINTS_DEFAULT, .to_tick = TICK_NEVER},
+    };
     for (int i = 0; i < count; i += 2) {
         if (!read_pair(options, arguments[i], i + 1 < count ? arguments[i + 1] : NULL)) {
             return EXIT_USAGE;

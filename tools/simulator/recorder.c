@@ -15,9 +15,12 @@ static void recorder_write(void *context, const struct timeline_event *event)
     if (outfile_is_open(&recorder->waves)) {
         vcd_put(&recorder->vcd, event);
     }
+    if (outfile_is_open(&recorder->line)) {
+        curve_put(&recorder->curve, event);
+    }
 }
 
-static void recorder_begin(struct recorder *recorder)
+static bool recorder_begin(struct recorder *recorder, const struct curve_range *range)
 {
     if (outfile_is_open(&recorder->steps)) {
         csv_begin_steps(&recorder->steps);
@@ -28,21 +31,24 @@ static void recorder_begin(struct recorder *recorder)
     if (outfile_is_open(&recorder->waves)) {
         vcd_begin(&recorder->vcd, &recorder->waves);
     }
+    return !outfile_is_open(&recorder->line) || curve_begin(&recorder->curve, &recorder->line, range);
 }
 
 bool recorder_open(struct recorder *recorder, const struct recorder_paths *paths)
 {
     timeline_init(&recorder->timeline, recorder_write, recorder);
-    recorder->active = paths->steps != NULL || paths->trace != NULL || paths->vcd != NULL;
+    recorder->active = paths->steps != NULL || paths->trace != NULL || paths->vcd != NULL || paths->curve != NULL;
     recorder->steps = (struct outfile){.path = NULL};
     recorder->trace = recorder->steps;
     recorder->waves = recorder->steps;
+    recorder->line = recorder->steps;
+    recorder->curve = (struct curve){.outputs = NULL};
     if (!outfile_open(&recorder->steps, paths->steps) || !outfile_open(&recorder->trace, paths->trace) ||
-        !outfile_open(&recorder->waves, paths->vcd)) {
+        !outfile_open(&recorder->waves, paths->vcd) || !outfile_open(&recorder->line, paths->curve) ||
+        !recorder_begin(recorder, &paths->range)) {
         recorder_discard(recorder);
         return false;
     }
-    recorder_begin(recorder);
     return true;
 }
 
@@ -63,11 +69,15 @@ bool recorder_finish(struct recorder *recorder, uint64_t end_tick)
     if (outfile_is_open(&recorder->waves)) {
         vcd_end(&recorder->vcd, end_tick);
     }
+    if (outfile_is_open(&recorder->line)) {
+        curve_end(&recorder->curve, end_tick);
+    }
     bool good = outfile_close(&recorder->steps);
     good = outfile_close(&recorder->trace) && good;
     good = outfile_close(&recorder->waves) && good;
+    good = outfile_close(&recorder->line) && good;
     good = good && outfile_publish(&recorder->steps) && outfile_publish(&recorder->trace) &&
-           outfile_publish(&recorder->waves);
+           outfile_publish(&recorder->waves) && outfile_publish(&recorder->line);
     recorder_discard(recorder);
     return good;
 }
@@ -77,5 +87,7 @@ void recorder_discard(struct recorder *recorder)
     outfile_discard(&recorder->steps);
     outfile_discard(&recorder->trace);
     outfile_discard(&recorder->waves);
+    outfile_discard(&recorder->line);
+    curve_discard(&recorder->curve);
     recorder->active = false;
 }

@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "curve.h"
 #include "outfile.h"
 #include "timeline.h"
 #include "vcd.h"
@@ -17,6 +18,8 @@ struct recorder_paths {
     const char *steps;
     const char *trace;
     const char *vcd;
+    const char *curve;
+    struct curve_range range; /* of the curve */
 };
 
 struct recorder {
@@ -25,6 +28,8 @@ struct recorder {
     struct outfile trace;
     struct outfile waves;
     struct vcd vcd;
+    struct outfile line;
+    struct curve curve;
     bool active; /* there is a file */
 };
 

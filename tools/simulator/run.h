@@ -20,8 +20,12 @@ struct run {
     struct recorder recorder;
     struct tally tally[UNIT_MOTORS];
     int64_t positions[UNIT_MOTORS]; /* as recorded last */
+    uint64_t begin_ns;              /* real time of the beginning, as units_real_ns */
+    uint64_t limit_ns;              /* of real time; 0: none */
+    uint32_t passes;                /* of the main loop, modulo 2^32 */
     uint64_t real_ns;               /* time that the simulation took */
     bool idle;                      /* ended because nothing more could happen */
+    bool cut;                       /* ended because the real time was over */
 };
 
 /* A unit that has just been switched on, with no output files; it stays the one that the hal functions work on. */

@@ -1,0 +1,151 @@
+"""The browsers that look: each has a web socket, and all of them see the same."""
+
+from __future__ import annotations
+
+import asyncio
+import itertools
+from dataclasses import replace
+from typing import Any, TypeAlias
+
+from serial.tools import list_ports
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from rkm04_tools.failure import Failure
+from rkm04_tools.service import virtual
+from rkm04_tools.service.live import LineView, VirtualView
+from rkm04_tools.service.orders import ListPorts, SetInput, Stop, read_order
+from rkm04_tools.service.trouble import BadRequest, as_json
+from rkm04_tools.service.virtual import VirtualLine
+from rkm04_tools.service.worker import Worker
+
+WAITING_MAX = 1000
+"""Messages for a browser that does not take them; then it is let go and may come again."""
+SERVICE_VERSION = "1"
+TOO_SLOW = 1013
+"""Of RFC 6455: try again later."""
+
+Messages: TypeAlias = "asyncio.Queue[dict[str, Any] | None]"
+
+
+class Browsers:
+    """Passes orders on and tells everybody what has happened. To be used inside the event loop."""
+
+    def __init__(self) -> None:
+        self._queues: dict[int, Messages] = {}
+        self._numbers = itertools.count(1)
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._units = VirtualLine()
+        view = LineView(self.tell)
+        self.worker = Worker(self.tell, view.see, self.is_watched, self._units)
+        self._view = VirtualView(
+            self.tell, self.is_watched, lambda: self.worker.state, self.worker.lose, self._units
+        )
+
+    def start(self) -> None:
+        """Begin."""
+        self._loop = asyncio.get_running_loop()
+        self.worker.start()
+        self._view.start()
+
+    def close(self) -> None:
+        """End line, virtual units and threads."""
+        self._view.close()
+        self.worker.close()
+        self._units.close()
+
+    def is_watched(self) -> bool:
+        """Whether any browser looks."""
+        return bool(self._queues)
+
+    def tell(self, told: dict[str, Any]) -> None:
+        """Tell all browsers; from any thread."""
+        if self._loop and not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(self._put, told)
+
+    async def talk(self, socket: WebSocket) -> None:
+        """Serve a browser until it goes."""
+        await socket.accept()
+        number = next(self._numbers)
+        queue: Messages = asyncio.Queue(WAITING_MAX)
+        queue.put_nowait(
+            {
+                "type": "hello",
+                "version": SERVICE_VERSION,
+                "language_default": "en",
+                "client": number,
+            }
+        )
+        queue.put_nowait(self.worker.state.as_json())
+        self._queues[number] = queue
+        sender = asyncio.create_task(_send_all(socket, queue))
+        try:
+            while True:
+                await self._take(await socket.receive_text(), number, queue)
+        except (WebSocketDisconnect, KeyError):
+            pass  # a KeyError is a message of bytes, which no page sends
+        finally:
+            self._queues.pop(number, None)
+            sender.cancel()
+            await asyncio.gather(sender, return_exceptions=True)
+
+    def _put(self, told: dict[str, Any]) -> None:
+        for number, queue in list(self._queues.items()):
+            if told["type"] == "live" and queue.qsize() > 2:
+                continue  # it will get a later one
+            if queue.full():
+                del self._queues[number]
+                queue.get_nowait()
+                queue.put_nowait(None)
+            else:
+                queue.put_nowait(told)
+
+    async def _take(self, text: str, client: int, queue: Messages) -> None:
+        """Take what a browser says; only this one learns what is wrong with it."""
+        try:
+            order, asked = read_order(text)
+            asked = replace(asked, client=client)
+            if isinstance(order, Stop):
+                self.worker.stop(asked)
+            elif isinstance(order, ListPorts):
+                _put_if_room(queue, await asyncio.to_thread(_ports))
+            elif isinstance(order, SetInput):
+                await asyncio.to_thread(self._set_input, order)
+            else:
+                self.worker.give(order, asked)
+        except Failure as failure:
+            _put_if_room(queue, {"type": "error", "error": as_json(failure)})
+
+    def _set_input(self, order: SetInput) -> None:
+        state = self.worker.state
+        if not (state.connected and state.virtual):
+            raise BadRequest(
+                f"only the port {virtual.NAME} has inputs that can be set here; "
+                "those of a unit are wires"
+            )
+        self._units.set_input(state.node, order.number, order.level)
+
+
+async def _send_all(socket: WebSocket, queue: Messages) -> None:
+    """Send what is put into the queue; its end, None, ends the connection."""
+    try:
+        while (told := await queue.get()) is not None:
+            await socket.send_json(told)
+        await socket.close(TOO_SLOW)
+    except (WebSocketDisconnect, RuntimeError):
+        return  # it has gone; who receives from it learns that too
+
+
+def _put_if_room(queue: Messages, told: dict[str, Any]) -> None:
+    if not queue.full():
+        queue.put_nowait(told)
+
+
+def _ports() -> dict[str, Any]:
+    """The ports of this machine, the virtual one first."""
+    found = sorted(list_ports.comports(), key=lambda port: port.device)
+    rows = [{"port": virtual.NAME, "label": "virtual unit"}]
+    for port in found:
+        named = port.description and port.description != "n/a"
+        label = f"{port.device} ({port.description})" if named else port.device
+        rows.append({"port": port.device, "label": label})
+    return {"type": "ports", "ports": rows}

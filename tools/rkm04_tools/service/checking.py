@@ -1,0 +1,69 @@
+"""What is wrong with a program, with places for an editor, and the examples."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from rkm04_tools.check import Checked, Diagnostic, check_source
+from rkm04_tools.complaint import CONDITION, NUMBER
+from rkm04_tools.failure import Failure
+from rkm04_tools.lint import stored
+from rkm04_tools.record import read_inputs
+from rkm04_tools.service.trouble import as_json
+from rkm04_tools.source import Source, read_source
+
+NAME = "the program"
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+
+
+def check(text: str) -> dict[str, Any]:
+    """All errors, or else all warnings, and how many commands are stored of it."""
+    checked = check_source(Source(NAME, text))
+    found = [_problem(checked.source, each) for each in checked.diagnostics]
+    return {"problems": found, "commands": len(stored(checked.parsed.commands))}
+
+
+def first_error(checked: Checked) -> dict[str, Any] | None:
+    """The first error of a program that the unit would refuse."""
+    if checked.is_good:
+        return None
+    first = checked.diagnostics[0]
+    return as_json(
+        Failure(f"{first.message}; correct it, then send again"),
+        line=first.place.line,
+        column=first.place.column,
+    )
+
+
+@cache
+def examples() -> list[dict[str, Any]]:
+    """The examples, each with what its inputs do."""
+    paths = sorted(EXAMPLES.glob("*.rks"), key=lambda path: path.name)
+    return [_example(path) for path in paths]
+
+
+def _example(path: Path) -> dict[str, Any]:
+    inputs = path.with_suffix(".csv")
+    rows = read_inputs(inputs) if inputs.exists() else []
+    return {"name": path.name, "text": read_source(path).text, "inputs": rows}
+
+
+def _problem(source: Source, diagnostic: Diagnostic) -> dict[str, Any]:
+    place = diagnostic.place
+    return {
+        "line": place.line,
+        "column": place.column,
+        "end_column": place.column + _width(source.line(place.line)[place.column - 1 :]),
+        "severity": diagnostic.severity,
+        "message": diagnostic.message,
+    }
+
+
+def _width(rest: str) -> int:
+    """Characters of the command that a line has at a place; of an unclosed comment, all of it."""
+    if rest.startswith("{"):
+        return len(rest)
+    match = (CONDITION if rest.startswith("I") else NUMBER).match(rest, 1)
+    return max(1, match.end() if match else 1)

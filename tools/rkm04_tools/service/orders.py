@@ -1,0 +1,160 @@
+"""What a browser may ask for over its web socket, as types."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+from rkm04_tools.frame import NODES
+from rkm04_tools.messages import (
+    ALL_MOTORS,
+    GET_COMMAND,
+    GET_POSITION,
+    GET_PROGRESS,
+    GET_TABLE,
+    MOTORS,
+    SET_COMMAND,
+    STORE_FLASH,
+    VERSION,
+)
+from rkm04_tools.service.trouble import BadRequest, TooLarge
+
+MESSAGES = {
+    "version": VERSION,
+    "send": SET_COMMAND,
+    "store": STORE_FLASH,
+    "position": GET_POSITION,
+    "program": GET_COMMAND,
+    "table": GET_TABLE,
+    "progress": GET_PROGRESS,
+}
+ACTS = ("resume", "reset", "speed")
+TEXT_MAX = 1_000_000
+PORT_MAX = 1000
+ID_MAX = 1 << 53
+"""More than a browser can count exactly."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """By whom something was asked, and the number under which the answer is awaited."""
+
+    client: int | None = None
+    number: int | None = None
+
+
+@dataclass(frozen=True)
+class Connect:
+    """Open a port, and speak to the unit of a node."""
+
+    port: str
+    node: int
+
+
+@dataclass(frozen=True)
+class Disconnect:
+    """Close the port."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """One of the seven messages."""
+
+    name: str
+    motor: int
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class Act:
+    """C75, reset or V."""
+
+    name: str
+    motor: int
+    value: int = 0
+
+
+@dataclass(frozen=True)
+class Stop:
+    """K, ahead of everything."""
+
+
+@dataclass(frozen=True)
+class SetInput:
+    """Change an input of the virtual unit."""
+
+    number: int
+    level: bool
+
+
+@dataclass(frozen=True)
+class ListPorts:
+    """Tell which ports there are."""
+
+
+Order: TypeAlias = Connect | Disconnect | Request | Act | Stop | SetInput | ListPorts
+
+
+def read_order(text: str) -> tuple[Order, Asked]:
+    """Read a message of a browser."""
+    try:
+        told = json.loads(text)
+    except (ValueError, RecursionError):
+        raise BadRequest("this is not JSON; write an object with a type") from None
+    if not isinstance(told, dict):
+        raise BadRequest("this is no object; write one with a type")
+    number = told.get("id")
+    if number is not None:
+        number = _whole(told, "id", range(ID_MAX))
+    return _order(told), Asked(None, number)
+
+
+def _order(told: Mapping[str, Any]) -> Order:
+    kind = told.get("type")
+    if kind == "connect":
+        return Connect(_text(told, "port", PORT_MAX).strip(), _whole(told, "node", NODES))
+    if kind == "request":
+        return _request(told)
+    if kind in ACTS:
+        value = _whole(told, "value", range(1, 16_001)) if kind == "speed" else 0
+        return Act(str(kind), _motor(told, ALL_MOTORS), value)
+    if kind == "input":
+        return SetInput(_whole(told, "input", range(1, 9)), _whole(told, "level", range(2)) == 1)
+    for name, order in (("stop", Stop()), ("disconnect", Disconnect()), ("ports", ListPorts())):
+        if kind == name:
+            return order
+    raise BadRequest(f"{json.dumps(kind)[:40]} is no type of a message; the page is of another version")
+
+
+def _request(told: Mapping[str, Any]) -> Request:
+    name = told.get("message")
+    if not isinstance(name, str) or name not in MESSAGES:
+        raise BadRequest(f"message is none of {', '.join(MESSAGES)}; name one of them")
+    motor = _motor(told, ALL_MOTORS if name == "version" else None)
+    if name == "send" or (name == "store" and told.get("text") is not None):
+        return Request(name, motor, _text(told, "text", TEXT_MAX))
+    return Request(name, motor)
+
+
+def _motor(told: Mapping[str, Any], default: int | None) -> int:
+    if default is not None and told.get("motor") is None:
+        return default
+    return _whole(told, "motor", range(ALL_MOTORS, MOTORS[-1] + 1))
+
+
+def _whole(told: Mapping[str, Any], name: str, allowed: range) -> int:
+    value = told.get(name)
+    if not isinstance(value, int) or isinstance(value, bool) or value not in allowed:
+        raise BadRequest(f"{name} is not possible; write {allowed[0]} to {allowed[-1]}")
+    return value
+
+
+def _text(told: Mapping[str, Any], name: str, longest: int) -> str:
+    value = told.get(name)
+    if not isinstance(value, str) or not value.strip():
+        raise BadRequest(f"{name} is missing; write a text")
+    if len(value) > longest:
+        raise TooLarge(f"{name} is too long; {longest} characters are the most")
+    return value

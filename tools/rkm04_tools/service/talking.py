@@ -1,0 +1,148 @@
+"""What a unit is asked, and its answers in words and as values for the page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from rkm04_tools import messages
+from rkm04_tools.check import check_source
+from rkm04_tools.failure import NOT_SO, Failure
+from rkm04_tools.line import Motor, Unit
+from rkm04_tools.line_errors import UnitRefused
+from rkm04_tools.messages import ALL_MOTORS, MOTORS
+from rkm04_tools.sending import Tell, check_program, held_commands, plan_program, send_program
+from rkm04_tools.service.checking import NAME, first_error
+from rkm04_tools.service.orders import MESSAGES, Act, Request
+from rkm04_tools.source import Source
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What came of it: words, and the same as values by name."""
+
+    text: str
+    values: dict[str, Any] = field(default_factory=dict)
+
+
+class ProgramWrong(Failure):
+    """The program has an error; `told` is it for the page."""
+
+    def __init__(self, told: dict[str, Any]) -> None:
+        super().__init__(f"{told['cause']}; {told['next']}", NOT_SO)
+        self.told = told
+
+
+def ask(unit: Unit, request: Request, tell: Tell) -> Answer:
+    """Send one of the seven messages; `tell` is told of the progress of a long program."""
+    if request.name == "send":
+        return _send(unit.motor(request.motor), request.text, tell)
+    if request.name == "store":
+        return _store(unit.motor(request.motor), request.text)
+    if request.name == "version":
+        return version(unit)
+    if request.name == "position":
+        return _positions(unit, request.motor)
+    if request.motor == ALL_MOTORS:
+        return _raw(unit, MESSAGES[request.name])
+    return READS[request.name](unit.motor(request.motor))
+
+
+def act(unit: Unit, order: Act) -> Answer:
+    """Send C75, a reset or V."""
+    motor = unit.motor(order.motor)
+    if order.name == "resume":
+        motor.resume()
+        return Answer("told to go on")
+    if order.name == "reset":
+        motor.reset()
+        return Answer("reset, the program memory is empty")
+    motor.set_speed(order.value)
+    return Answer(f"speed {order.value} steps/s", {"speed": order.value})
+
+
+def version(unit: Unit) -> Answer:
+    """Ask for version and date."""
+    told = unit.version()
+    date = told.date.isoformat()
+    return Answer(f"version {told.number} of {date}", {"version": told.number, "date": date})
+
+
+def _send(motor: Motor, text: str, tell: Tell) -> Answer:
+    checked = check_source(Source(NAME, text))
+    if told := first_error(checked):
+        raise ProgramWrong(told)
+    sent = send_program(motor, checked, tell)
+    words = f"{_count(sent.commands, 'command')} in {_count(sent.messages, 'message')} sent"
+    if sent.overflow:
+        words += "; the program memory was full, commands were lost"
+    values = {
+        "commands": sent.commands,
+        "messages": sent.messages,
+        "overflow": sent.overflow,
+        "notes": list(sent.notes),
+    }
+    return Answer("; ".join([words, *sent.notes]), values)
+
+
+def _store(motor: Motor, text: str) -> Answer:
+    """Store the program in the memory; if a text is given, only if it is the one."""
+    numbers = MOTORS if motor.number == ALL_MOTORS else [motor.number]
+    motors = [motor.unit.motor(number) for number in numbers]
+    plan = plan_program(check_program(text, NAME)) if text else None
+    before = [held_commands(each) for each in motors]
+    for each, held in zip(motors, before, strict=True):
+        if plan and not plan.is_held(held):
+            raise UnitRefused(
+                f"motor {each.number} holds another program; send this one first, nothing was stored"
+            )
+    motor.store()
+    if [held_commands(each) for each in motors] != before:
+        raise UnitRefused("the program has changed while it was stored; store it again")
+    counts = {str(each.number): len(held) for each, held in zip(motors, before, strict=True)}
+    words = [f"motor {number}: {_count(n, 'command')} stored" for number, n in counts.items()]
+    return Answer(", ".join(words), {"stored": counts})
+
+
+def _positions(unit: Unit, motor: int) -> Answer:
+    if motor == ALL_MOTORS:
+        found = dict(zip(MOTORS, unit.positions(), strict=True))
+    else:
+        found = {motor: unit.motor(motor).position()}
+    words = [f"motor {number}: {position}" for number, position in found.items()]
+    return Answer(", ".join(words), {"positions": {str(k): v for k, v in found.items()}})
+
+
+def _program(motor: Motor) -> Answer:
+    text = motor.program()
+    return Answer(text, {"program": text})
+
+
+def _table(motor: Motor) -> Answer:
+    points = [[point.step, point.speed] for point in motor.table()]
+    words = " ".join(f"({step}; {speed})" for step, speed in points)
+    return Answer(words or "no move in progress", {"points": points})
+
+
+def _progress(motor: Motor) -> Answer:
+    told = motor.progress()
+    words = f"{_count(told.steps, 'step')} made, command {told.command}"
+    return Answer(words, {"steps": told.steps, "command": told.command})
+
+
+READS: dict[str, Callable[[Motor], Answer]] = {
+    "program": _program,
+    "table": _table,
+    "progress": _progress,
+}
+
+
+def _raw(unit: Unit, message: int) -> Answer:
+    """Ask all motors what only one can tell: the unit answers with a complaint of its own."""
+    answer = unit.ask(messages.request(message, ALL_MOTORS))
+    return Answer(answer[2:].decode("ascii", "backslashreplace").strip())
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number or 'no'} {what}{'' if number == 1 else 's'}"

@@ -1,0 +1,42 @@
+"""Errors as the page gets them: what is wrong, and what to do."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rkm04_tools.failure import Failure
+
+
+class BadRequest(Failure):
+    """The page has asked for something that is not possible."""
+
+
+class TooLarge(BadRequest):
+    """More than a program can be."""
+
+
+class NotConnected(Failure):
+    """There is no line to send anything on."""
+
+    def __init__(self) -> None:
+        super().__init__("no port is open; connect first")
+
+
+class Stopped(Failure):
+    """A stop went ahead of it."""
+
+    def __init__(self) -> None:
+        super().__init__("a stop went ahead of this; send it again if it is still wanted")
+
+
+class Superseded(Failure):
+    """A newer request of the same page has made it useless."""
+
+    def __init__(self) -> None:
+        super().__init__("a newer request has taken the place of this one; wait for that")
+
+
+def as_json(failure: Failure, **place: int) -> dict[str, Any]:
+    """Divide the line of a failure at its semicolon; `kind` names its class, for translation."""
+    cause, _, advice = str(failure).partition("; ")
+    return {"kind": type(failure).__name__, "cause": cause, "next": advice, **place}

@@ -1,0 +1,119 @@
+#include "thin.h"
+
+#include <assert.h>
+#include <stdlib.h>
+
+bool thin_begin(struct thin *thin, uint32_t points)
+{
+    uint32_t columns_max = points / THIN_POINTS_PER_COLUMN;
+    assert(columns_max >= 2);
+    *thin = (struct thin){.columns = malloc(columns_max * sizeof *thin->columns), .columns_max = columns_max};
+    return thin->columns != NULL;
+}
+
+static struct thin_point *first_of(bool keep, struct thin_point *kept, struct thin_point *other)
+{
+    return keep ? kept : other;
+}
+
+/* `other` follows `column`. */
+static void merge(struct thin_column *column, struct thin_column *other)
+{
+    struct thin_column *c = column;
+    struct thin_column *o = other;
+    c->last = o->last;
+    c->slowest = *first_of(c->slowest.milli_speed <= o->slowest.milli_speed, &c->slowest, &o->slowest);
+    c->fastest = *first_of(c->fastest.milli_speed >= o->fastest.milli_speed, &c->fastest, &o->fastest);
+    c->lowest = *first_of(c->lowest.position <= o->lowest.position, &c->lowest, &o->lowest);
+    c->highest = *first_of(c->highest.position >= o->highest.position, &c->highest, &o->highest);
+}
+
+/* Makes the columns twice as wide. */
+static void widen(struct thin *thin)
+{
+    uint32_t count = 0;
+    thin->shift++;
+    for (uint32_t i = 0; i < thin->count; i++) {
+        struct thin_column column = thin->columns[i];
+        column.index >>= 1U;
+        if (count > 0 && thin->columns[count - 1U].index == column.index) {
+            merge(&thin->columns[count - 1U], &column);
+        } else {
+            thin->columns[count++] = column;
+        }
+    }
+    thin->count = count;
+}
+
+/* As merge, for a column of one point: nearly all points go this way. */
+static void take(struct thin_column *column, const struct thin_point *point)
+{
+    column->last = *point;
+    if (point->milli_speed < column->slowest.milli_speed) {
+        column->slowest = *point;
+    }
+    if (point->milli_speed > column->fastest.milli_speed) {
+        column->fastest = *point;
+    }
+    if (point->position < column->lowest.position) {
+        column->lowest = *point;
+    }
+    if (point->position > column->highest.position) {
+        column->highest = *point;
+    }
+}
+
+static bool is_in_last(const struct thin *thin, uint64_t tick)
+{
+    return thin->count > 0 && thin->columns[thin->count - 1U].index == tick >> thin->shift;
+}
+
+void thin_put(struct thin *thin, const struct thin_point *given)
+{
+    struct thin_point point = *given;
+    point.ordinal = thin->ordinals++;
+    while (thin->count == thin->columns_max && !is_in_last(thin, point.tick)) {
+        widen(thin);
+    }
+    if (is_in_last(thin, point.tick)) {
+        take(&thin->columns[thin->count - 1U], &point);
+    } else {
+        thin->columns[thin->count++] =
+            (struct thin_column){point.tick >> thin->shift, point, point, point, point, point, point};
+    }
+}
+
+/* Puts a point at its place among those of its column, if it is not there yet. */
+static unsigned insert(struct thin_point *points, unsigned count, const struct thin_point *point)
+{
+    unsigned at = count;
+    while (at > 0 && points[at - 1U].ordinal > point->ordinal) {
+        at--;
+    }
+    if (at > 0 && points[at - 1U].ordinal == point->ordinal) {
+        return count;
+    }
+    for (unsigned i = count; i > at; i--) {
+        points[i] = points[i - 1U];
+    }
+    points[at] = *point;
+    return count + 1U;
+}
+
+unsigned thin_list_column(const struct thin_column *column, struct thin_point points[THIN_POINTS_PER_COLUMN])
+{
+    const struct thin_point *all[THIN_POINTS_PER_COLUMN] = {
+        &column->first, &column->slowest, &column->fastest, &column->lowest, &column->highest, &column->last,
+    };
+    unsigned count = 0;
+    for (unsigned i = 0; i < THIN_POINTS_PER_COLUMN; i++) {
+        count = insert(points, count, all[i]);
+    }
+    return count;
+}
+
+void thin_discard(struct thin *thin)
+{
+    free(thin->columns);
+    *thin = (struct thin){.columns = NULL};
+}
