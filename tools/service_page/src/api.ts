@@ -1,4 +1,4 @@
-import type { Curve, CurveRequest, Example, Problem } from "./protocol";
+import type { Curve, CurveRequest, Example, Verdict } from "./protocol";
 
 const SUPERSEDED = 409;
 
@@ -19,9 +19,9 @@ async function post<T>(path: string, body: unknown): Promise<T | null> {
 }
 
 /** What the firmware's parser says of a program. */
-export async function checkProgram(text: string): Promise<Problem[]> {
-    const answer = await post<{ problems: Problem[] }>("/api/check", { text });
-    return answer?.problems ?? [];
+export async function checkProgram(text: string): Promise<Verdict> {
+    const answer = await post<Verdict>("/api/check", { text });
+    return answer ?? { problems: [] };
 }
 
 /** What programs would do; null if a later call took the place of this one. */

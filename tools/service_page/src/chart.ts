@@ -35,6 +35,8 @@ function rangeOfValues(_chart: uPlot, least: number | null, most: number | null)
     return [low - (low < 0 ? margin : margin / 2), high + margin];
 }
 
+const secondsOf = (_plot: uPlot, ticks: number[]): string[] => ticks.map((tick) => `${shortNumber(tick)} s`);
+
 /** A plot of four motors that fills its host and follows its size and the colours of the page. */
 export class Chart {
     readonly #plot: uPlot;
@@ -84,7 +86,7 @@ export class Chart {
             gap: 6,
             values: (_plot: uPlot, ticks: number[]) => ticks.map(shortNumber),
         };
-        const time = { ...axis, size: this.#options.showsTime ? 26 : 6, space: 70 };
+        const time = { ...axis, size: this.#options.showsTime ? 26 : 6, space: 70, values: secondsOf };
         return {
             width: 400,
             height: 120,
@@ -93,8 +95,8 @@ export class Chart {
             scales: { x: { time: false }, y: { range: rangeOfValues } },
             series: [{}, ...MOTORS.map((motor) => this.#series(motor))],
             axes: [
-                this.#options.showsTime ? time : { ...time, values: () => [] },
-                { ...axis, size: AXIS_WIDTH, space: 26 },
+                this.#options.showsTime ? time : { ...time, values: (_plot: uPlot, ticks: number[]) => ticks.map(() => "") },
+                { ...axis, size: AXIS_WIDTH, space: 15 },
             ],
             cursor: this.#cursor(),
             hooks: {

@@ -2,14 +2,14 @@ import { MOTORS } from "./protocol";
 import { keep, recall } from "./storage";
 
 const FIRST_PROGRAM = [
-    "\\ C100                 { initial state; here is position 0 }",
-    "S100 V600 A2000        { start speed, top speed, acceleration }",
-    "F1000 R                { 1000 steps forward }",
-    "L3                     { three times: }",
-    "    F500 R W200        {   500 steps forward, wait 200 ms }",
-    "    D R W1000          {   the same backward, wait 1 s }",
+    "\\ C100              { here is position 0 }",
+    "S100 V600 A2000     { start speed, speed, ramp }",
+    "F1000 R             { 1000 steps forward }",
+    "L3                  { three times: }",
+    "    F500 R W200     { 500 forward, wait 200 ms }",
+    "    D R W1000       { turn round, wait 1 s }",
     "E",
-    "B1000 R                { back to where it began }",
+    "B1000 R             { back to where it began }",
     "",
 ].join("\n");
 

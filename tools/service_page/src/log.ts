@@ -93,9 +93,10 @@ export class Log {
         ] as const;
         for (const [arrow, label, message, frame] of rows) {
             if (frame) {
-                const row = make("div", { class: "log-bytes", title: t(label) }, make("i", {}, arrow));
-                row.append(make("code", { title: t("log.message") }, message ?? ""), make("code", { class: "frame", title: t("log.frame") }, frame));
-                item.append(row);
+                const name = make("i", { title: t(label), "aria-label": t(label), role: "img" }, arrow);
+                const codes = [make("code", {}, message ?? ""), make("code", { class: "frame" }, frame)];
+                const words = [t("log.message"), t("log.frame")].map((word) => make("small", {}, word));
+                item.append(make("div", { class: "log-bytes" }, name, ...codes.flatMap((code, i) => [words[i] ?? "", code])));
             }
         }
     }

@@ -4,7 +4,7 @@ import { toChartData, valueAt } from "./curve";
 import { byId, debounced, make } from "./dom";
 import { language, numberText, t } from "./i18n";
 import { formatInputs, parseInputs, type InputChange } from "./inputs_text";
-import { MOTORS, type Curve, type CurveRequest } from "./protocol";
+import { MOTORS, type Curve, type CurveRequest, type MotorCurve } from "./protocol";
 import { keep, recall } from "./storage";
 import { Zoom } from "./zoom";
 
@@ -24,6 +24,7 @@ export class Plan {
     readonly #zoom = new Zoom(() => this.#zoomed());
     readonly #shown = new Set<number>(MOTORS);
     readonly #programs: () => Record<string, string>;
+    readonly #legend: Map<number, HTMLElement>;
     readonly #charts: { speed: Chart; position: Chart };
     readonly #refresh = debounced(TYPING_MS, () => void this.#compute());
     readonly #refine = debounced(ZOOMING_MS, () => void this.#computePart());
@@ -35,6 +36,7 @@ export class Plan {
 
     constructor(programs: () => Record<string, string>) {
         this.#programs = programs;
+        this.#legend = this.#addLegend();
         this.#charts = { speed: this.#chart("plan-speed", false), position: this.#chart("plan-position", true) };
         this.#inputs.value = recall("inputs", "");
         this.#seconds.value = recall("seconds", "60");
@@ -43,7 +45,6 @@ export class Plan {
         byId("zoom-in", HTMLButtonElement).addEventListener("click", () => this.#zoom.by(3));
         byId("zoom-out", HTMLButtonElement).addEventListener("click", () => this.#zoom.by(-3));
         byId("zoom-reset", HTMLButtonElement).addEventListener("click", () => this.#zoom.reset());
-        this.#addMotorSwitches();
         language.onChange(() => this.#draw());
     }
 
@@ -154,57 +155,63 @@ export class Plan {
 
     /** Says what is under the cursor, or what the whole is. */
     #tell(seconds: number | null): void {
-        this.#status.dataset.kind = this.#trouble === null ? "ok" : "old";
+        const isOld = this.#trouble !== null;
+        this.#status.classList.toggle("is-old", isOld);
+        this.#status.title = this.#trouble ?? "";
+        this.#status.textContent = this.#title(seconds);
+        for (const [motor, words] of this.#legend) {
+            const one = this.#curve?.motors[motor];
+            words.replaceChildren(...(one ? this.#lines(one, seconds) : []).map((line) => make("span", {}, line)));
+            words.classList.toggle("is-bad", one?.error != null);
+            words.title = one ? this.#hint(one) : "";
+        }
+    }
+
+    #title(seconds: number | null): string {
         if (seconds !== null && this.#curve) {
-            this.#status.replaceChildren(...this.#valuesAt(this.#curve, seconds));
-        } else if (this.#trouble !== null) {
-            this.#status.textContent = t("plan.old");
-            this.#status.title = this.#trouble;
-        } else if (this.#curve === null) {
-            this.#status.textContent = t("plan.empty");
-        } else {
-            this.#status.replaceChildren(...this.#summary(this.#curve));
+            return t("plan.cursor", { seconds: numberText(seconds, 3) });
         }
-    }
-
-    #valuesAt(curve: Curve, seconds: number): Node[] {
-        const parts = [make("b", {}, `${numberText(seconds, 3)} s`)];
-        for (const [motor, one] of Object.entries(curve.motors)) {
-            const speed = valueAt(one, "speed", seconds) ?? 0;
-            const position = valueAt(one, "position", seconds);
-            const words = { speed: numberText(speed), position: position === null ? "–" : numberText(position) };
-            parts.push(this.#motorMark(motor, t("plan.at", words)));
+        if (this.#trouble !== null) {
+            return t(this.#curve ? "plan.old" : "plan.none");
         }
-        return parts;
-    }
-
-    #summary(curve: Curve): Node[] {
-        const end = t(curve.ended ? "plan.ends" : "plan.goesOn", { seconds: numberText(curve.seconds, 3) });
-        const parts = [make("b", {}, end)];
-        for (const [motor, one] of Object.entries(curve.motors)) {
-            const words = { moves: numberText(one.moves), pulses: numberText(one.pulses), peak: numberText(one.peak) };
-            const text = one.error ? `${t("plan.fails")}: ${one.error}` : t("plan.summary", words);
-            parts.push(this.#motorMark(motor, text));
+        if (this.#curve === null) {
+            return t("plan.empty");
         }
-        return parts;
+        const end = this.#curve.ended ? "plan.ends" : this.#curve.cut ? "plan.cut" : "plan.goesOn";
+        return t(end, { seconds: numberText(this.#curve.seconds, 3) });
     }
 
-    #motorMark(motor: string, text: string): HTMLElement {
-        const dot = make("i", { class: "dot", style: `--c: var(--motor-${motor})` }, motor);
-        return make("span", { class: "nowrap" }, dot, text);
+    #lines(one: MotorCurve, seconds: number | null): string[] {
+        if (seconds === null) {
+            const peak = t("plan.peak", { speed: numberText(one.peak) });
+            return [one.error ?? t("plan.pulses", { pulses: numberText(one.pulses) }), peak];
+        }
+        const speed = valueAt(one, "speed", seconds) ?? 0;
+        const position = valueAt(one, "position", seconds);
+        const steps = position === null ? "–" : numberText(position);
+        return [t("live.speed", { speed: numberText(speed) }), t("plan.steps", { steps })];
     }
 
-    #addMotorSwitches(): void {
+    #hint(one: MotorCurve): string {
+        const moves = t("plan.moves", { moves: numberText(one.moves) });
+        return [moves, one.error ?? one.state_text ?? ""].filter((part) => part !== "").join("; ");
+    }
+
+    /** A legend of the motors, which also switches them on and off. */
+    #addLegend(): Map<number, HTMLElement> {
         const host = byId("plan-motors", HTMLElement);
-        for (const motor of MOTORS) {
+        const words = MOTORS.map((motor) => {
             const box = make("input", { type: "checkbox", checked: "" });
-            const label = make("label", { class: "motor-switch", style: `--c: var(--motor-${motor})` }, box, `M${motor}`);
+            const values = make("span", { class: "legend-words" });
             box.addEventListener("change", () => {
                 this.#shown[box.checked ? "add" : "delete"](motor);
                 this.#draw();
             });
-            host.append(label);
-        }
+            const name = make("b", {}, `M${motor}`);
+            host.append(make("label", { style: `--c: var(--motor-${motor})` }, box, name, values));
+            return [motor, values] as const;
+        });
+        return new Map(words);
     }
 
     #chart(id: string, showsTime: boolean): Chart {

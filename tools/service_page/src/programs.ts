@@ -3,17 +3,18 @@ import { byId, debounced, make } from "./dom";
 import { keepDrafts, recallDrafts, type Draft } from "./drafts";
 import { Editor } from "./editor";
 import { readProgram, saveProgram } from "./files";
-import { language, t } from "./i18n";
-import { MOTORS, type Example, type Problem } from "./protocol";
+import { language, numberText, t } from "./i18n";
+import { MOTORS, type Example, type Problem, type Verdict } from "./protocol";
 import { Cell } from "./signal";
 
 const CHECK_MS = 100;
+const NOTHING_FOUND: Verdict = { problems: [] };
 
 interface Tab {
     button: HTMLButtonElement;
     name: HTMLElement;
     /** What the parser said of the text that it saw last. */
-    problems: Problem[];
+    verdict: Verdict;
     checked: string | null;
 }
 
@@ -100,11 +101,11 @@ export class Programs {
             return;
         }
         try {
-            const found = text.trim() === "" ? [] : await checkProgram(text);
+            const verdict = text.trim() === "" ? NOTHING_FOUND : await checkProgram(text);
             if (text === this.#editor.text(index)) {
                 tab.checked = text;
-                tab.problems = found;
-                this.#editor.mark(index, text, found);
+                tab.verdict = verdict;
+                this.#editor.mark(index, text, verdict.problems);
                 this.#showVerdicts();
             }
         } catch {
@@ -113,22 +114,25 @@ export class Programs {
     }
 
     #showVerdicts(): void {
-        for (const { button, problems } of this.#tabs) {
-            button.dataset.verdict = verdictOf(problems);
+        for (const { button, verdict } of this.#tabs) {
+            button.dataset.verdict = verdictOf(verdict.problems);
         }
         const tab = this.#tabs[this.shown.value - 1];
         if (tab) {
-            const count = (severity: string): number => tab.problems.filter((p) => p.severity === severity).length;
+            const count = (severity: string): number => tab.verdict.problems.filter((p) => p.severity === severity).length;
             const isEmpty = (tab.checked ?? "").trim() === "";
-            const kind = verdictOf(tab.problems);
+            const kind = verdictOf(tab.verdict.problems);
             const words = { errors: count("error"), warnings: count("warning") };
             this.#verdict.dataset.kind = isEmpty ? "empty" : kind;
+            const commands = isEmpty ? null : (tab.verdict.commands ?? null);
+            const counted = commands === null ? "" : t("verdict.commands", { commands: numberText(commands) });
+            byId("command-count", HTMLElement).textContent = counted;
             this.#verdict.textContent = t(isEmpty ? "verdict.empty" : `verdict.${kind}`, words);
         }
     }
 
     #goToProblem(): void {
-        const problem = this.#tabs[this.shown.value - 1]?.problems[0];
+        const problem = this.#tabs[this.shown.value - 1]?.verdict.problems[0];
         if (problem) {
             this.goTo(problem.line, problem.column);
         }
@@ -142,7 +146,7 @@ export class Programs {
         });
         const tab = this.#tabs[index];
         if (tab?.checked != null) {
-            this.#editor.mark(index, tab.checked, tab.problems);
+            this.#editor.mark(index, tab.checked, tab.verdict.problems);
         }
         this.#showNames();
         this.#showVerdicts();
@@ -157,7 +161,7 @@ export class Programs {
             const tab = this.#tabs[index];
             if (tab) {
                 tab.name.textContent = t("motor.one", { motor });
-                this.#editor.mark(index, tab.checked ?? "", tab.problems);
+                this.#editor.mark(index, tab.checked ?? "", tab.verdict.problems);
             }
         });
         this.#showVerdicts();
@@ -209,7 +213,7 @@ export class Programs {
         button.addEventListener("click", () => this.shown.set(motor));
         button.addEventListener("keydown", (event) => this.#moveTab(event, motor));
         byId("tabs", HTMLElement).append(button);
-        return { button, name, problems: [], checked: null };
+        return { button, name, verdict: NOTHING_FOUND, checked: null };
     }
 
     #moveTab(event: KeyboardEvent, motor: number): void {

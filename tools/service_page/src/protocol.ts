@@ -85,6 +85,12 @@ export interface Problem {
     message: string;
 }
 
+export interface Verdict {
+    problems: Problem[];
+    /** How many commands the program has; told of programs without errors. */
+    commands?: number | null;
+}
+
 export interface MotorCurve {
     /** Seconds, not decreasing; two equal times are a jump. */
     t: number[];
@@ -94,7 +100,8 @@ export interface MotorCurve {
     moves: number;
     pulses: number;
     peak: number;
-    state?: string | null;
+    /** In words: what the program does at the end of the time. */
+    state_text?: string | null;
     error?: string | null;
 }
 
@@ -111,6 +118,8 @@ export interface Curve {
     seconds: number;
     /** Whether all programs came to rest. */
     ended: boolean;
+    /** Whether it was given up because it took too long to compute. */
+    cut?: boolean;
     motors: Record<string, MotorCurve>;
     outputs: [seconds: number, output: number, level: number][];
     error: string | null;
