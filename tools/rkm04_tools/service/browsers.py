@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import itertools
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Any, TypeAlias
 
 from serial.tools import list_ports
@@ -34,6 +36,7 @@ class Browsers:
         self._queues: dict[int, Messages] = {}
         self._numbers = itertools.count(1)
         self._loop: asyncio.AbstractEventLoop | None = None
+        self._tasks: set[asyncio.Task[None]] = set()
         self._units = VirtualLine()
         view = LineView(self.tell)
         self.worker = Worker(self.tell, view.see, self.is_watched, self._units)
@@ -80,7 +83,7 @@ class Browsers:
         sender = asyncio.create_task(_send_all(socket, queue))
         try:
             while True:
-                await self._take(await socket.receive_text(), number, queue)
+                self._take(await socket.receive_text(), number, queue)
         except (WebSocketDisconnect, KeyError):
             pass  # a KeyError is a message of bytes, which no page sends
         finally:
@@ -99,7 +102,7 @@ class Browsers:
             else:
                 queue.put_nowait(told)
 
-    async def _take(self, text: str, client: int, queue: Messages) -> None:
+    def _take(self, text: str, client: int, queue: Messages) -> None:
         """Take what a browser says; only this one learns what is wrong with it."""
         try:
             order, asked = read_order(text)
@@ -107,13 +110,28 @@ class Browsers:
             if isinstance(order, Stop):
                 self.worker.stop(asked)
             elif isinstance(order, ListPorts):
-                _put_if_room(queue, await asyncio.to_thread(_ports))
+                self._aside(_ports, queue)
             elif isinstance(order, SetInput):
-                await asyncio.to_thread(self._set_input, order)
+                self._aside(partial(self._set_input, order), queue)
             else:
                 self.worker.give(order, asked)
         except Failure as failure:
             _put_if_room(queue, {"type": "error", "error": as_json(failure)})
+
+    def _aside(self, work: Callable[[], dict[str, Any] | None], queue: Messages) -> None:
+        """Do what may take a moment, so that a stop need not wait for it."""
+
+        async def do() -> None:
+            try:
+                told = await asyncio.to_thread(work)
+            except Failure as failure:
+                told = {"type": "error", "error": as_json(failure)}
+            if told:
+                _put_if_room(queue, told)
+
+        task = asyncio.create_task(do())
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
 
     def _set_input(self, order: SetInput) -> None:
         state = self.worker.state

@@ -119,9 +119,7 @@ async def _simulate(wanted: Wanted, checked: dict[int, Checked], folder: Path) -
     return _answer(json.loads(out), json.loads(curve.read_bytes()), checked)
 
 
-def _arguments(
-    wanted: Wanted, checked: dict[int, Checked], folder: Path, curve: Path
-) -> list[str]:
+def _arguments(wanted: Wanted, checked: dict[int, Checked], folder: Path, curve: Path) -> list[str]:
     arguments = ["--for", _decimal(wanted.seconds), "--real", str(REAL_SECONDS)]
     arguments += ["--curve", str(curve), "--points", str(wanted.points)]
     if wanted.part:

@@ -63,7 +63,8 @@ class Guard:
             morsel = SimpleCookie(headers.get("cookie", "")).get(self._cookie)
         except CookieError:
             return ""
-        return morsel.value if morsel else ""
+        value: str = morsel.value if morsel else ""
+        return value
 
     def _sender(self, scope: Scope, send: Send) -> Send:
         """Add what every answer has, and to the page the cookie by which it is known."""

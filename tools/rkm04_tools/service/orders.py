@@ -125,7 +125,9 @@ def _order(told: Mapping[str, Any]) -> Order:
     for name, order in (("stop", Stop()), ("disconnect", Disconnect()), ("ports", ListPorts())):
         if kind == name:
             return order
-    raise BadRequest(f"{json.dumps(kind)[:40]} is no type of a message; the page is of another version")
+    raise BadRequest(
+        f"{json.dumps(kind)[:40]} is no type of a message; the page is of another version"
+    )
 
 
 def _request(told: Mapping[str, Any]) -> Request:

@@ -1,37 +1,19 @@
-"""What a unit is asked, and its answers in words and as values for the page."""
+"""What a unit is asked, and what it answers in words and as values for the page."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Any
 
 from rkm04_tools import messages
 from rkm04_tools.check import check_source
-from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.line import Motor, Unit
 from rkm04_tools.line_errors import UnitRefused
 from rkm04_tools.messages import ALL_MOTORS, MOTORS
 from rkm04_tools.sending import Tell, check_program, held_commands, plan_program, send_program
+from rkm04_tools.service.answers import Answer, ProgramWrong
 from rkm04_tools.service.checking import NAME, first_error
 from rkm04_tools.service.orders import MESSAGES, Act, Request
 from rkm04_tools.source import Source
-
-
-@dataclass(frozen=True)
-class Answer:
-    """What came of it: words, and the same as values by name."""
-
-    text: str
-    values: dict[str, Any] = field(default_factory=dict)
-
-
-class ProgramWrong(Failure):
-    """The program has an error; `told` is it for the page."""
-
-    def __init__(self, told: dict[str, Any]) -> None:
-        super().__init__(f"{told['cause']}; {told['next']}", NOT_SO)
-        self.told = told
 
 
 def ask(unit: Unit, request: Request, tell: Tell) -> Answer:
@@ -95,7 +77,7 @@ def _store(motor: Motor, text: str) -> Answer:
     for each, held in zip(motors, before, strict=True):
         if plan and not plan.is_held(held):
             raise UnitRefused(
-                f"motor {each.number} holds another program; send this one first, nothing was stored"
+                f"motor {each.number} holds another program, nothing stored; send this one first"
             )
     motor.store()
     if [held_commands(each) for each in motors] != before:

@@ -78,9 +78,12 @@ class VirtualLine:
         ready = json.loads(line)
         self._place = ready["listening"]
         name, _, port = ready["control"].removeprefix("socket://").rpartition(":")
-        self._control = socket.create_connection((name, int(port)), PATIENCE_SECONDS)
-        self._control.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self._came = b""
+        try:
+            self._control = socket.create_connection((name, int(port)), PATIENCE_SECONDS)
+            self._control.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        except OSError:
+            raise _ended() from None
 
     def _say(self, order: str) -> None:
         if not self._control:

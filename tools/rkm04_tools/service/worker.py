@@ -5,19 +5,21 @@ Whatever happens is told as JSON objects for the browsers, in the thread in whic
 
 from __future__ import annotations
 
+import sys
 import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from threading import Condition, Thread
-from typing import Any
+from typing import Any, TypeVar
 
 from rkm04_tools import messages
 from rkm04_tools.failure import Failure
 from rkm04_tools.line import Line, Unit, Wait
-from rkm04_tools.line_errors import LineError, PortError
+from rkm04_tools.line_errors import LineError, PortError, PortLost
 from rkm04_tools.messages import ALL_MOTORS, GET_POSITION, SET_COMMAND, VERSION
 from rkm04_tools.service import talking, virtual
+from rkm04_tools.service.answers import Answer, answer_of, whose
 from rkm04_tools.service.orders import (
     MESSAGES,
     Act,
@@ -26,7 +28,6 @@ from rkm04_tools.service.orders import (
     Disconnect,
     Request,
 )
-from rkm04_tools.service.talking import Answer, ProgramWrong
 from rkm04_tools.service.trouble import NotConnected, Stopped, as_json
 from rkm04_tools.service.virtual import VirtualLine
 from rkm04_tools.service.wire import Exchange, Wire
@@ -39,6 +40,7 @@ LOOKING = Wait(attempts=2)
 CLOSING_SECONDS = 10.0
 ORDERS_MAX = 100
 
+Got = TypeVar("Got")
 Tell = Callable[[dict[str, Any]], None]
 
 
@@ -49,7 +51,7 @@ class Lost:
     failure: Failure
 
 
-Work = Connect | Disconnect | Request | Act | Lost
+Work = Connect | Disconnect | Request | Act
 
 
 @dataclass(frozen=True)
@@ -91,7 +93,7 @@ class Worker:
         self._line: Line | None = None
         self._wire: Wire | None = None
         self._wakes = Condition()
-        self._waiting: deque[tuple[Work, Asked]] = deque()
+        self._waiting: deque[tuple[Work | Lost, Asked]] = deque()
         self._stops: deque[Asked] = deque()
         self._closing = False
         self._look_due = 0.0
@@ -118,12 +120,15 @@ class Worker:
         """Send K to all motors, next; what waits is given up."""
         with self._wakes:
             self._stops.append(asked)
-            given_up = [each for each in self._waiting if isinstance(each[0], Request | Act)]
-            for each in given_up:
-                self._waiting.remove(each)
+            waiting = list(self._waiting)
+            self._waiting = deque(
+                each for each in waiting if not isinstance(each[0], Request | Act)
+            )
             self._wakes.notify()
-        for order, whose in given_up:
-            self._tell(_answer(_name(order), _motor(order), self._state.node, whose, Stopped()))
+        for order, by_whom in waiting:
+            if isinstance(order, Request | Act):
+                told = answer_of(order.name, order.motor, self._state.node, by_whom, Stopped())
+                self._tell(told)
 
     def close(self) -> None:
         """End the work; the unit is left as it is."""
@@ -161,7 +166,7 @@ class Worker:
     def _rest_seconds(self) -> float | None:
         return max(0.0, self._look_due - time.monotonic()) if self._looks() else None
 
-    def _do(self, order: Work, asked: Asked) -> None:
+    def _do(self, order: Work | Lost, asked: Asked) -> None:
         if isinstance(order, Lost):
             if self._line:
                 self._note(order.failure)
@@ -170,13 +175,10 @@ class Worker:
         if self._wire:
             self._wire.forget()
         self._change(busy=name)
-        try:
-            got: Answer | Failure = self._obey(order, asked)
-        except Failure as failure:
-            got = failure
+        got = _tried(lambda: self._obey(order, asked))
         self._note(got)
         wanted = VERSION if isinstance(order, Connect) else MESSAGES.get(name, SET_COMMAND)
-        told = _answer(name, motor, self._state.node, asked, got, self._exchanges(wanted))
+        told = answer_of(name, motor, self._state.node, asked, got, self._exchanges(wanted))
         self._change(busy=None)
         self._tell(told)
 
@@ -195,29 +197,29 @@ class Worker:
             if self._is_stop_wanted():
                 raise Stopped
             value = done / total
-            self._tell({"type": "progress", "value": value, **_whose(asked)})
+            self._tell({"type": "progress", "value": value, **whose(asked)})
 
         return talking.ask(unit, order, tell_progress)
 
     def _do_stop(self, stops: list[Asked]) -> None:
         """Send K once for all who have asked for it until now; a later one sends another."""
+        wire = self._wire
         self._change(busy="stop")
-        try:
-            if self._wire:
-                self._wire.forget()
-                self._wire.yields = False
-            self._unit().motor(ALL_MOTORS).stop()
-            got: Answer | Failure = Answer("all motors stop")
-        except Failure as failure:
-            got = failure
-        finally:
-            if self._wire:
-                self._wire.yields = True
+        if wire:
+            wire.forget()
+            wire.yields = False
+        got = _tried(self._send_stop)
+        if wire:
+            wire.yields = True
         self._note(got)
         exchanges = self._exchanges(SET_COMMAND)
         self._change(busy=None)
         for asked in stops:
-            self._tell(_answer("stop", ALL_MOTORS, self._state.node, asked, got, exchanges))
+            self._tell(answer_of("stop", ALL_MOTORS, self._state.node, asked, got, exchanges))
+
+    def _send_stop(self) -> Answer:
+        self._unit().motor(ALL_MOTORS).stop()
+        return Answer("all motors stop")
 
     def _connect(self, order: Connect) -> Answer:
         """Open the port if it is not open, and ask the unit for its version: nothing moves."""
@@ -248,21 +250,19 @@ class Worker:
         self._look_due = time.monotonic() + LOOK_SECONDS
         if not self._looks() or not self._is_watched():
             return
-        request = messages.request(GET_POSITION, ALL_MOTORS)
-        try:
-            answer = self._unit().ask(request, LOOKING)
-            positions = messages.parse_positions(answer, ALL_MOTORS)
-        except Stopped:
-            return
-        except Failure as failure:
+        positions = _tried(self._ask_positions)
+        if self._wire:
+            self._wire.forget()
+        if isinstance(positions, list):
+            self._change(error=None)
+            self._seen(positions)
+        elif not isinstance(positions, Stopped):
             self._look_due = time.monotonic() + LOOK_AGAIN_SECONDS
-            self._note(failure)
-            return
-        finally:
-            if self._wire:
-                self._wire.forget()
-        self._change(error=None)
-        self._seen(positions)
+            self._note(positions)
+
+    def _ask_positions(self) -> list[int]:
+        answer = self._unit().ask(messages.request(GET_POSITION, ALL_MOTORS), LOOKING)
+        return messages.parse_positions(answer, ALL_MOTORS)
 
     def lose(self, failure: Failure) -> None:
         """Say that the port has gone; from any thread."""
@@ -299,40 +299,16 @@ class Worker:
             self._tell(self._state.as_json())
 
 
-def _answer(
-    name: str,
-    motor: int | None,
-    node: int,
-    asked: Asked,
-    got: Answer | Failure,
-    exchanges: list[Exchange] | None = None,
-) -> dict[str, Any]:
-    """An answer for the log of all browsers."""
-    told = {"type": "answer", **_whose(asked), "message": name, "node": node, "motor": motor}
-    told |= _bytes(exchanges or [])
-    if isinstance(got, Answer):
-        return {**told, "text": got.text, "values": got.values, "error": None}
-    error = got.told if isinstance(got, ProgramWrong) else as_json(got)
-    return {**told, "text": None, "values": None, "error": error}
-
-
-def _bytes(exchanges: list[Exchange]) -> dict[str, str | None]:
-    requests = [each.request for each in exchanges]
-    answers = [each.answer for each in exchanges if each.answer]
-    return {
-        "request_bytes": "  ".join(_hex(each.encode()) for each in requests),
-        "answer_bytes": "  ".join(_hex(each.encode()) for each in answers) or None,
-        "request_message": _hex(requests[-1].message) if requests else "",
-        "answer_message": _hex(answers[-1].message) if answers else None,
-    }
-
-
-def _hex(data: bytes) -> str:
-    return data.hex(" ").upper()
-
-
-def _whose(asked: Asked) -> dict[str, int | None]:
-    return {"id": asked.number, "from": asked.client}
+def _tried(work: Callable[[], Got]) -> Got | Failure:
+    """What comes of it, or the failure; a fault of the tool is one too, as the line must go on."""
+    try:
+        return work()
+    except Failure as failure:
+        return failure
+    except Exception as error:
+        what = f"{type(error).__name__}: {error}"
+        print(f"rkm04: {what}; this is a fault of the tool", file=sys.stderr)
+        return PortLost(f"{what}; this is a fault of the tool, connect again")
 
 
 def _name(order: Work) -> str:
@@ -343,5 +319,3 @@ def _name(order: Work) -> str:
 
 def _motor(order: Work) -> int | None:
     return order.motor if isinstance(order, Request | Act) else None
-
-
