@@ -90,7 +90,7 @@ export class Chart {
         return {
             width: 400,
             height: 120,
-            padding: [8, 10, 0, 0],
+            padding: [8, 18, 0, 0],
             legend: { show: false },
             scales: { x: { time: false }, y: { range: rangeOfValues } },
             series: [{}, ...MOTORS.map((motor) => this.#series(motor))],
@@ -111,6 +111,7 @@ export class Chart {
             label: `${motor}`,
             stroke: () => styleValue(`--motor-${motor}`),
             width: 2,
+            pxAlign: 0,
             spanGaps: false,
             points: { show: false },
         };

@@ -50,9 +50,9 @@ export class Commands {
             radio.checked = Number(radio.value) === motor;
         }
         const words = { program: this.#program().motor, motor };
-        const isSend = this.#message.value === "send";
-        const hint = t(motor === ALL_MOTORS ? "send.toAll" : "send.toOne", words);
-        byId("send-hint", HTMLElement).textContent = isSend ? hint : "";
+        const message = this.#message.value as MessageName;
+        const send = t(motor === ALL_MOTORS ? "send.toAll" : "send.toOne", words);
+        byId("send-hint", HTMLElement).textContent = message === "send" ? send : t(`about.${message}`);
     }
 
     /** Stops all motors: at once, whatever else is under way. */

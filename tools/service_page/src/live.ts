@@ -67,11 +67,11 @@ export class LiveView {
         const last = this.#last;
         this.#cards.forEach((card, index) => {
             const motor = last?.motors[index];
-            card.root.dataset.moving = String(motor !== undefined && motor.speed !== 0);
+            const isMoving = motor !== undefined && (motor.speed !== 0 || !motor.idle);
+            card.root.dataset.moving = String(isMoving);
             card.position.textContent = motor ? numberText(motor.position) : "–";
             card.speed.textContent = motor ? t("live.speed", { speed: numberText(motor.speed) }) : " ";
-            const state = motor?.speed ? "live.moves" : motor?.idle === false ? "live.runs" : "live.idle";
-            card.state.textContent = motor ? t(state) : "";
+            card.state.textContent = motor ? t(isMoving ? "live.moves" : "live.idle") : "";
         });
         this.#showLamps(last);
         this.#charts[0].setData(this.#series("speed"));

@@ -1,8 +1,8 @@
+import { answerWords } from "./answer_words";
 import { byId, make } from "./dom";
 import { isKey, language, t } from "./i18n";
 import type { Link } from "./link";
 import type { Answer, Trouble } from "./protocol";
-import { troubleText } from "./trouble";
 
 const KEPT_MAX = 200;
 
@@ -21,6 +21,7 @@ export class Log {
     constructor(link: Link, toEditor: (motor: number, text: string) => void) {
         this.#toEditor = toEditor;
         link.on("answer", (answer) => this.#add(answer));
+        link.on("error", ({ error }) => this.say("error", error));
         const bytes = byId("log-bytes", HTMLInputElement);
         bytes.addEventListener("change", () => (this.#list.dataset.bytes = String(bytes.checked)));
         byId("log-clear", HTMLButtonElement).addEventListener("click", () => {
@@ -45,7 +46,7 @@ export class Log {
         while (this.#list.childElementCount > KEPT_MAX) {
             this.#list.lastElementChild?.remove();
         }
-        this.#spoken.textContent = `${this.#title(answer)}: ${this.#words(answer)}`;
+        this.#spoken.textContent = `${this.#title(answer)}: ${answerWords(answer)}`;
     }
 
     #showAll(): void {
@@ -59,10 +60,6 @@ export class Log {
         return isKey(key) ? t(key) : answer.message;
     }
 
-    #words(answer: Answer): string {
-        return answer.error ? troubleText(answer.error) : (answer.text ?? t("log.done"));
-    }
-
     #show({ at, answer }: Entry): HTMLElement {
         const time = make("time", {}, at.toLocaleTimeString(language.value, { hour12: false }));
         const title = make("b", {}, this.#title(answer));
@@ -70,7 +67,7 @@ export class Log {
         if (answer.motor !== null) {
             head.append(make("span", { class: "log-who" }, this.#who(answer)));
         }
-        const words = make("div", { class: "log-words" }, this.#words(answer));
+        const words = make("div", { class: "log-words" }, answerWords(answer));
         const item = make("li", { class: "log-item", "data-message": answer.message }, head, words);
         item.classList.toggle("is-bad", answer.error !== null);
         if (answer.message === "program" && answer.text && answer.motor) {
@@ -94,11 +91,14 @@ export class Log {
         for (const [arrow, label, message, frame] of rows) {
             if (frame) {
                 const name = make("i", { title: t(label), "aria-label": t(label), role: "img" }, arrow);
-                const codes = [make("code", {}, message ?? ""), make("code", { class: "frame" }, frame)];
-                const words = [t("log.message"), t("log.frame")].map((word) => make("small", {}, word));
-                item.append(make("div", { class: "log-bytes" }, name, ...codes.flatMap((code, i) => [words[i] ?? "", code])));
+                const parts = [this.#code("log.message", message ?? ""), this.#code("log.frame", frame)];
+                item.append(make("div", { class: "log-bytes" }, name, ...parts));
             }
         }
+    }
+
+    #code(name: "log.message" | "log.frame", bytes: string): HTMLElement {
+        return make("span", { class: name.replace(".", "-") }, make("small", {}, t(name)), make("code", {}, bytes));
     }
 
     #editorButton(motor: number, text: string): HTMLElement {

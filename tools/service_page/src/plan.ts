@@ -142,6 +142,7 @@ export class Plan {
         this.#count += 1;
         this.#root.dataset.state = this.#trouble !== null ? "old" : this.#curve ? "new" : "empty";
         this.#root.dataset.drawn = String(this.#count);
+        this.#root.dataset.range = this.#zoom.range.join(" ");
         this.#tell(null);
     }
 

@@ -59,8 +59,26 @@ export interface Answer {
     answer_bytes: string | null;
     request_message?: string | null;
     answer_message?: string | null;
+    /** The answer in English. */
     text: string | null;
+    values?: AnswerValues | null;
     error: Trouble | null;
+}
+
+/** What an answer says, apart from the language; which of them there are depends on the message. */
+export interface AnswerValues {
+    version?: string;
+    date?: string;
+    commands?: number;
+    messages?: number;
+    overflow?: boolean;
+    notes?: string[];
+    stored?: Record<string, number>;
+    positions?: Record<string, number>;
+    points?: [step: number, speed: number][];
+    steps?: number;
+    command?: number;
+    speed?: number;
 }
 
 export interface Port {
@@ -74,7 +92,8 @@ export type FromService =
     | { type: "ports"; ports: Port[] }
     | ({ type: "live" } & Live)
     | ({ type: "answer" } & Answer)
-    | { type: "progress"; id: number; from?: number | null; value: number };
+    | { type: "progress"; id: number; from?: number | null; value: number }
+    | { type: "error"; error: Trouble };
 
 /** A remark of the firmware's parser: lines and columns count from 1, columns in characters. */
 export interface Problem {

@@ -1,0 +1,50 @@
+import { isKey, numberText, t } from "./i18n";
+import type { Answer } from "./protocol";
+import { troubleText } from "./trouble";
+
+type Values = NonNullable<Answer["values"]>;
+
+/** One phrase for each motor of a table by motor numbers. */
+function perMotor(table: Record<string, number>, key: "answer.position" | "answer.store"): string {
+    const phrases = Object.entries(table).map(([motor, value]) => t(key, { motor, value: numberText(value) }));
+    return phrases.join(", ");
+}
+
+function sent(values: Values): string {
+    const words = { commands: numberText(values.commands ?? 0), messages: numberText(values.messages ?? 1) };
+    const overflow = values.overflow ? [t("answer.overflow")] : [];
+    return [t("answer.send", words), ...overflow, ...(values.notes ?? [])].join("; ");
+}
+
+/** What the values of an answer say; null where its text says as much. */
+function valueWords(message: string, values: Values): string | null {
+    if (values.positions) {
+        return perMotor(values.positions, "answer.position");
+    }
+    if (values.stored) {
+        return perMotor(values.stored, "answer.store");
+    }
+    if (values.version !== undefined) {
+        return t("answer.version", { version: values.version, date: values.date ?? "" });
+    }
+    if (message === "send" && values.commands !== undefined) {
+        return sent(values);
+    }
+    if (values.steps !== undefined) {
+        return t("answer.progress", { steps: numberText(values.steps), command: values.command ?? 0 });
+    }
+    if (values.speed !== undefined) {
+        return t("answer.speed", { speed: numberText(values.speed) });
+    }
+    return values.points?.length === 0 ? t("answer.noTable") : null;
+}
+
+/** An answer in the language of the page. */
+export function answerWords(answer: Answer): string {
+    if (answer.error) {
+        return troubleText(answer.error);
+    }
+    const words = answer.values ? valueWords(answer.message, answer.values) : null;
+    const fixed = `answer.${answer.message}.done`;
+    return words ?? (isKey(fixed) ? t(fixed) : (answer.text ?? t("log.done")));
+}
