@@ -5,10 +5,15 @@
 
 bool thin_begin(struct thin *thin, uint32_t points)
 {
-    uint32_t columns_max = points / THIN_POINTS_PER_COLUMN;
-    assert(columns_max >= 2);
-    *thin = (struct thin){.columns = malloc(columns_max * sizeof *thin->columns), .columns_max = columns_max};
+    assert(points >= THIN_POINTS_PER_COLUMN);
+    /* One point more than may stay is there before columns are widened. */
+    *thin = (struct thin){.columns = malloc((points + (size_t)1) * sizeof *thin->columns), .points_max = points};
     return thin->columns != NULL;
+}
+
+static uint32_t at_most_all(uint32_t points)
+{
+    return points < THIN_POINTS_PER_COLUMN ? points : THIN_POINTS_PER_COLUMN;
 }
 
 static struct thin_point *first_of(bool keep, struct thin_point *kept, struct thin_point *other)
@@ -21,6 +26,7 @@ static void merge(struct thin_column *column, struct thin_column *other)
 {
     struct thin_column *c = column;
     struct thin_column *o = other;
+    c->taken = at_most_all(c->taken + o->taken);
     c->last = o->last;
     c->slowest = *first_of(c->slowest.milli_speed <= o->slowest.milli_speed, &c->slowest, &o->slowest);
     c->fastest = *first_of(c->fastest.milli_speed >= o->fastest.milli_speed, &c->fastest, &o->fastest);
@@ -33,6 +39,7 @@ static void widen(struct thin *thin)
 {
     uint32_t count = 0;
     thin->shift++;
+    thin->points = 0;
     for (uint32_t i = 0; i < thin->count; i++) {
         struct thin_column column = thin->columns[i];
         column.index >>= 1U;
@@ -43,11 +50,15 @@ static void widen(struct thin *thin)
         }
     }
     thin->count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        thin->points += thin->columns[i].taken;
+    }
 }
 
 /* As merge, for a column of one point: nearly all points go this way. */
 static void take(struct thin_column *column, const struct thin_point *point)
 {
+    column->taken = at_most_all(column->taken + 1U);
     column->last = *point;
     if (point->milli_speed < column->slowest.milli_speed) {
         column->slowest = *point;
@@ -72,14 +83,17 @@ void thin_put(struct thin *thin, const struct thin_point *given)
 {
     struct thin_point point = *given;
     point.ordinal = thin->ordinals++;
-    while (thin->count == thin->columns_max && !is_in_last(thin, point.tick)) {
-        widen(thin);
-    }
     if (is_in_last(thin, point.tick)) {
-        take(&thin->columns[thin->count - 1U], &point);
+        struct thin_column *last = &thin->columns[thin->count - 1U];
+        thin->points += at_most_all(last->taken + 1U) - last->taken;
+        take(last, &point);
     } else {
         thin->columns[thin->count++] =
-            (struct thin_column){point.tick >> thin->shift, point, point, point, point, point, point};
+            (struct thin_column){point.tick >> thin->shift, 1, point, point, point, point, point, point};
+        thin->points++;
+    }
+    while (thin->points > thin->points_max) {
+        widen(thin);
     }
 }
 

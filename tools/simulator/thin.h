@@ -2,8 +2,8 @@
  * A line over time, thinned while it is made: of each column of time at most six points stay, the first, the last, and
  * those of the least and greatest speed and position. So peaks, and where ramps begin and end, stay where they are.
  *
- * Columns begin one tick wide; whenever there are too many of them they become twice as wide and neighbours become one.
- * A line of few points keeps all of them. Memory: the columns, on the heap.
+ * Columns begin one tick wide; whenever there may be too many points they become twice as wide and neighbours become
+ * one. So a line of few points keeps all of them. Memory: a column for each point, on the heap.
  */
 #ifndef THIN_H
 #define THIN_H
@@ -22,6 +22,7 @@ struct thin_point {
 
 struct thin_column {
     uint64_t index; /* tick >> shift of all its points */
+    uint32_t taken; /* points; more than stay are not counted */
     struct thin_point first;
     struct thin_point last;
     struct thin_point slowest;
@@ -32,13 +33,14 @@ struct thin_column {
 
 struct thin {
     struct thin_column *columns;
-    uint32_t columns_max;
-    uint32_t count;
+    uint32_t count;      /* of columns, at most points_max */
+    uint32_t points;     /* at least as many as stay */
+    uint32_t points_max;
     unsigned shift;    /* the width of a column is 2^shift ticks */
     uint64_t ordinals; /* points taken */
 };
 
-/* An empty line of at most so many points (above 2 * THIN_POINTS_PER_COLUMN). False: there is not memory enough. */
+/* An empty line of at most so many points (at least THIN_POINTS_PER_COLUMN). False: there is not memory enough. */
 bool thin_begin(struct thin *thin, uint32_t points);
 
 /* Adds a point; time never goes back. Its ordinal is given here. */

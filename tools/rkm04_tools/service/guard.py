@@ -85,5 +85,5 @@ class Guard:
 
 
 def _query_token(scope: Scope) -> str:
-    query = scope.get("query_string", b"").decode("latin-1")
+    query = str(scope.get("query_string", b""), "latin-1")
     return parse_qs(query).get("token", [""])[0]

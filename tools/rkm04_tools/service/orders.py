@@ -31,6 +31,7 @@ MESSAGES = {
     "progress": GET_PROGRESS,
 }
 ACTS = ("resume", "reset", "speed")
+SCHEMES = ("socket", "rfc2217")
 TEXT_MAX = 1_000_000
 PORT_MAX = 1000
 ID_MAX = 1 << 53
@@ -114,7 +115,7 @@ def read_order(text: str) -> tuple[Order, Asked]:
 def _order(told: Mapping[str, Any]) -> Order:
     kind = told.get("type")
     if kind == "connect":
-        return Connect(_text(told, "port", PORT_MAX).strip(), _whole(told, "node", NODES))
+        return Connect(_port(told), _whole(told, "node", NODES))
     if kind == "request":
         return _request(told)
     if kind in ACTS:
@@ -138,6 +139,15 @@ def _request(told: Mapping[str, Any]) -> Request:
     if name == "send" or (name == "store" and told.get("text") is not None):
         return Request(name, motor, _text(told, "text", TEXT_MAX))
     return Request(name, motor)
+
+
+def _port(told: Mapping[str, Any]) -> str:
+    """A port without those that pyserial has for other purposes, as one that writes a file."""
+    port = _text(told, "port", PORT_MAX).strip()
+    scheme, colon, _ = port.partition("://")
+    if colon and scheme not in SCHEMES:
+        raise BadRequest(f"{scheme}:// is no port of a line; write a device, or socket://HOST:PORT")
+    return port
 
 
 def _motor(told: Mapping[str, Any], default: int | None) -> int:

@@ -37,6 +37,8 @@ class Superseded(Failure):
 
 
 def as_json(failure: Failure, **place: int) -> dict[str, Any]:
-    """Divide the line of a failure at its semicolon; `kind` names its class, for translation."""
-    cause, _, advice = str(failure).partition("; ")
+    """Divide the line of a failure before its advice; `kind` names its class, for translation."""
+    cause, semicolon, advice = str(failure).partition("; ")
+    if not semicolon and ": write " in cause:
+        cause, _, advice = cause.partition(": ")
     return {"kind": type(failure).__name__, "cause": cause, "next": advice, **place}
