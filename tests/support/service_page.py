@@ -1,0 +1,167 @@
+"""The service program with its page in a browser, as a user has it before them."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from playwright.sync_api import Browser, BrowserContext, Locator, Page, WebSocket, expect
+
+ROOT = Path(__file__).resolve().parents[2]
+COMMAND = [sys.executable, "-P", "-m", "rkm04_tools", "service", "--no-browser", "--json"]
+PATIENCE_SECONDS = 15
+NOT_KNOWN = "\N{EN DASH}"
+DESK = (1400, 900)
+TABLET = (820, 1180)
+
+
+class Service:
+    """A running `rkm04 service` on a free port, with a virtual unit of its own."""
+
+    def __init__(self) -> None:
+        environment = {**os.environ, "PYTHONPATH": str(ROOT / "tools")}
+        environment.pop("RKM04_PORT", None)
+        self._process = subprocess.Popen(
+            [*COMMAND, "--listen", "0"], env=environment, stdout=subprocess.PIPE, text=True
+        )
+        assert self._process.stdout
+        told = self._process.stdout.readline()
+        if not told:
+            self.end()
+        self.url: str = json.loads(told)["url"]
+
+    def end(self) -> None:
+        """Ctrl-C, if it still runs."""
+        self._process.send_signal(signal.SIGINT)
+        self._process.communicate(timeout=PATIENCE_SECONDS)
+
+
+class ServicePage:
+    """One page in one browser. It fails at its end if a script of the page has failed."""
+
+    def __init__(self, page: Page, url: str) -> None:
+        self.page = page
+        self.sent: list[str] = []
+        """Types of all that the page has sent to the service."""
+        self.faults: list[str] = []
+        page.on("pageerror", lambda error: self.faults.append(str(error)))
+        page.on("websocket", self._listen)
+        page.goto(url)
+        self.ready()
+
+    def ready(self) -> None:
+        """Wait until the page is connected and has drawn."""
+        expect(self.page.locator("body")).to_have_attribute("data-connected", "true")
+        expect(self.plan).to_have_attribute("data-drawn", re.compile(r"\d+"))
+        expect(self.position(1)).not_to_have_text(NOT_KNOWN)
+
+    def _listen(self, socket: WebSocket) -> None:
+        socket.on("framesent", lambda frame: self.sent.append(json.loads(frame)["type"]))
+
+    @property
+    def plan(self) -> Locator:
+        """The panel with the curves."""
+        return self.page.locator("#plan")
+
+    @property
+    def answers(self) -> Locator:
+        """The log, the youngest answer first."""
+        return self.page.locator("#log .log-item")
+
+    def position(self, motor: int) -> Locator:
+        """Where the live position of a motor is shown."""
+        return self.page.locator(f"#position-{motor}")
+
+    def steps(self, motor: int = 1) -> int:
+        """The live position of a motor."""
+        text = self.position(motor).inner_text().replace("\N{MINUS SIGN}", "-")
+        return int(re.sub(r"[^\d-]", "", text))
+
+    def write(self, text: str) -> None:
+        """Put a text in the place of the shown program, by the keyboard."""
+        self.page.locator(".cm-content").click()
+        self.page.keyboard.press("ControlOrMeta+a")
+        self.page.keyboard.press("Delete")
+        self.page.keyboard.insert_text(text)
+
+    def text(self) -> str:
+        """The shown program."""
+        return "\n".join(self.page.locator(".cm-line").all_inner_texts())
+
+    def send(self, text: str | None = None) -> None:
+        """Send the shown program, or a new one, and wait for the answer."""
+        if text is not None:
+            self.write(text)
+        before = self.answers.count()
+        self.page.locator("#send").click()
+        expect(self.answers).to_have_count(before + 1)
+
+    def calm(self) -> None:
+        """Bring all motors to rest at position 0, without programs, and all outputs to 0."""
+        self.page.locator("#motors label").first.click()
+        self.page.locator("#message").select_option("send")
+        self.send("\\ C100 C01 C02 C03 C04 C05 C06 C07 C08")
+        for motor in (1, 2, 3, 4):
+            expect(self.position(motor)).to_have_text("0")
+
+    def expect_pulses(self, pulses: int) -> None:
+        """Wait for a curve with so many pulses."""
+        expect(self.plan).to_have_attribute("data-pulses", str(pulses))
+
+    def expect_beyond(self, steps: int, motor: int = 1) -> None:
+        """Wait until a motor has gone beyond a position."""
+        for _ in range(10 * PATIENCE_SECONDS):
+            if self.steps(motor) > steps:
+                return
+            self.page.wait_for_timeout(100)
+        raise AssertionError(f"motor {motor} stays at {self.steps(motor)}, wanted beyond {steps}")
+
+    def expect_standing(self, motor: int = 1) -> int:
+        """Wait until a motor stands; return where."""
+        before = self.steps(motor)
+        for _ in range(2 * PATIENCE_SECONDS):
+            self.page.wait_for_timeout(500)
+            before, last = self.steps(motor), before
+            if before == last:
+                return before
+        raise AssertionError(f"motor {motor} does not stop")
+
+    def underlined(self) -> list[tuple[int, int, str]]:
+        """Line, column and text of every underlined error."""
+        found: list[tuple[int, int, str]] = self.page.evaluate(
+            """() => [...document.querySelectorAll(".cm-lintRange-error")].map((mark) => {
+                const line = mark.closest(".cm-line");
+                const before = document.createRange();
+                before.setStart(line, 0);
+                before.setEndBefore(mark);
+                const lines = [...document.querySelectorAll(".cm-line")];
+                const column = [...before.toString()].length + 1;
+                return [lines.indexOf(line) + 1, column, mark.textContent];
+            })"""
+        )
+        return [(line, column, text) for line, column, text in found]
+
+
+@contextlib.contextmanager
+def shown(
+    browser: Browser, url: str, size: tuple[int, int] = DESK, locale: str = "en-GB"
+) -> Iterator[ServicePage]:
+    """Open the page in a browser of its own."""
+    width, height = size
+    context: BrowserContext = browser.new_context(
+        viewport={"width": width, "height": height}, locale=locale, accept_downloads=True
+    )
+    context.set_default_timeout(PATIENCE_SECONDS * 1000)
+    try:
+        service_page = ServicePage(context.new_page(), url)
+        yield service_page
+        assert service_page.faults == []
+    finally:
+        context.close()
