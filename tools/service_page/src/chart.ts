@@ -5,6 +5,7 @@ import { MOTORS } from "./protocol";
 
 const AXIS_WIDTH = 62;
 const MARGIN_Y = 0.08;
+const SPAN_MIN = 10;
 const FONT = "12px system-ui, sans-serif";
 const DRAG_MIN_PX = 6;
 
@@ -30,8 +31,8 @@ const NO_DATA: ChartData = [[], ...MOTORS.map(() => [])];
 /** Zero is always in sight, and the line never touches the frame. */
 function rangeOfValues(_chart: uPlot, least: number | null, most: number | null): Range {
     const low = Math.min(0, least ?? 0);
-    const high = Math.max(0, most ?? 0);
-    const margin = (high - low || 1) * MARGIN_Y;
+    const high = Math.max(0, low + SPAN_MIN, most ?? 0);
+    const margin = (high - low) * MARGIN_Y;
     return [low - (low < 0 ? margin : margin / 2), high + margin];
 }
 

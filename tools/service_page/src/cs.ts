@@ -88,6 +88,15 @@ export const cs: Dictionary = {
     "verdict.commands": "příkazy: {commands} ze 700",
     "verdict.label": "Výsledek kontroly; přejde na první chybu",
 
+    "first.zero": "zde je poloha 0",
+    "first.settings": "Start/Stop rychlost, rychlost, rampa",
+    "first.forward": "1000 kroků vpřed",
+    "first.loop": "třikrát:",
+    "first.there": "500 vpřed, prodleva 200 ms",
+    "first.back": "opačným směrem, prodleva 1 s",
+    "first.end": "konec smyčky",
+    "first.home": "zpět na začátek",
+
     "plan.title": "Co by programy udělaly",
     "plan.speed": "Rychlost, kroky/s",
     "plan.position": "Poloha, kroky",

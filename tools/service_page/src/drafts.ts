@@ -1,17 +1,22 @@
+import { t, type Key } from "./i18n";
 import { MOTORS } from "./protocol";
 import { keep, recall } from "./storage";
 
-const FIRST_PROGRAM = [
-    "\\ C100              { here is position 0 }",
-    "S100 V600 A2000     { start speed, speed, ramp }",
-    "F1000 R             { 1000 steps forward }",
-    "L3                  { three times: }",
-    "    F500 R W200     { 500 forward, wait 200 ms }",
-    "    D R W1000       { turn round, wait 1 s }",
-    "E",
-    "B1000 R             { back to where it began }",
-    "",
-].join("\n");
+/** Commands and what is said of them at the first visit. */
+const FIRST_PROGRAM: readonly (readonly [commands: string, words: Key])[] = [
+    ["\\ C100", "first.zero"],
+    ["S100 V600 A2000", "first.settings"],
+    ["F1000 R", "first.forward"],
+    ["L3", "first.loop"],
+    ["    F500 R W200", "first.there"],
+    ["    D R W1000", "first.back"],
+    ["E", "first.end"],
+    ["B1000 R", "first.home"],
+];
+const COMMANDS_WIDTH = 20;
+
+const firstProgram = (): string =>
+    FIRST_PROGRAM.map(([commands, words]) => `${commands.padEnd(COMMANDS_WIDTH)}{ ${t(words)} }\n`).join("");
 
 export interface Draft {
     text: string;
@@ -23,7 +28,7 @@ export interface Draft {
 export function recallDrafts(): Draft[] {
     const kept = recall<Draft[]>("drafts", []);
     return MOTORS.map((motor, index) => {
-        const otherwise = index === 0 ? FIRST_PROGRAM : "";
+        const otherwise = index === 0 ? firstProgram() : "";
         return kept[index] ?? { text: otherwise, name: `motor${motor}.rks` };
     });
 }

@@ -86,6 +86,15 @@ export const en = {
     "verdict.commands": "{commands} of 700 commands",
     "verdict.label": "Result of the check; goes to the first error",
 
+    "first.zero": "here is position 0",
+    "first.settings": "start speed, speed, ramp",
+    "first.forward": "1000 steps forward",
+    "first.loop": "three times:",
+    "first.there": "500 forward, wait 200 ms",
+    "first.back": "turn round, wait 1 s",
+    "first.end": "end of the loop",
+    "first.home": "back to where it began",
+
     "plan.title": "What the programs would do",
     "plan.speed": "Speed, steps/s",
     "plan.position": "Position, steps",

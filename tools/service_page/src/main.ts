@@ -41,9 +41,9 @@ programs.shown.onChange((motor) => {
         commands.motor.set(motor);
     }
 });
-link.on("answer", ({ message, motor, error }) => {
-    const isShown = motor === ALL_MOTORS || motor === programs.shown.value;
-    if (message === "send" && isShown && error?.line !== undefined) {
+link.on("answer", ({ message, from, error }) => {
+    const isOwn = from === undefined || from === link.client;
+    if (message === "send" && isOwn && error?.line !== undefined) {
         programs.goTo(error.line, error.column ?? 1);
     }
 });

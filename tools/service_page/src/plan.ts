@@ -9,7 +9,7 @@ import { keep, recall } from "./storage";
 import { Zoom } from "./zoom";
 
 const POINTS = 2000;
-const TYPING_MS = 60;
+const TYPING_MS = 25;
 const ZOOMING_MS = 150;
 
 /** Names this page to the service, which drops a computation when the same page asks for another. */
