@@ -65,7 +65,7 @@ def test_a_wrong_cookie_is_no_token(service, cookie):
 
 
 @pytest.mark.parametrize(
-    "origin", ["http://example.com", "null", "https://127.0.0.1", "http://127.0.0.1:1", ""]
+    "origin", ["http://127.0.0.1.nip", "null", "https://127.0.0.1", "http://127.0.0.1:1", ""]
 )
 def test_a_page_of_another_origin_gets_nothing(service, origin):
     assert service.call("/api/check", {"text": "R"}, Origin=origin).status == 403
@@ -85,7 +85,7 @@ def test_another_name_of_the_server_is_refused(service, host):
 
 @pytest.mark.parametrize(
     ("token", "origin"),
-    [("wrong", None), ("", None), (None, "http://example.com"), (None, "null")],
+    [("wrong", None), ("", None), (None, "http://localhost:1"), (None, "null")],
 )
 def test_the_web_socket_is_guarded_as_well(service, token, origin):
     with pytest.raises(InvalidStatus) as refused:

@@ -144,6 +144,16 @@ def test_the_live_view_tells_the_speed(browser):
     assert all(1800 < speed < 2200 for speed in speeds), speeds
 
 
+def test_a_counter_that_is_written_is_no_motion(browser):
+    browser.request("send", text="\\ S1000 F700 R =100000 W200 C100")
+    browser.until(lambda m: m["type"] == "live" and m["motors"][0]["position"] == 100_000)
+    browser.until(lambda m: m["type"] == "live" and m["motors"][0]["position"] == 0)
+
+    speeds = [m["motors"][0]["speed"] for m in browser.heard if m["type"] == "live"]
+    assert 0 < max(speeds) < 1500
+    assert min(speeds) == 0
+
+
 def test_a_speed_and_a_reset_are_sent_to_one_motor(browser):
     browser.request("send", 2, text="\\ S100 V100 A20000 F16000000 R")
     browser.moves(2)

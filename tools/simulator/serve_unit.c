@@ -30,6 +30,8 @@ enum exit_status serve_unit_begin(struct serve_unit *unit, uint8_t node, const c
     unit->flash_path = NULL;
     unit->saved_operations = 0;
     unit->unsaved = false;
+    unit->line = NULL;
+    memset(unit->travel_steps, 0, sizeof unit->travel_steps);
     host_machine_init(&unit->machine, 0);
     host_machine_select(&unit->machine);
     host_machine_set_node(&unit->machine, node);
@@ -42,6 +44,25 @@ enum exit_status serve_unit_begin(struct serve_unit *unit, uint8_t node, const c
     unit_init(&unit->unit);
     unit_start(&unit->unit);
     return status;
+}
+
+static void hear_step(void *context, uint64_t tick, unsigned motor, bool backward)
+{
+    struct serve_unit *unit = context;
+    (void)tick;
+    unit->travel_steps[motor] += backward ? -1 : 1;
+}
+
+static void hear_line(void *context, uint64_t tick, uint8_t value)
+{
+    struct serve_unit *unit = context;
+    serve_line_say(unit->line, tick, value);
+}
+
+void serve_unit_attach(struct serve_unit *unit, struct serve_line *line)
+{
+    unit->line = line;
+    unit->machine.listener = (struct host_listener){.context = unit, .step = hear_step, .line = hear_line};
 }
 
 static uint64_t run_pass(void *context)
@@ -90,6 +111,11 @@ static char *put_position(const struct serve_unit *unit, unsigned index, char *a
     return line_put_signed(at, mover_position_steps(&unit->unit.mover[index]));
 }
 
+static char *put_travel(const struct serve_unit *unit, unsigned index, char *at)
+{
+    return line_put_signed(at, unit->travel_steps[index]);
+}
+
 static char *put_moving(const struct serve_unit *unit, unsigned index, char *at)
 {
     return line_put_string(at, mover_is_moving(&unit->unit.mover[index]) ? "true" : "false");
@@ -131,6 +157,7 @@ char *serve_unit_put_status(const struct serve_unit *unit, char *at)
     at = line_put_string(at, ", \"idle\": ");
     at = line_put_string(at, unit_is_idle(&unit->unit) ? "true" : "false");
     at = put_list(unit, "positions", put_position, UNIT_MOTORS, at);
+    at = put_list(unit, "travel", put_travel, UNIT_MOTORS, at);
     at = put_list(unit, "moving", put_moving, UNIT_MOTORS, at);
     at = put_list(unit, "leds", put_led, UNIT_MOTORS, at);
     at = put_list(unit, "inputs", put_input, UNIT_INPUTS, at);

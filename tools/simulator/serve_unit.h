@@ -10,9 +10,10 @@
 
 #include "complain.h"
 #include "host_machine.h"
+#include "serve_line.h"
 #include "unit.h"
 
-enum { SERVE_STATUS_BYTES_MAX = 640 };
+enum { SERVE_STATUS_BYTES_MAX = 768 };
 
 struct serve_unit {
     struct host_machine machine;
@@ -20,11 +21,16 @@ struct serve_unit {
     char *flash_path;          /* null: the flash is in no file */
     uint32_t saved_operations; /* flash operations that the file has, or that it could not be given */
     bool unsaved;              /* the last writing has failed */
+    struct serve_line *line;
+    int64_t travel_steps[UNIT_MOTORS]; /* pulses forward less those backward, whatever the position counter says */
 };
 
-/* A unit at time 0, with the flash of its file, if it has one. `sent` (as host_listener.line) is told what it sends.
- * EXIT_DONE, or after a complaint what else. In both cases to be discarded. */
+/* A unit at time 0, with the flash of its file, if it has one. EXIT_DONE, or after a complaint what else. In both cases
+ * to be discarded. */
 enum exit_status serve_unit_begin(struct serve_unit *unit, uint8_t node, const char *flash_path);
+
+/* From now on the line hears what it sends. */
+void serve_unit_attach(struct serve_unit *unit, struct serve_line *line);
 
 /* Lets it run up to a tick. */
 void serve_unit_run(struct serve_unit *unit, uint64_t until_tick);

@@ -45,10 +45,8 @@ enum exit_status serve_units_begin(struct serve_units *units, const struct serve
         uint8_t node = options->nodes[i];
         status = numbered ? add_numbered_unit(units, node, options->flash) : add_unit(units, node, options->flash);
         if (status == EXIT_DONE) {
-            struct host_machine *machine = &units->list[i]->machine;
-            machine->listener.context = line;
-            machine->listener.line = serve_line_say;
-            host_machine_set_byte_ticks(machine, options->unpaced ? 0 : HOST_LINE_BYTE_TICKS);
+            serve_unit_attach(units->list[i], line);
+            host_machine_set_byte_ticks(&units->list[i]->machine, options->unpaced ? 0 : HOST_LINE_BYTE_TICKS);
         }
     }
     return status;

@@ -8,6 +8,7 @@ from threading import Event, Thread
 from typing import Any
 
 from rkm04_tools.failure import Failure
+from rkm04_tools.line_errors import PortLost
 from rkm04_tools.service.virtual import VirtualLine
 from rkm04_tools.service.worker import State
 
@@ -15,6 +16,9 @@ PERIOD_SECONDS = 0.1
 CLOSING_SECONDS = 10.0
 PAUSE_SECONDS = 2.0
 """Looks that are further apart tell no speed."""
+
+POSSIBLE = 20_000
+"""Steps/s, with a margin for the time of a look; what is faster is a position that was written."""
 
 Tell = Callable[[dict[str, Any]], None]
 
@@ -31,9 +35,8 @@ class Speeds:
         if before is None or not 0 < seconds - before[0] < PAUSE_SECONDS:
             return [0.0] * len(positions)
         passed = seconds - before[0]
-        return [
-            round((new - old) / passed, 1) for old, new in zip(before[1], positions, strict=True)
-        ]
+        found = [(new - old) / passed for old, new in zip(before[1], positions, strict=True)]
+        return [round(speed, 1) if abs(speed) <= POSSIBLE else 0.0 for speed in found]
 
 
 def from_positions(speeds: Speeds, seconds: float, positions: list[int]) -> dict[str, Any]:
@@ -43,8 +46,8 @@ def from_positions(speeds: Speeds, seconds: float, positions: list[int]) -> dict
 
 
 def from_state(speeds: Speeds, state: dict[str, Any]) -> dict[str, Any]:
-    """What a virtual unit tells."""
-    found = speeds.of(state["seconds"], state["positions"])
+    """What a virtual unit tells; the speeds are of its pulses, as positions may be written."""
+    found = speeds.of(state["seconds"], state["travel"])
     idle = [not moving for moving in state["moving"]]
     return _live(
         state["seconds"], state["positions"], found, idle, state["inputs"], state["outputs"]
@@ -128,6 +131,9 @@ class VirtualView:
             told = self._units.states()[node]
         except Failure as failure:
             self._lose(failure)
+            return
+        except (KeyError, ValueError) as error:
+            self._lose(PortLost(f"the virtual unit tells nonsense ({error}); connect again"))
             return
         if node != self._node:
             self._node, self._speeds = node, Speeds()
