@@ -7,13 +7,13 @@ import re
 from playwright.sync_api import expect
 from service_page import ServicePage
 
-PIXELS = """([id, motor]) => {
+PIXELS = """([canvas_of, colour]) => {
     const probe = document.createElement("span");
-    probe.style.color = `var(--motor-${motor})`;
+    probe.style.color = `var(${colour})`;
     document.body.append(probe);
     const wanted = getComputedStyle(probe).color.match(/\\d+/g).map(Number);
     probe.remove();
-    const canvas = document.querySelector(`#${id} canvas`);
+    const canvas = document.querySelector(canvas_of);
     const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
     let count = 0;
     for (let i = 0; i < data.length; i += 4) {
@@ -25,7 +25,11 @@ PIXELS = """([id, motor]) => {
 
 def pixels(page: ServicePage, plot: str, motor: int) -> int:
     """Pixels of a plot that have the colour of a motor."""
-    count: int = page.page.evaluate(PIXELS, [plot, motor])
+    return coloured(page, f"#{plot} canvas", f"--motor-{motor}")
+
+
+def coloured(page: ServicePage, canvas: str, colour: str) -> int:
+    count: int = page.page.evaluate(PIXELS, [canvas, colour])
     return count
 
 
@@ -123,3 +127,12 @@ def test_inputs_that_change_belong_to_the_curve(page):
     page.expect_pulses(0)
     page.page.locator("#plan-inputs").fill("500,5,1")
     page.expect_pulses(400)
+
+
+def test_outputs_that_the_program_sets_are_drawn_below(page):
+    rows = page.page.locator("#plan-outputs")
+    page.write("F400 R T05 W1000 C05 W1000")
+    expect(rows).to_be_visible()
+    assert coloured(page, "#plan-outputs", "--output") > 100
+    page.write("F400 R")
+    expect(rows).to_be_hidden()

@@ -16,7 +16,7 @@ from playwright.sync_api import Browser, BrowserContext, Locator, Page, WebSocke
 
 ROOT = Path(__file__).resolve().parents[2]
 COMMAND = [sys.executable, "-P", "-m", "rkm04_tools", "service", "--no-browser", "--json"]
-PATIENCE_SECONDS = 15
+PATIENCE_SECONDS = 30
 NOT_KNOWN = "\N{EN DASH}"
 DESK = (1400, 900)
 TABLET = (820, 1180)

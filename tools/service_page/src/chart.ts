@@ -38,6 +38,8 @@ function rangeOfValues(_chart: uPlot, least: number | null, most: number | null)
 
 const secondsOf = (_plot: uPlot, ticks: number[]): string[] => ticks.map((tick) => `${shortNumber(tick)} s`);
 
+const noWords = (_plot: uPlot, ticks: number[]): string[] => ticks.map(() => "");
+
 /** A plot of four motors that fills its host and follows its size and the colours of the page. */
 export class Chart {
     readonly #plot: uPlot;
@@ -65,6 +67,12 @@ export class Chart {
     /** The x under a point of the screen. */
     xAt(client_x: number): number {
         return this.#plot.posToVal(client_x - this.#plot.over.getBoundingClientRect().left, "x");
+    }
+
+    /** Where the x axis lies, in pixels from the left edge of the host. */
+    get span(): { left: number; width: number } {
+        const { left, width } = this.#plot.bbox;
+        return { left: left / window.devicePixelRatio, width: width / window.devicePixelRatio };
     }
 
     get surface(): HTMLElement {
@@ -96,7 +104,7 @@ export class Chart {
             scales: { x: { time: false }, y: { range: rangeOfValues } },
             series: [{}, ...MOTORS.map((motor) => this.#series(motor))],
             axes: [
-                this.#options.showsTime ? time : { ...time, values: (_plot: uPlot, ticks: number[]) => ticks.map(() => "") },
+                this.#options.showsTime ? time : { ...time, values: noWords },
                 { ...axis, size: AXIS_WIDTH, space: 15 },
             ],
             cursor: this.#cursor(),

@@ -152,7 +152,10 @@ export class Commands {
     #translate(): void {
         const chosen = this.#message.value || "send";
         this.#message.replaceChildren(
-            ...MESSAGES.map((name) => make("option", { value: name }, `${t(`message.${name}`)} – ${t(`about.${name}`)}`)),
+            ...MESSAGES.map((name) => {
+                const words = `${t(`message.${name}`)} – ${t(`about.${name}`)}`;
+                return make("option", { value: name }, words);
+            }),
         );
         this.#message.value = chosen;
         byId("motor-name-0", HTMLElement).textContent = t("motor.allShort");

@@ -89,7 +89,7 @@ export const cs: Dictionary = {
     "verdict.label": "Výsledek kontroly; přejde na první chybu",
 
     "first.zero": "zde je poloha 0",
-    "first.settings": "Start/Stop rychlost, rychlost, rampa",
+    "first.settings": "start, rychlost, rampa",
     "first.forward": "1000 kroků vpřed",
     "first.loop": "třikrát:",
     "first.there": "500 vpřed, prodleva 200 ms",
@@ -103,6 +103,8 @@ export const cs: Dictionary = {
     "plan.secondsLabel": "Nejdelší čas, který se počítá",
     "plan.inputs": "Vstupy",
     "plan.inputsLabel": "Vstupy, které se přitom změní: milisekundy, vstup, úroveň; oddělené středníkem",
+    "plan.output": "výstup {output}",
+    "plan.outputs": "Výstupy, které programy nastaví",
     "plan.zoomIn": "Přiblížit",
     "plan.zoomOut": "Oddálit",
     "plan.zoomReset": "Zobrazit vše (dvojklik)",

@@ -101,6 +101,8 @@ export const en = {
     "plan.secondsLabel": "Longest time that is computed",
     "plan.inputs": "Inputs",
     "plan.inputsLabel": "Inputs that change meanwhile: milliseconds, input, level; separated by semicolons",
+    "plan.output": "output {output}",
+    "plan.outputs": "Outputs that the programs set",
     "plan.zoomIn": "Zoom in",
     "plan.zoomOut": "Zoom out",
     "plan.zoomReset": "Show all (double click)",

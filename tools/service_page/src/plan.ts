@@ -4,6 +4,7 @@ import { toChartData, valueAt } from "./curve";
 import { byId, debounced, make } from "./dom";
 import { language, numberText, t } from "./i18n";
 import { formatInputs, parseInputs, type InputChange } from "./inputs_text";
+import { OutputRows } from "./outputs";
 import { MOTORS, type Curve, type CurveRequest, type MotorCurve } from "./protocol";
 import { keep, recall } from "./storage";
 import { Zoom } from "./zoom";
@@ -21,6 +22,7 @@ export class Plan {
     readonly #status = byId("plan-status", HTMLElement);
     readonly #inputs = byId("plan-inputs", HTMLInputElement);
     readonly #seconds = byId("plan-seconds", HTMLSelectElement);
+    readonly #outputs = new OutputRows(byId("plan-outputs", HTMLCanvasElement));
     readonly #zoom = new Zoom(() => this.#zoomed());
     readonly #shown = new Set<number>(MOTORS);
     readonly #programs: () => Record<string, string>;
@@ -46,6 +48,8 @@ export class Plan {
         byId("zoom-out", HTMLButtonElement).addEventListener("click", () => this.#zoom.by(-3));
         byId("zoom-reset", HTMLButtonElement).addEventListener("click", () => this.#zoom.reset());
         language.onChange(() => this.#draw());
+        new ResizeObserver(() => this.#drawOutputs()).observe(this.#root);
+        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#drawOutputs());
     }
 
     /** To be called when a program has changed; the curve follows shortly. */
@@ -152,6 +156,13 @@ export class Plan {
         this.#root.dataset.pulses = String(motors.reduce((sum, motor) => sum + motor.pulses, 0));
         this.#charts.speed.setData(toChartData(curve, "speed", this.#shown));
         this.#charts.position.setData(toChartData(curve, "position", this.#shown));
+        this.#drawOutputs();
+    }
+
+    #drawOutputs(): void {
+        this.#outputs.setChanges(this.#curve?.outputs ?? [], this.#curve?.seconds ?? 0);
+        const { left, width } = this.#charts.position.span;
+        this.#outputs.draw(this.#zoom.range, left, width);
     }
 
     /** Says what is under the cursor, or what the whole is. */

@@ -3,7 +3,10 @@ import { language } from "./i18n";
 /** What the parser says, piece by piece; the first whole pattern that fits is used, with $1 … filled in. */
 const CZECH: readonly (readonly [pattern: RegExp, words: string])[] = [
     [/^unknown command (.+?)(; .*)?$/, "neznámý příkaz $1$2"],
-    [/^the comment that begins here has no end; close it with }$/, "komentář, který zde začíná, nemá konec; uzavřete jej }"],
+    [
+        /^the comment that begins here has no end; close it with }$/,
+        "komentář, který zde začíná, nemá konec; uzavřete jej }",
+    ],
     [/^there is no command in this file$/, "v programu není žádný příkaz"],
     [/^label (\d+) is defined again; only its last place counts$/, "návěští $1 je zde znovu; platí jen poslední"],
     [/^there is no label (\d+) \(@\d+\) in this file$/, "v programu není návěští $1 (@$1)"],
@@ -14,7 +17,10 @@ const CZECH: readonly (readonly [pattern: RegExp, words: string])[] = [
     [/^(.+) is never reached$/, "$1 se nikdy neprovede"],
     [/^(\S+) is below (\S+); the move runs at (\S+) throughout$/, "$1 je pod $2; celý pohyb poběží rychlostí $3"],
     [/^(R|Y) before any F or B( does nothing)?.*$/, "$1 před prvním F nebo B nic neudělá"],
-    [/^(\S+) inside a program is ignored; it must be sent alone$/, "$1 uvnitř programu se nevykoná; musí se poslat samotný"],
+    [
+        /^(\S+) inside a program is ignored; it must be sent alone$/,
+        "$1 uvnitř programu se nevykoná; musí se poslat samotný",
+    ],
     [/^a compound move has at most (\d+) sections$/, "složený pohyb má nejvýše $1 úseků"],
     [/^(.+?) takes (.+), (found .+)$/, "$1: $2, $3"],
 ];
@@ -25,9 +31,15 @@ const CZECH_PARTS: readonly (readonly [pattern: RegExp, words: string])[] = [
     [/; commands are upper case: /, "; příkazy se píší velkými písmeny: "],
     [/; no comment is open here/, "; zde není otevřený komentář"],
     [/; a subroutine is called with '/, "; podprogram se volá znakem '"],
-    [/the number of an input .* from (\d+) to (\d+), as in (\w+)/, "čeká se číslo vstupu (1 až 8) nebo proměnné (80 až 95), H nebo L a návěští od $1 do $2, například $3"],
+    [
+        /the number of an input .* from (\d+) to (\d+), as in (\w+)/,
+        "čeká se číslo vstupu (1 až 8) nebo proměnné (80 až 95), H nebo L a návěští od $1 do $2, jako $3",
+    ],
     [/a number from (-?\d+) to (-?\d+)/, "čeká se číslo od $1 do $2"],
-    [/found a blank; nothing may stand between a command and its number/, "zde je mezera; mezi příkazem a číslem nesmí nic být"],
+    [
+        /found a blank; nothing may stand between a command and its number/,
+        "zde je mezera; mezi příkazem a číslem nesmí nic být",
+    ],
     [/found the end of the file/, "zde je konec programu"],
     [/found no number/, "zde není číslo"],
     [/found (\S+)$/, "zde je $1"],

@@ -119,7 +119,8 @@ export class Programs {
         }
         const tab = this.#tabs[this.shown.value - 1];
         if (tab) {
-            const count = (severity: string): number => tab.verdict.problems.filter((p) => p.severity === severity).length;
+            const { problems } = tab.verdict;
+            const count = (severity: string): number => problems.filter((one) => one.severity === severity).length;
             const isEmpty = (tab.checked ?? "").trim() === "";
             const kind = verdictOf(tab.verdict.problems);
             const words = { errors: count("error"), warnings: count("warning") };
