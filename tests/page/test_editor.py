@@ -105,3 +105,19 @@ def test_seven_hundred_commands_are_counted_and_drawn(page):
     page.write("\n".join(["F10 R"] * 350))
     expect(page.page.locator("#command-count")).to_contain_text("700")
     page.expect_pulses(3500)
+
+
+def test_the_command_at_the_cursor_is_explained(page):
+    explained = page.page.locator("#command-help")
+    for text, words in {
+        "{ F1 } V500": "V500: maximum speed",
+        "T02": "T02: set output",
+        "T55": "T55: switch function",
+        "C100": "C100: here is position 0",
+        "I05H10": "I05H10: jump to a label if",
+        "G+": "G+: run forward without end",
+    }.items():
+        page.write(text)
+        expect(explained).to_contain_text(words)
+    page.write("{ F1\nV5")
+    expect(explained).to_have_text("")

@@ -11,6 +11,7 @@ import {
     lineNumbers,
 } from "@codemirror/view";
 import { highlighting } from "./highlight";
+import { explain } from "./help";
 import { language, t } from "./i18n";
 import { phrases } from "./phrases";
 import type { Problem } from "./protocol";
@@ -25,10 +26,12 @@ export class Editor {
     readonly #states: EditorState[];
     readonly #words = new Compartment();
     readonly #onEdit: () => void;
+    readonly #help: HTMLElement;
     #shown = 0;
 
-    constructor(host: HTMLElement, texts: string[], onEdit: () => void) {
+    constructor(host: HTMLElement, help: HTMLElement, texts: string[], onEdit: () => void) {
         this.#onEdit = onEdit;
+        this.#help = help;
         this.#states = texts.map((text) => this.#newState(text));
         this.#view = new EditorView({ parent: host, state: this.#stateAt(0) });
         language.onChange(() => this.#translate());
@@ -54,6 +57,7 @@ export class Editor {
         this.#states[this.#shown] = this.#view.state;
         this.#shown = index;
         this.#view.setState(this.#stateAt(index));
+        this.#explain();
     }
 
     /** Underlines what the parser found, if it was found in the text that is here now. */
@@ -84,6 +88,12 @@ export class Editor {
 
     focus(): void {
         this.#view.focus();
+    }
+
+    /** Says below the editor what the command at the cursor means. */
+    #explain(): void {
+        const { doc, selection } = this.#view.state;
+        this.#help.textContent = explain(doc.toString(), selection.main.head);
     }
 
     #stateAt(index: number): EditorState {
@@ -118,6 +128,9 @@ export class Editor {
                     if (update.docChanged) {
                         this.#onEdit();
                     }
+                    if (update.docChanged || update.selectionSet) {
+                        this.#explain();
+                    }
                 }),
                 this.#words.of(this.#translated()),
             ],
@@ -134,6 +147,7 @@ export class Editor {
     #translate(): void {
         const effects = this.#words.reconfigure(this.#translated());
         this.#view.dispatch({ effects });
+        this.#explain();
         this.#states.forEach((state, index) => {
             if (index !== this.#shown) {
                 this.#states[index] = state.update({ effects }).state;

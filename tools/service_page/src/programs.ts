@@ -36,7 +36,8 @@ export class Programs {
         this.#onExample = onExample;
         this.#tabs = MOTORS.map((motor) => this.#tab(motor));
         const texts = this.#drafts.map((draft) => draft.text);
-        this.#editor = new Editor(byId("editor", HTMLElement), texts, () => this.#edited());
+        const help = byId("command-help", HTMLElement);
+        this.#editor = new Editor(byId("editor", HTMLElement), help, texts, () => this.#edited());
         this.#listen();
         void this.#loadExamples();
         this.shown.watch((motor) => this.#show(motor - 1));
