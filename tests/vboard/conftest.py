@@ -13,6 +13,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from rkm04_tools import board
+from virtual_board import VirtualBoard
 
 ROOT = Path(__file__).resolve().parents[2]
 IMAGES = Path(__file__).parent / "images"
@@ -111,3 +113,18 @@ def run_image(tmp_path: Path, program: Path, build_image: Callable[..., Path]) -
         return Run(done.returncode, done.stderr, summary, tmp_path)
 
     return run
+
+
+@pytest.fixture(scope="session")
+def image() -> board.Image:
+    """The image of the reference board."""
+    return board.build(board.DEFAULT_BOARD)
+
+
+@pytest.fixture
+def unit(
+    program: Path, image: board.Image, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> VirtualBoard:
+    """The reference board on the virtual board."""
+    monkeypatch.setenv("RKM04_BUILD", str(program.parents[1]))
+    return VirtualBoard(program, image, tmp_path)

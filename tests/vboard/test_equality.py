@@ -13,7 +13,6 @@ from pathlib import Path
 
 import pytest
 from reference import TICK_HZ, Curve, single
-from rkm04_tools import board
 from virtual_board import (
     TICKS_PER_MS,
     Message,
@@ -36,19 +35,6 @@ RANDOM_PROGRAMS = 10
 SECONDS_MAX = 4.0
 SAMPLE_MS = 0.05
 """How often the unit looks at its inputs."""
-
-
-@pytest.fixture(scope="session")
-def image() -> board.Image:
-    return board.build(board.DEFAULT_BOARD)
-
-
-@pytest.fixture
-def unit(
-    program: Path, image: board.Image, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> VirtualBoard:
-    monkeypatch.setenv("RKM04_BUILD", str(program.parents[1]))
-    return VirtualBoard(program, image, tmp_path)
 
 
 def both(

@@ -78,9 +78,16 @@ void board_request_reset(struct board *board, enum reset_cause cause)
 void board_reset(struct board *board, enum reset_cause cause)
 {
     board->wanted_reset = RESET_NONE;
+    board->reset_ps = board_now_ps(board);
+    board->reset_steps = recorder_active(board, SIGNAL_STEP, PINS_MOTORS);
+    board->reset_outputs = recorder_active(board, SIGNAL_OUTPUT, PINS_OUTPUTS);
+    if (cause == RESET_POWER) {
+        memory_forget(&board->memory);
+    }
     board->resets[cause]++;
     board->stats.depth = 0;
     board->cpu.stalled_forever = false;
+    faults_reset(board);
     nvic_reset(board);
     scb_reset(board);
     core_reset(board);
@@ -144,7 +151,7 @@ void board_sleep(struct board *board)
 {
     struct cpu *cpu = &board->cpu;
     events_run(board, cpu->now);
-    while (!nvic_can_wake(board) && board->end == BOARD_RUNS && board->wanted_reset == RESET_NONE) {
+    while (!nvic_can_wake(board) && !board_wants_stop(board)) {
         uint64_t next = board->events.next;
         if (next > cpu->now) {
             cpu->asleep_cycles += next - cpu->now;
@@ -206,7 +213,7 @@ static bool connect(struct board *board)
 {
     const struct options *options = board->options;
     if (!pins_read(&board->pins, options->pins) || !recorder_open(board) || !inputs_open(board) ||
-        !rs485_open(board) || !tty_open(board) || !profile_open(board, options->profile)) {
+        !rs485_open(board) || !tty_open(board) || !profile_open(board, options->profile) || !faults_open(board)) {
         return false;
     }
     for (unsigned i = 0; i < options->stucks; i++) {

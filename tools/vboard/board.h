@@ -13,6 +13,7 @@
 #include "cpu.h"
 #include "events.h"
 #include "exception.h"
+#include "faults.h"
 #include "flash.h"
 #include "gpio.h"
 #include "image.h"
@@ -53,6 +54,9 @@ struct board {
     char text[BOARD_TEXT_BYTES_MAX]; /* of BOARD_FAILED */
     enum reset_cause wanted_reset;
     unsigned resets[RESET_WATCHDOG + 1];
+    uint64_t reset_ps;          /* of the last one; 0: power-on */
+    unsigned reset_steps;       /* the STEP pins that were active just before it, one bit a motor */
+    unsigned reset_outputs;     /* and the outputs */
     unsigned lockups;
     unsigned warnings;
     uint64_t real_ns;           /* that the run took */
@@ -75,6 +79,7 @@ struct board {
     struct rs485 line;
     struct tty tty;
     struct inputs inputs;
+    struct faults faults;
     struct recorder recorder;
     struct stats stats;
     struct profile profile;
@@ -115,7 +120,8 @@ void board_sleep(struct board *board);
 /* Whether emulation must stop at the next boundary for something other than an exception. */
 static inline bool board_wants_stop(const struct board *board)
 {
-    return board->end != BOARD_RUNS || board->wanted_reset != RESET_NONE || board->flash.code_changed ||
+    return board->end != BOARD_RUNS || board->wanted_reset != RESET_NONE || board->faults.due > 0 ||
+           board->flash.code_changed ||
            flash_is_busy(&board->flash) != board->flash.read_protected;
 }
 

@@ -36,6 +36,7 @@ bool cost_init(struct cost_table *table)
 {
     csh handle = 0;
     table->end_address = 1;
+    table->hold_address = 1;
     for (unsigned i = 0; i < COST_REGIONS; i++) {
         table->entry[i] = malloc(COST_REGION_HALFWORDS * sizeof *table->entry[i]);
         if (table->entry[i] == NULL) {
@@ -261,6 +262,8 @@ void cost_decode(struct board *board, uint32_t address, uint32_t previous)
     }
     if (address == table->end_address) {
         set_kind(&cost, COST_END);
+    } else if (address == table->hold_address) {
+        set_kind(&cost, COST_HOLD);
     }
     *entry = cost;
 }

@@ -41,6 +41,7 @@ enum cost_kind {
     COST_EVENT,   /* SEV */
     COST_FLOAT,   /* needs the coprocessor enabled */
     COST_END,     /* the run ends here */
+    COST_HOLD,    /* a fault: it does not get past this */
 };
 
 struct cost {
@@ -55,6 +56,7 @@ struct cost_table {
     uint64_t capstone;                /* its handle */
     void *instruction;                /* its buffer */
     uint32_t end_address;             /* where the run ends; odd: nowhere */
+    uint32_t hold_address;            /* where a fault holds the processor; odd: nowhere */
 };
 
 bool cost_init(struct cost_table *table);

@@ -152,6 +152,9 @@ static bool look_closer(struct board *board, uint32_t address, uint32_t previous
         board_finish(board, BOARD_REACHED, "");
         stop(cpu, CPU_STOP_BOUNDARY);
         return true;
+    case COST_HOLD:
+        stop(cpu, CPU_STOP_HOLD);
+        return true;
     case COST_PLAIN:
     case COST_UNKNOWN:
         break;

@@ -19,6 +19,7 @@ enum cpu_stop {
     CPU_STOP_BOUNDARY, /* an exception can be taken, or the board wants something */
     CPU_STOP_SLEEP,
     CPU_STOP_SLEEP_EVENT,
+    CPU_STOP_HOLD, /* a fault: the instruction is never done */
     CPU_STOP_TRAP,  /* Unicorn saw an exception: `trap` */
     CPU_STOP_FAULT, /* a memory access failed: `fault_bits`, `fault_address` */
 };

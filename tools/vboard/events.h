@@ -24,6 +24,7 @@ enum event {
     EVENT_IWDG,
     EVENT_LINE,
     EVENT_INPUTS,
+    EVENT_FAULT,
     EVENT_THROTTLE,
     EVENT_MEASURE,
     EVENT_END,

@@ -58,6 +58,9 @@ static uint64_t program_us(const struct board *board)
 
 static uint64_t erase_us(const struct board *board, uint32_t bytes, unsigned size)
 {
+    if (board->options->erase_us != 0) {
+        return board->options->erase_us;
+    }
     static const uint32_t typical_ms[3][3] = {{400, 300, 250}, {1200, 700, 550}, {2000, 1300, 1000}};
     unsigned row = bytes <= 16U * 1024U ? 0 : bytes <= 64U * 1024U ? 1 : 2;
     uint64_t us = 1000U * (uint64_t)typical_ms[row][size > 2 ? 2 : size];
@@ -123,10 +126,11 @@ static void begin(struct board *board, enum flash_operation operation, uint64_t 
     flash->fails = flash->operations == board->options->flash_fail;
     flash->programs += operation == FLASH_PROGRAM ? 1U : 0U;
     flash->erases += operation == FLASH_ERASE ? 1U : 0U;
-    uint64_t ps = us * VTIME_PS_PER_US;
-    if (flash->operations == board->options->power_cut) {
-        ps /= 2;
+    flash->cut = NULL;
+    for (unsigned i = 0; i < board->options->cuts; i++) {
+        flash->cut = board->options->cut[i].operation == flash->operations ? &board->options->cut[i] : flash->cut;
     }
+    uint64_t ps = us * VTIME_PS_PER_US / (flash->cut != NULL ? 2U : 1U);
     events_set_ps(board, EVENT_FLASH, board_now_ps(board) + ps);
     cpu_poke(&board->cpu);
 }
@@ -142,29 +146,93 @@ static bool was_executed(const struct board *board, uint32_t offset, uint32_t by
     return false;
 }
 
+static uint8_t after(const struct flash *flash, uint32_t index, uint8_t before)
+{
+    return flash->operation == FLASH_ERASE ? 0xFF : before & (uint8_t)(flash->value >> 8U * index);
+}
+
 static void change(struct board *board, uint32_t bytes)
 {
     struct flash *flash = &board->flash;
     uint8_t *at = board->memory.flash + flash->address;
-    if (flash->operation == FLASH_ERASE) {
-        memset(at, 0xFF, bytes);
-    }
-    for (unsigned i = 0; flash->operation == FLASH_PROGRAM && i < bytes; i++) {
-        at[i] &= (uint8_t)(flash->value >> 8U * i);
+    for (uint32_t i = 0; i < bytes; i++) {
+        at[i] = after(flash, i, at[i]);
     }
     flash->code_changed |= was_executed(board, flash->address, bytes);
+}
+
+/* Of the bits that were to change some have and some have not (xorshift32). */
+static void change_some(struct board *board, uint32_t seed)
+{
+    struct flash *flash = &board->flash;
+    uint8_t *at = board->memory.flash + flash->address;
+    uint32_t random = (seed + 1U) * UINT32_C(2654435761) | 1U;
+    for (uint32_t i = 0; i < flash->bytes; i++) {
+        random ^= random << 13;
+        random ^= random >> 17;
+        random ^= random << 5;
+        at[i] = (uint8_t)(at[i] ^ ((at[i] ^ after(flash, i, at[i])) & random >> 11));
+    }
+    flash->code_changed |= was_executed(board, flash->address, flash->bytes);
+}
+
+static void change_all_but_one_bit(struct board *board)
+{
+    struct flash *flash = &board->flash;
+    uint8_t *at = board->memory.flash + flash->address;
+    uint32_t place = 0;
+    while (place + 1U < flash->bytes && at[place] == after(flash, place, at[place])) {
+        place++;
+    }
+    uint32_t differs = at[place] ^ after(flash, place, at[place]);
+    change(board, flash->bytes);
+    at[place] ^= (uint8_t)(differs & (0U - differs));
+}
+
+static void fail(struct board *board)
+{
+    if (board->options->flash_bit) {
+        change_all_but_one_bit(board);
+    }
+    if (board->options->flash_error != 0) {
+        set_error(board, board->options->flash_error);
+    }
+}
+
+void flash_cut(struct board *board)
+{
+    struct flash *flash = &board->flash;
+    uint32_t leaves = flash->cut == NULL ? (uint32_t)OPTIONS_CUT_HALF : flash->cut->leaves;
+    if (!flash_is_busy(flash)) {
+        return;
+    }
+    if (leaves >= (uint32_t)OPTIONS_CUT_SEED) {
+        change_some(board, leaves - (uint32_t)OPTIONS_CUT_SEED);
+    } else if (leaves != (uint32_t)OPTIONS_CUT_NOTHING) {
+        change(board, leaves == (uint32_t)OPTIONS_CUT_ALL ? flash->bytes : flash->bytes / 2U);
+    }
+    flash->operation = FLASH_IDLE;
+}
+
+/* Power goes in the middle of an operation; without --power-back that is the end of the run. */
+static void lose_power(struct board *board)
+{
+    flash_cut(board);
+    if (board->options->power_back) {
+        board_request_reset(board, RESET_POWER);
+    } else {
+        board_finish(board, BOARD_POWER_CUT, "");
+    }
 }
 
 void flash_event(struct board *board, uint64_t cycle)
 {
     struct flash *flash = &board->flash;
     (void)cycle;
-    if (flash->operations == board->options->power_cut) {
-        /* The charge has moved in a part of the cells. */
-        change(board, flash->bytes / 2U);
-        board_finish(board, BOARD_POWER_CUT, "");
+    if (flash->cut != NULL) {
+        lose_power(board);
     } else if (flash->fails) {
-        set_error(board, SR_WRPERR);
+        fail(board);
     } else {
         change(board, flash->bytes);
         flash->sr |= (flash->cr & CR_EOPIE) != 0 ? SR_EOP : 0U;

@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 struct board;
+struct options_cut;
 
 enum flash_operation {
     FLASH_IDLE,
@@ -30,6 +31,7 @@ struct flash {
     bool read_protected; /* reads are watched, as the bus has to wait */
     bool code_changed;   /* what was executed before has been rewritten */
     bool fails;          /* the operation in progress */
+    const struct options_cut *cut; /* of power, in the middle of it; null: none */
     uint64_t operations;
     uint64_t programs;
     uint64_t erases;
@@ -43,6 +45,9 @@ void flash_write(struct board *board, uint32_t address, unsigned bytes, uint32_t
 
 bool flash_read_register(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);
 bool flash_write_register(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask);
+/* Power goes: what is in progress stays half done. */
+void flash_cut(struct board *board);
+
 void flash_event(struct board *board, uint64_t cycle);
 
 /* Makes Unicorn report reads of the flash while it is busy; called while emulation stands. */

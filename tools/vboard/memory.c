@@ -52,6 +52,12 @@ bool memory_init(struct board *board)
            map(board, MEMORY_SRAM_BASE, MEMORY_SRAM_BYTES, UC_PROT_ALL, memory->sram);
 }
 
+void memory_forget(struct memory *memory)
+{
+    memset(memory->ccm, MEMORY_UNTOUCHED, MEMORY_CCM_BYTES);
+    memset(memory->sram, MEMORY_UNTOUCHED, MEMORY_SRAM_BYTES);
+}
+
 void memory_discard(struct memory *memory)
 {
     free(memory->flash);

@@ -30,6 +30,9 @@ struct memory {
     uint8_t *options;
 };
 
+/* The RAM holds what it does at power-on. */
+void memory_forget(struct memory *memory);
+
 bool memory_init(struct board *board);
 void memory_discard(struct memory *memory);
 

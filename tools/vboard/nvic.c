@@ -151,11 +151,17 @@ static int pending_order(const struct nvic *nvic, unsigned exception)
     return exception < NVIC_MEM_MANAGE ? nvic_group_priority(nvic, exception) : nvic->priority[exception];
 }
 
+void nvic_lose(struct board *board, unsigned exception, bool lost)
+{
+    set(board->nvic.lost, exception, lost);
+    cpu_poke(&board->cpu);
+}
+
 unsigned nvic_next_pending(const struct nvic *nvic)
 {
     unsigned best = NVIC_NONE;
     for (unsigned word = 0; word < NVIC_WORDS; word++) {
-        for (uint64_t bits = nvic->pending[word] & nvic->enabled[word]; bits != 0; bits &= bits - 1U) {
+        for (uint64_t bits = nvic->pending[word] & nvic->enabled[word] & ~nvic->lost[word]; bits != 0; bits &= bits - 1U) {
             unsigned exception = word * WORD_BITS + (unsigned)__builtin_ctzll(bits);
             if (best == NVIC_NONE || pending_order(nvic, exception) < pending_order(nvic, best)) {
                 best = exception;

@@ -51,6 +51,7 @@ struct nvic {
     uint64_t pending[NVIC_WORDS];
     uint64_t active[NVIC_WORDS];
     uint64_t level[NVIC_WORDS];              /* the line of the peripheral */
+    uint64_t lost[NVIC_WORDS];               /* a fault: it is never taken */
     uint64_t low_cycle[NVIC_EXCEPTIONS];     /* when a line that went low is seen low: the write is on its way */
     uint64_t pended_cycle[NVIC_EXCEPTIONS];  /* since when it is pending, for the latency */
     uint8_t priority[NVIC_EXCEPTIONS];
@@ -78,6 +79,9 @@ bool nvic_is_enabled(const struct nvic *nvic, unsigned exception);
 int nvic_group_priority(const struct nvic *nvic, unsigned exception);
 int nvic_running_priority(struct board *board);
 int nvic_active_priority(const struct nvic *nvic);
+
+/* A fault: whether an exception is never taken. */
+void nvic_lose(struct board *board, unsigned exception, bool lost);
 
 /* The pending and enabled exception that comes next, or NVIC_NONE. */
 unsigned nvic_next_pending(const struct nvic *nvic);

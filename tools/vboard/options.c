@@ -42,8 +42,20 @@ const char options_usage[] =
     "  --crystal-stops MS    it stops then\n"
     "  --lsi HZ              rate of the watchdog's oscillator (32000)\n"
     "  --slow-flash          flash times of the worst case\n"
-    "  --flash-fail N        the N-th operation of the flash fails\n"
-    "  --power-cut N         power is cut in the middle of the N-th one\n"
+    "  --flash-erase MS      an erase takes that long (as the data sheet says)\n"
+    "  --flash-fail N[:HOW]  the N-th operation of the flash fails: wrp, pga, pgp, pgs or op is what it tells (wrp);\n"
+    "                        silent: it tells nothing and does nothing; bit: it leaves one bit as it was\n"
+    "  --power-cut N[:LEAVES]  power is cut in the N-th one, which leaves nothing, all, half, or what a number gives\n"
+    "                        as a seed (half); may be repeated; --power-back: power comes back at once\n"
+    "  --timer-start N       TIM2 starts with this count (0)\n"
+    "  --fault MS:WHAT       something goes wrong then, until the next reset; may be repeated:\n"
+    "                        jump=PLACE    the program goes on there\n"
+    "                        sp=PLACE      the stack pointer points there\n"
+    "                        word=PLACE:X  a word of memory has this value\n"
+    "                        hold=PLACE    the program does not get past this instruction; interrupts do\n"
+    "                        lose=N[,MS]   exception N is not taken, or not for some time\n"
+    "                        power         power goes and comes back at once\n"
+    "                        A PLACE is hexadecimal, or a symbol, or SYMBOL+HEX.\n"
     "  --stuck PIN=LEVEL     a pin is stuck; may be repeated\n"
     "\n"
     "example: rkm04-vboard --elf rkm04.elf --pins board.pins --line-script send.txt --for 2 --steps steps.csv\n";
@@ -88,6 +100,7 @@ static const struct row rows[] = {
     FLAG("--slow-flash", slow_flash),
     FLAG("--match-equal", match_equal),
     FLAG("--pwm-at-once", pwm_at_once),
+    FLAG("--power-back", power_back),
     {"--for", KIND_NUMBER, offsetof(struct options, for_ps), SECONDS_DECIMALS, 1000, 1, UINT64_C(1000000000000000)},
     {"--measure-from", KIND_NUMBER, offsetof(struct options, measure_from_ps), MS_DECIMALS, 1000, 0,
      UINT64_C(1000000000000)},
@@ -96,8 +109,8 @@ static const struct row rows[] = {
     {"--crystal", KIND_NUMBER, offsetof(struct options, crystal_hz), 6, 1, 4000000, 26000000},
     {"--lsi", KIND_NUMBER, offsetof(struct options, lsi_hz), 0, 1, 17000, 47000},
     {"--baud", KIND_NUMBER, offsetof(struct options, baud), 0, 1, 300, 4000000},
-    {"--flash-fail", KIND_NUMBER, offsetof(struct options, flash_fail), 0, 1, 1, UINT32_MAX},
-    {"--power-cut", KIND_NUMBER, offsetof(struct options, power_cut), 0, 1, 1, UINT32_MAX},
+    {"--flash-erase", KIND_NUMBER, offsetof(struct options, erase_us), 3, 1, 1, 100000000},
+    {"--timer-start", KIND_NUMBER, offsetof(struct options, timer_start), 0, 1, 0, UINT32_MAX},
 };
 
 static bool read_number(const char *text, unsigned decimals, uint64_t least, uint64_t most, uint64_t *number)
@@ -134,6 +147,77 @@ static bool read_stuck(struct options *options, const char *text)
     return false;
 }
 
+/* The number of an operation of the flash, and what stands behind a colon; null if nothing does. */
+static bool read_operation(const char *text, uint64_t *operation, const char **how)
+{
+    const char *end = text + strlen(text);
+    if (!line_read_fixed(&text, end, 0, UINT32_MAX, operation) || *operation == 0 || (text != end && *text != ':')) {
+        return false;
+    }
+    *how = text == end ? NULL : text + 1;
+    return true;
+}
+
+static bool read_flash_failure(struct options *options, const char *text)
+{
+    static const struct {
+        const char *name;
+        uint32_t error; /* bits of FLASH_SR */
+    } errors[] = {{"wrp", 1U << 4}, {"pga", 1U << 5}, {"pgp", 1U << 6}, {"pgs", 1U << 7},
+                  {"op", 1U << 1},  {"silent", 0},    {"bit", 0}};
+    const char *how = NULL;
+    bool good = read_operation(text, &options->flash_fail, &how);
+    how = how == NULL ? errors[0].name : how;
+    for (unsigned i = 0; good && i < sizeof errors / sizeof *errors; i++) {
+        if (strcmp(how, errors[i].name) == 0) {
+            options->flash_error = errors[i].error;
+            options->flash_bit = strcmp(how, "bit") == 0;
+            return true;
+        }
+    }
+    complain("--flash-fail %s: not an operation and how it fails; see --help", text);
+    return false;
+}
+
+static bool read_leaves(const char *text, uint32_t *leaves)
+{
+    static const char *const names[] = {"nothing", "all", "half"};
+    const char *end = text + strlen(text);
+    uint64_t seed = 0;
+    for (unsigned i = 0; i < sizeof names / sizeof *names; i++) {
+        if (strcmp(text, names[i]) == 0) {
+            *leaves = i;
+            return true;
+        }
+    }
+    bool good = line_read_fixed(&text, end, 0, 1000000000, &seed) && text == end;
+    *leaves = OPTIONS_CUT_SEED + (uint32_t)seed;
+    return good;
+}
+
+static bool read_cut(struct options *options, const char *text)
+{
+    struct options_cut cut = {.leaves = OPTIONS_CUT_HALF};
+    const char *how = NULL;
+    if (options->cuts < OPTIONS_CUTS_MAX && read_operation(text, &cut.operation, &how) &&
+        (how == NULL || read_leaves(how, &cut.leaves))) {
+        options->cut[options->cuts++] = cut;
+        return true;
+    }
+    complain("--power-cut %s: not an operation and what it leaves, or too many; see --help", text);
+    return false;
+}
+
+static bool read_fault(struct options *options, const char *text)
+{
+    if (options->faults == FAULTS_MAX) {
+        complain("--fault %s: one too many; there can be %d", text, FAULTS_MAX);
+        return false;
+    }
+    options->fault[options->faults++] = text;
+    return true;
+}
+
 /* The options that are not in the table. False after a complaint. */
 static bool read_special(struct options *options, const char *name, const char *text, bool *known)
 {
@@ -157,6 +241,15 @@ static bool read_special(struct options *options, const char *name, const char *
     }
     if (strcmp(name, "--stuck") == 0) {
         return read_stuck(options, text);
+    }
+    if (strcmp(name, "--flash-fail") == 0) {
+        return read_flash_failure(options, text);
+    }
+    if (strcmp(name, "--power-cut") == 0) {
+        return read_cut(options, text);
+    }
+    if (strcmp(name, "--fault") == 0) {
+        return read_fault(options, text);
     }
     if (strcmp(name, "--ticks") == 0) {
         options->ticks_from_timer = strcmp(text, "timer") == 0;

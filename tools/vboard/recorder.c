@@ -163,6 +163,15 @@ void recorder_note_edge(struct board *board, struct pin pin, bool level, uint64_
     }
 }
 
+unsigned recorder_active(const struct board *board, unsigned signal, unsigned count)
+{
+    unsigned active = 0;
+    for (unsigned i = 0; i < count; i++) {
+        active |= board->recorder.level[signal + i] ? 1U << i : 0U;
+    }
+    return active;
+}
+
 bool recorder_close(struct board *board)
 {
     struct recorder *recorder = &board->recorder;

@@ -45,6 +45,9 @@ bool recorder_open(struct board *board);
 void recorder_note_edge(struct board *board, struct pin pin, bool level, uint64_t cycle);
 
 /* Ends the files. False after a complaint. */
+/* Which of `count` signals are active, one bit each. */
+unsigned recorder_active(const struct board *board, unsigned signal, unsigned count);
+
 bool recorder_close(struct board *board);
 
 /* Lets go of the files; those that were not ended vanish. */

@@ -127,6 +127,10 @@ static uint32_t after_stop(struct board *board, uc_err error)
     case CPU_STOP_SLEEP:
     case CPU_STOP_SLEEP_EVENT:
         return after_sleep(board);
+    case CPU_STOP_HOLD:
+        cpu->now = board->events.next > cpu->now ? board->events.next : cpu->now;
+        events_run(board, cpu->now);
+        return nvic_can_take(board) ? exception_take(board, cpu->next) : cpu->next;
     case CPU_STOP_TRAP:
         return after_trap(board);
     case CPU_STOP_FAULT:
@@ -158,6 +162,7 @@ void cpu_run(struct board *board)
             wait_for_reset(board);
             continue;
         }
+        faults_apply(board);
         flash_update_protection(board);
         cpu->stop = CPU_RUNS;
         cpu->counted_all = false;

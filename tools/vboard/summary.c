@@ -107,6 +107,9 @@ static void print_run(const struct board *board)
     (void)printf("\"resets\":{\"power\":%u,\"software\":%u,\"watchdog\":%u},\"lockups\":%u,\"warnings\":%u,",
                  board->resets[RESET_POWER], board->resets[RESET_SOFTWARE], board->resets[RESET_WATCHDOG],
                  board->lockups, board->warnings);
+    (void)printf("\"last_reset\":{");
+    put_us("microseconds", board->reset_ps);
+    (void)printf("\"steps\":%u,\"outputs\":%u},", board->reset_steps, board->reset_outputs);
     (void)printf("\"faults\":{\"count\":%" PRIu64 ",\"cfsr\":%u,\"at\":%u,\"in\":", stats->faults,
                  (unsigned)stats->fault_bits, (unsigned)stats->fault_at);
     put_string(stats->faults == 0 ? "" : image_function_at(&board->image, stats->fault_at));
@@ -154,11 +157,7 @@ static void print_motors(const struct board *board)
                      recorder->level[SIGNAL_STEP + i], recorder->level[SIGNAL_DIRECTION + i],
                      recorder->level[SIGNAL_LED + i], motor->position);
     }
-    unsigned outputs = 0;
-    for (unsigned i = 0; i < PINS_OUTPUTS; i++) {
-        outputs |= recorder->level[SIGNAL_OUTPUT + i] ? 1U << i : 0U;
-    }
-    (void)printf("],\n\"outputs\":%u,", outputs);
+    (void)printf("],\n\"outputs\":%u,", recorder_active(board, SIGNAL_OUTPUT, PINS_OUTPUTS));
 }
 
 static void print_peripherals(const struct board *board)

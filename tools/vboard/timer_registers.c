@@ -88,7 +88,10 @@ static void write_cr1(struct board *board, unsigned instance, uint32_t value)
     if (!timer_runs(timer) && (value & TIMER_CR1_CEN) != 0) {
         /* It begins to count one clock after CEN is set (section 18.3.2). */
         timer->anchor_cycle = board->cpu.now + board->rcc.timer1_divider;
-        timer->start_cycle = timer->start_cycle == VTIME_NEVER ? timer->anchor_cycle : timer->start_cycle;
+        if (timer->start_cycle == VTIME_NEVER) {
+            timer->start_cycle = timer->anchor_cycle;
+            timer->count += instance == 0 ? (uint32_t)board->options->timer_start : 0U;
+        }
     }
     timer->cr1 = value;
     timer->arr_used = (value & TIMER_CR1_ARPE) != 0 ? timer->arr_used : timer->arr;
