@@ -124,6 +124,19 @@ class Modelled:
                 edges.setdefault(int(name[1]), []).append((tick, int(line[0])))
         return edges
 
+    def edges(self, signal: str) -> list[tuple[float, int]]:
+        """The changes of a signal: time in ms, and level."""
+        text = (self.folder / "board.vcd").read_text()
+        code = next(code for code, name in SIGNAL.findall(text) if name == signal)
+        found = []
+        nanoseconds = 0
+        for line in text.partition("$dumpvars")[2].partition("$end")[2].splitlines():
+            if line[:1] == "#":
+                nanoseconds = int(line[1:])
+            elif line in ("0" + code, "1" + code):
+                found.append((nanoseconds / 1e6, int(line[0])))
+        return found
+
     @cached_property
     def positions(self) -> list[int]:
         """What the unit has answered to `get_positions`; empty if it has not."""
