@@ -1,3 +1,5 @@
+#include <assert.h>
+
 #include "stm32_line.h"
 #include "stm32_private.h"
 #include "stm32f4.h"
@@ -79,9 +81,11 @@ static void start_vectors(void)
     stm32_barrier();
 }
 
-/* The stack's pattern shows afterwards how much of it was used. */
+/* Who comes here without a reset has gone astray; the memory, and the handler in it, is still in use then. The stack's
+ * pattern shows afterwards how much of it was used. */
 _Noreturn void stm32_reset(void)
 {
+    assert(SCB_VTOR != (uint32_t)(uintptr_t)stm32_vectors);
     const uint32_t *here = __builtin_frame_address(0);
     fill(stm32_stack_bottom, here - PAINT_WORDS_LEFT, STACK_PATTERN);
     copy(stm32_ram_begin, stm32_ram_end, stm32_ram_load);

@@ -1,0 +1,181 @@
+"""The image of the board when its processor goes wrong: hung, astray, without its crystal.
+
+Four motors run stored programs and hold an output each when the fault comes. Then the outputs must
+be safe, the board must start again without starting the programs, tell why, and do as it is told.
+"""
+
+from __future__ import annotations
+
+import pytest
+from board_talk import ask, heard
+from rkm04_tools import board
+from stored import area, flash, record
+from virtual_board import TICKS_PER_MS, Modelled, VirtualBoard
+
+VERSION = b"\x01"
+TOLD_VERSION = b"\x01\x10" + board.version().encode()
+MOTORS = range(1, 5)
+SPEED = 4000
+PROGRAM = b"S2000V%dA40000T0%dF100000R"
+FAULT_MS = 150.0
+RESTART_MS = 60.0
+"""From a reset until the unit answers, with room."""
+CAUSE_POWER, CAUSE_WATCHDOG, CAUSE_FAULT = 0, 2, 3
+HARD_FAULT, NMI, ASSERTION = 3, 2, 0
+RECORD = ("magic", "cause", "exception", "status", "hard", "address", "pc", "count")
+INSTRUCTION_BUS_ERROR, STACKING_ERROR, UNDEFINED = 1 << 8, 1 << 12, 1 << 16
+FORCED = 1 << 30
+SYSTICK, TIM2 = 15, 44
+WATCHDOG_MS = {17000: 964.0, 32000: 512.0, 47000: 349.0}
+"""512 periods of 32 clocks of its oscillator, whose rate is 17 to 47 kHz."""
+MAIN_MS = 200.0
+"""How long main may be silent before the watchdog is not fed any more."""
+CLIENT_TICK_ISR = 8
+"""Where the tick's entry is in the client that the backend keeps: behind a pointer and another."""
+
+
+def run(
+    unit: VirtualBoard, seconds: float, *options: str, ask_ms: float, fault: str = ""
+) -> Modelled:
+    """Run with stored programs and a fault; later ask for the version, then send a move."""
+    path = unit.folder / "flash"
+    path.write_bytes(flash(area(1, [record(m, 1 + m, PROGRAM % (SPEED, m)) for m in MOTORS])))
+    script = ask(ask_ms, VERSION) + ask(ask_ms + 30, b"\x021\\S2000V2000F7R")
+    faults = ["--fault", f"{FAULT_MS}:{fault}"] if fault else []
+    watched = ["--watch", "stm32_fault_record", "--watch", "start_cause"]
+    return unit.run(script, seconds, "", *faults, "--flash", str(path), *watched, *options)
+
+
+def fault_record(modelled: Modelled) -> dict[str, int]:
+    words = modelled.summary["watch"]["stm32_fault_record"]
+    return dict(zip(RECORD, words, strict=True))
+
+
+def reset_ms(modelled: Modelled) -> float:
+    return float(modelled.summary["last_reset"]["microseconds"]) / 1000
+
+
+def pulses(modelled: Modelled, begin_ms: float, end_ms: float) -> int:
+    ticks = modelled.steps.tick / TICKS_PER_MS
+    return int(((ticks >= begin_ms) & (ticks < end_ms)).sum())
+
+
+def assert_stands_until_told(unit: VirtualBoard, modelled: Modelled, told_ms: float) -> None:
+    """Safe behind the reset, no program by itself; answers; then does what it is told."""
+    assert pulses(modelled, 100, FAULT_MS) > 3 * 50 * SPEED // 1000, "the motors did not run"
+    assert pulses(modelled, reset_ms(modelled), told_ms) == 0
+    assert modelled.summary["outputs"] == 0
+    assert [answer.message for answer in heard(unit.folder)] == [TOLD_VERSION, b"\x021\0\0"]
+    assert pulses(modelled, told_ms, 1e9) == 7
+    assert modelled.summary["resets"]["power"] == 1
+    assert modelled.summary["lockups"] == 0
+
+
+@pytest.mark.parametrize(
+    ("fault", "silent_ms"),
+    [
+        ("hold=unit_poll", MAIN_MS),
+        ("hold=stm32_tick_interrupt", 0.0),
+        ("hold=stm32_step_interrupt", 0.0),
+        (f"lose={SYSTICK}", 0.0),
+        (f"lose={TIM2}", 5.0),
+    ],
+    ids=["main", "tick", "step", "tick never comes", "step never comes"],
+)
+def test_what_hangs_ends_in_a_watchdog_reset_after_which_nothing_starts_by_itself(
+    unit, fault, silent_ms
+):
+    reset = FAULT_MS + silent_ms + WATCHDOG_MS[32000]
+    told = reset + RESTART_MS + 30
+
+    modelled = run(unit, told / 1000 + 0.1, ask_ms=reset + RESTART_MS, fault=fault)
+
+    assert modelled.summary["resets"] == {"power": 1, "software": 0, "watchdog": 1}
+    assert reset - 3 < reset_ms(modelled) < reset + 3
+    assert modelled.summary["watch"]["start_cause"] == CAUSE_WATCHDOG
+    assert fault_record(modelled)["cause"] == CAUSE_WATCHDOG
+    assert_stands_until_told(unit, modelled, told)
+
+
+@pytest.mark.parametrize("lsi_hz", [17000, 47000])
+def test_the_watchdog_resets_at_any_rate_of_its_oscillator(unit, lsi_hz):
+    reset = FAULT_MS + WATCHDOG_MS[lsi_hz]
+
+    modelled = run(
+        unit, (reset + 5) / 1000, "--lsi", str(lsi_hz), ask_ms=5000, fault=f"lose={SYSTICK}"
+    )
+
+    assert modelled.summary["resets"]["watchdog"] == 1
+    assert reset - 3 < reset_ms(modelled) < reset + 3
+
+
+@pytest.mark.parametrize(
+    ("fault", "exception", "status"),
+    [
+        ("jump=60000000", HARD_FAULT, INSTRUCTION_BUS_ERROR),
+        ("jump=08040000", HARD_FAULT, UNDEFINED),
+        ("sp=stm32_stack_bottom+8", HARD_FAULT, STACKING_ERROR),
+        ("sp=10000000", HARD_FAULT, STACKING_ERROR),
+        (f"word=tick+{CLIENT_TICK_ISR:x}:70000001", HARD_FAULT, INSTRUCTION_BUS_ERROR),
+        ("jump=__assert_func", ASSERTION, 0),
+        ("jump=stm32_reset", ASSERTION, 0),
+    ],
+    ids=["nowhere", "erased flash", "stack overflow", "no stack", "interrupt", "assert", "reset"],
+)
+def test_what_goes_astray_is_caught_with_the_outputs_safe_and_the_cause_kept(
+    unit, fault, exception, status
+):
+    told = FAULT_MS + RESTART_MS + 30
+
+    modelled = run(unit, told / 1000 + 0.1, ask_ms=FAULT_MS + RESTART_MS, fault=fault)
+
+    kept = fault_record(modelled)
+    assert modelled.summary["resets"] == {"power": 1, "software": 1, "watchdog": 0}
+    assert reset_ms(modelled) < FAULT_MS + 2
+    assert pulses(modelled, reset_ms(modelled) - 0.001, told) == 0
+    assert modelled.summary["last_reset"]["steps"] == 0
+    assert modelled.summary["last_reset"]["outputs"] == 0
+    assert (kept["cause"], kept["exception"], kept["count"]) == (CAUSE_FAULT, exception, 1)
+    assert kept["status"] & status == status
+    assert kept["hard"] == (FORCED if status else 0)
+    assert modelled.summary["watch"]["start_cause"] == CAUSE_FAULT
+    assert_stands_until_told(unit, modelled, told)
+
+
+def assert_refuses_motion(unit: VirtualBoard, modelled: Modelled, from_ms: float) -> None:
+    """No pulse, all LEDs blinking together, answers at the right rate."""
+    assert pulses(modelled, from_ms, 1e9) == 0
+    blinks = [ms for ms, _ in modelled.edges("m1_led") if ms > from_ms]
+    assert len(blinks) > 2
+    assert [round(b - a) for a, b in zip(blinks, blinks[1:], strict=False)] == [100] * (
+        len(blinks) - 1
+    )
+    for motor in (2, 3, 4):
+        assert [ms for ms, _ in modelled.edges(f"m{motor}_led") if ms > from_ms] == pytest.approx(
+            blinks, abs=0.01
+        )
+    assert [answer.message for answer in heard(unit.folder)] == [TOLD_VERSION, b"\x021\0\0"]
+    assert modelled.summary["line"]["unheard"] == 0
+    assert modelled.summary["line"]["baud"] == pytest.approx(19200, rel=0.005)
+
+
+def test_without_a_crystal_the_unit_answers_shows_it_and_does_not_move(unit):
+    modelled = run(unit, 0.6, "--no-crystal", ask_ms=150)
+
+    assert_refuses_motion(unit, modelled, 130)
+    assert pulses(modelled, 0, 1e9) == 0
+    assert modelled.summary["resets"] == {"power": 1, "software": 0, "watchdog": 0}
+    assert modelled.summary["watch"]["start_cause"] == CAUSE_POWER
+
+
+def test_a_crystal_that_stops_is_a_fault_after_which_the_unit_does_not_move(unit):
+    modelled = run(unit, 0.7, "--crystal-stops", str(FAULT_MS), ask_ms=300)
+
+    kept = fault_record(modelled)
+    assert pulses(modelled, 100, FAULT_MS) > 600
+    assert modelled.summary["resets"] == {"power": 1, "software": 1, "watchdog": 0}
+    assert reset_ms(modelled) < FAULT_MS + 0.1
+    assert modelled.summary["last_reset"]["steps"] == 0
+    assert modelled.summary["last_reset"]["outputs"] == 0
+    assert (kept["cause"], kept["exception"]) == (CAUSE_FAULT, NMI)
+    assert_refuses_motion(unit, modelled, FAULT_MS + 0.1)
