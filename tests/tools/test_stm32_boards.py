@@ -39,6 +39,8 @@ def test_the_table_of_a_board_has_the_pins_of_its_header(name: str) -> None:
         ("X(BO_1, B, 8, OUT)", "X(BO_1, D, 8, OUT)", "BO_1: LQFP64 has no PD8"),
         ("X(BO_1, B, 8, OUT)", "X(BO_1, A, 13, OUT)", "BO_1: PA13 belongs to SWDIO"),
         ("X(BO_1, B, 8, OUT)", "X(BO_1, B, 8, IN)", "BO_1 cannot be IN"),
+        ("X(BO_1, B, 8, OUT)", "X(BO_1, B, 4, OUT)", "BO_1: PB4 is pulled up at reset as NJTRST"),
+        ("X(STEP_1, A, 0, TIM2_CH1)", "X(STEP_1, A, 15, TIM2_CH1)", "STEP_1: PA15 is pulled up"),
         ("X(BI_1, C, 0, IN_UP)", "X(BI_1, C, 0, OUT)", "BI_1 cannot be OUT"),
         ("X(BI_1, C, 0, IN_UP)", "", "BI_1 has no pin"),
         ("X(BI_1, C, 0, IN_UP)", "X(BI_9, C, 0, IN_UP)", "BI_9 is not a signal"),

@@ -45,6 +45,11 @@ SIGNALS = [
 ]
 INPUTS = {"BI", "S1"}
 
+# RM0090 8.3.2: pins of the debug port that are pulled up from a reset on, until the firmware has set
+# them up. What must be safe meanwhile cannot be there.
+PULLED_UP = {"A15": "JTDI", "B4": "NJTRST"}
+SAFE_AT_RESET = {"STEP", "DIR", "BO", "LINE"}
+
 
 @dataclass(frozen=True)
 class Pin:
@@ -73,6 +78,8 @@ def read_board(text: str) -> Board:
 def use_errors(pin: Pin, line: str) -> Iterator[str]:
     """Whether the pin can do what its signal needs."""
     kind, _, which = pin.signal.partition("_")
+    if kind in SAFE_AT_RESET and pin.pin in PULLED_UP:
+        yield f"{pin.signal}: P{pin.pin} is pulled up at reset as {PULLED_UP[pin.pin]}"
     if kind == "STEP":
         if pin.use != f"TIM2_CH{which}":
             yield f"{pin.signal} must be TIM2_CH{which}, not {pin.use}"

@@ -8,7 +8,7 @@
 #define BOARD_H
 
 #define BOARD_PINS(X)          \
-    X(STEP_1, A, 15, TIM2_CH1) \
+    X(STEP_1, A, 5, TIM2_CH1)  \
     X(STEP_2, A, 1, TIM2_CH2)  \
     X(STEP_3, A, 2, TIM2_CH3)  \
     X(STEP_4, A, 3, TIM2_CH4)  \
@@ -27,7 +27,7 @@
     X(BI_6, E, 13, IN_UP)      \
     X(BI_7, E, 14, IN_UP)      \
     X(BI_8, E, 15, IN_UP)      \
-    X(BO_1, B, 4, OUT)         \
+    X(BO_1, B, 11, OUT)        \
     X(BO_2, B, 5, OUT)         \
     X(BO_3, B, 7, OUT)         \
     X(BO_4, B, 8, OUT)         \
@@ -46,7 +46,7 @@
 
 /* Pins that parts on the board drive or load; checked, not used. */
 #define BOARD_TAKEN(X)                                                                            \
-    X(A, 0, "button B1") X(A, 4, "audio") X(A, 5, "accelerometer") X(A, 6, "accelerometer")       \
+    X(A, 0, "button B1") X(A, 4, "audio") X(A, 6, "accelerometer")                                \
     X(A, 7, "accelerometer") X(A, 9, "USB") X(A, 10, "USB") X(A, 11, "USB") X(A, 12, "USB")       \
     X(B, 3, "SWO") X(B, 6, "audio") X(B, 9, "audio") X(B, 10, "microphone") X(B, 2, "BOOT1")      \
     X(C, 0, "USB") X(C, 3, "microphone") X(C, 7, "audio") X(C, 10, "audio") X(C, 12, "audio")     \
