@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import cycle
 
 import numpy as np
@@ -22,11 +23,13 @@ STORM_KHZ = 100
 REQUESTS = [b"\x040", b"\x051", b"\x062", b"\x073", b"\x040"]
 
 
-def run(unit: VirtualBoard, storm: str = "", flood: str = "") -> Modelled:
+def run(
+    unit: VirtualBoard, storm: str = "", flood: str = "", options: Sequence[str] = ()
+) -> Modelled:
     path = unit.folder / "flash"
     path.write_bytes(flash(area(1, [record(m, 1 + m, PROGRAM) for m in MOTORS])))
     script = flood + ask(FLOOD_END_MS + 60, VERSION)
-    return unit.run(script, END_MS / 1000, storm, "--flash", str(path))
+    return unit.run(script, END_MS / 1000, storm, "--flash", str(path), *options)
 
 
 def storm() -> str:
@@ -76,9 +79,30 @@ def test_a_storm_on_inputs_and_line_moves_no_pulse_and_the_unit_answers(unit, in
     print(f"load {quiet.summary['load']} quiet, {busy.summary['load']} busy")
 
 
-def test_the_image_of_the_second_board_runs_a_program(
-    program, tmp_path, monkeypatch, unit
-):
+@pytest.mark.parametrize(
+    "options",
+    [
+        ["--match-equal"],
+        ["--pwm-at-once"],
+        ["--match-equal", "--pwm-at-once"],
+        ["--timer-start", str(2**32 - 30 * TICKS_PER_MS)],
+        ["--timer-start", str(2**32 - 200 * TICKS_PER_MS), "--match-equal", "--pwm-at-once"],
+        ["--timer-start", str(2**31 - 100 * TICKS_PER_MS)],
+    ],
+    ids=["equal", "pwm", "both", "turns before", "turns in a move", "half-way"],
+)
+def test_what_the_manual_leaves_open_and_the_count_of_the_timer_change_no_pulse(unit, options):
+    plain = run(unit)
+
+    other = run(unit, options=options)
+
+    assert len(plain.steps.tick) == 4 * 6000
+    for motor in MOTORS:
+        assert np.array_equal(of_motor(plain.steps, motor), of_motor(other.steps, motor))
+    assert other.late_steps == 0
+
+
+def test_the_image_of_the_second_board_runs_a_program(program, tmp_path, monkeypatch, unit):
     second = VirtualBoard(program, board.build("f407-discovery"), tmp_path)
     script = ask(60, VERSION) + ask(100, b"\x021\\T01S2000V2000F7R")
 
