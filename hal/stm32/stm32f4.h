@@ -38,18 +38,29 @@
 #define RCC_APB1ENR_TIM2EN (1U << 0)
 #define RCC_APB1ENR_USART2EN (1U << 17)
 #define RCC_APB1ENR_USART3EN (1U << 18)
+#define RCC_APB1ENR_PWREN (1U << 28)
 #define RCC_APB2ENR_USART1EN (1U << 4)
 #define RCC_CSR_RMVF (1U << 24)
 #define RCC_CSR_BORRSTF (1U << 25)
 #define RCC_CSR_PORRSTF (1U << 27)
 #define RCC_CSR_IWDGRSTF (1U << 29)
 
+/* Power control */
+#define PWR_BASE 0x40007000U
+#define PWR_CR STM32_REGISTER(PWR_BASE + 0x00U)  /* 5.4.1 */
+#define PWR_CSR STM32_REGISTER(PWR_BASE + 0x04U) /* 5.4.2 */
+#define PWR_CR_PVDE (1U << 4)
+#define PWR_CR_PLS(n) ((n) << 5)
+#define PWR_CSR_PVDO (1U << 2)
+
 /* Flash interface */
 #define FLASH_BASE 0x40023C00U
 #define FLASH_ACR STM32_REGISTER(FLASH_BASE + 0x00U)  /* 3.9.1 */
 #define FLASH_KEYR STM32_REGISTER(FLASH_BASE + 0x04U) /* 3.9.3 */
+#define FLASH_OPTKEYR STM32_REGISTER(FLASH_BASE + 0x08U) /* 3.9.4 */
 #define FLASH_SR STM32_REGISTER(FLASH_BASE + 0x0CU)   /* 3.9.5 */
 #define FLASH_CR STM32_REGISTER(FLASH_BASE + 0x10U)   /* 3.9.7 */
+#define FLASH_OPTCR STM32_REGISTER(FLASH_BASE + 0x14U) /* 3.9.8 */
 #define FLASH_ACR_LATENCY(n) ((n) << 0)
 #define FLASH_ACR_PRFTEN (1U << 8)
 #define FLASH_ACR_ICEN (1U << 9)
@@ -68,6 +79,11 @@
 #define FLASH_CR_PSIZE(n) ((n) << 8)
 #define FLASH_CR_STRT (1U << 16)
 #define FLASH_CR_LOCK (1U << 31)
+#define FLASH_OPTCR_OPTLOCK (1U << 0)
+#define FLASH_OPTCR_OPTSTRT (1U << 1)
+#define FLASH_OPTCR_BOR_LEV(n) ((n) << 2)
+#define FLASH_OPTION_KEY_1 0x08192A3BU /* 3.6.3 */
+#define FLASH_OPTION_KEY_2 0x4C5D6E7FU
 #define FLASH_KEY_1 0x45670123U /* 3.6.1 */
 #define FLASH_KEY_2 0xCDEF89ABU
 

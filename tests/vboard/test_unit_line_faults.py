@@ -1,4 +1,4 @@
-"""Bytes that come damaged, or too late to be taken: they never become a command, and are counted."""
+"""Bytes that come damaged or are overrun: they never become a command, and are counted."""
 
 from __future__ import annotations
 

@@ -94,8 +94,8 @@ def test_a_reset_ends_a_fault(run_image):
 
 
 @pytest.mark.parametrize(
-    "fault", ["5", "5:", "5:jump", "5:jump=nothing", "5:lose=3", "5:lose=15,x", "5:word=guard", "x:power",
-              "5:word=guard+1:0", "5:powerful", "5:sp=123456789"],
+    "fault", ["5", "5:", "5:jump", "5:jump=nothing", "5:lose=3", "5:lose=15,x", "5:word=guard",
+              "x:power", "5:word=guard+1:0", "5:powerful", "5:sp=123456789", "5:supply=x"],
 )  # fmt: skip
 def test_a_fault_that_cannot_be_read_is_told(run_image, fault):
     done = run_image("victim", "--fault", fault)
@@ -136,7 +136,7 @@ def test_a_cut_leaves_what_is_asked_for(run_image, tmp_path, leaves, ones):
 
 
 def test_a_cut_with_a_seed_leaves_some_of_the_bits_and_the_same_ones_again(run_image, tmp_path):
-    left = []
+    left: list[bytes] = []
     for seed in (1, 1, 2):
         flash = tmp_path / f"flash{len(left)}"
         flash.write_bytes(bytes(0x100000))

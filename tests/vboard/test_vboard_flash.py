@@ -110,3 +110,28 @@ def test_power_can_be_cut_while_a_sector_is_erased(run_image, tmp_path):
     content = flash.read_bytes()
     assert content[SECTOR_4 : SECTOR_4 + 0x8000] == b"\xff" * 0x8000
     assert content[SECTOR_4 + 0x8000 : SECTOR_4 + 0x10000] == bytes(0x8000)
+
+
+OPTIONS = 0x0FFFAAED
+"""OPTCR of a part as delivered, locked."""
+
+
+def test_option_bytes_are_locked_until_both_keys_came(run_image):
+    result = run_image("supply").result
+
+    assert result[0:4] == [OPTIONS, OPTIONS, OPTIONS & ~1, OPTIONS & ~0xC]
+
+
+def test_option_bytes_outlast_a_reset(run_image):
+    run = run_image("supply", defines=["AGAIN"])
+
+    assert run.result[10] == OPTIONS & ~0xC
+    assert run.summary["flash"]["options"] == OPTIONS & ~0xD
+    assert run.summary["flash"]["option_writes"] == 1
+
+
+@pytest.mark.parametrize(
+    ("supply_mv", "low"), [(3300, [0, 0, 0]), (2850, [0, 4, 0]), (2650, [0, 4, 4])]
+)
+def test_the_voltage_detector_compares_with_its_level_when_it_is_on(run_image, supply_mv, low):
+    assert run_image("supply", "--fault", f"0:supply={supply_mv}").result[4:7] == low

@@ -45,8 +45,8 @@ SIGNALS = [
 ]
 INPUTS = {"BI", "S1"}
 
-# RM0090 8.3.2: pins of the debug port that are pulled up from a reset on, until the firmware has set
-# them up. What must be safe meanwhile cannot be there.
+# RM0090 8.3.2: pins of the debug port that are pulled up from a reset on, until the firmware has
+# set them up. What must be safe meanwhile cannot be there.
 PULLED_UP = {"A15": "JTDI", "B4": "NJTRST"}
 SAFE_AT_RESET = {"STEP", "DIR", "BO", "LINE"}
 

@@ -234,6 +234,8 @@ bool board_init(struct board *board, const struct options *options)
     memset(board, 0, sizeof *board);
     board->options = options;
     events_init(&board->events);
+    board->plain.supply_mv = PLAIN_SUPPLY_MV;
+    board->flash.options = FLASH_OPTIONS_DELIVERED;
     vtime_set_hclk(&board->time, 0, 1000000); /* until the reset sets it, at cycle 0 */
     if (!cpu_init(board) || !memory_init(board) || !bus_init(board)) {
         complain("the emulator cannot be set up; is there memory enough?");

@@ -6,7 +6,7 @@
 #include "complain.h"
 #include "line.h"
 
-enum { MS_DECIMALS = 9, NAME_BYTES_MAX = 64, NO_ADDRESS = 1 };
+enum { MS_DECIMALS = 9, NAME_BYTES_MAX = 64, NO_ADDRESS = 1, SUPPLY_MV_MAX = 4000 };
 
 #define MS_MAX UINT64_C(1000000000)
 #define LOSE_MS_MAX UINT64_C(1000000)
@@ -92,6 +92,16 @@ static bool read_word(struct board *board, const char *at, const char *end, stru
     return true;
 }
 
+/* supply=MILLIVOLTS */
+static bool read_supply(struct board *board, const char *at, const char *end, struct fault fault)
+{
+    uint64_t number = 0;
+    bool good = line_read_fixed(&at, end, 0, SUPPLY_MV_MAX, &number) && at == end;
+    fault.value = (uint32_t)number;
+    insert(&board->faults, fault);
+    return good;
+}
+
 static bool read_place(struct board *board, const char *at, const char *end, struct fault fault)
 {
     bool good = fault.kind == FAULT_POWER ? at == end : read_address(board, at, end, &fault.address);
@@ -109,6 +119,7 @@ static bool read_fault(struct board *board, const char *at)
     } kinds[] = {
         {"jump=", FAULT_JUMP, read_place}, {"sp=", FAULT_STACK, read_place},  {"word=", FAULT_WORD, read_word},
         {"hold=", FAULT_HOLD, read_place}, {"lose=", FAULT_LOSE, read_loss}, {"power", FAULT_POWER, read_place},
+        {"supply=", FAULT_SUPPLY, read_supply},
     };
     const char *end = at + strlen(at);
     uint64_t ps = 0;
@@ -182,6 +193,9 @@ static void apply(struct board *board, const struct fault *fault)
     case FAULT_LOSE:
     case FAULT_FIND:
         nvic_lose(board, fault->address, fault->kind == FAULT_LOSE);
+        break;
+    case FAULT_SUPPLY:
+        board->plain.supply_mv = fault->value;
         break;
     case FAULT_POWER:
         flash_cut(board);

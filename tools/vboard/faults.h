@@ -1,5 +1,5 @@
 /*
- * What goes wrong on request: --fault MS:WHAT, each once, at a time. The fault ends with the next reset.
+ * What goes wrong on request: --fault MS:WHAT, each once, at a time. The fault ends with the next reset, but for the supply.
  */
 #ifndef FAULTS_H
 #define FAULTS_H
@@ -19,6 +19,7 @@ enum fault_kind {
     FAULT_LOSE,  /* an exception is not taken any more */
     FAULT_FIND,  /* it is taken again */
     FAULT_POWER, /* power goes, and comes back at once */
+    FAULT_SUPPLY, /* the supply has another voltage, which the voltage detector sees */
 };
 
 struct fault {

@@ -12,6 +12,7 @@ enum {
     FLASH_CR = 0x10,
     FLASH_OPTCR = 0x14,
     SECTORS = 12,
+    OPTIONS_MS = 5, /* the data sheet does not say it; a sector of 16 kB takes 250 ms */
 };
 
 #define KEY1 UINT32_C(0x45670123)
@@ -36,7 +37,11 @@ enum {
 #define CR_ERRIE (UINT32_C(1) << 25)
 #define CR_LOCK (UINT32_C(1) << 31)
 #define CR_MASK UINT32_C(0x8301037F)
-#define OPTCR_RESET UINT32_C(0x0FFFAAED)
+#define OPTION_KEY1 UINT32_C(0x08192A3B)
+#define OPTION_KEY2 UINT32_C(0x4C5D6E7F)
+#define OPTCR_LOCK (UINT32_C(1) << 0)
+#define OPTCR_STRT (UINT32_C(1) << 1)
+#define OPTCR_MASK UINT32_C(0x0FFFFFEC)
 
 /* RM0090 table 5: four sectors of 16 kB, one of 64 kB, seven of 128 kB. */
 static uint32_t sector_base(unsigned sector)
@@ -73,7 +78,9 @@ void flash_reset(struct board *board)
     flash->acr = 0;
     flash->sr = 0;
     flash->cr = CR_LOCK;
+    flash->optcr = flash->options | OPTCR_LOCK;
     flash->keys = 0;
+    flash->option_keys = 0;
     flash->locked_out = false;
     flash->operation = FLASH_IDLE;
     events_set(board, EVENT_FLASH, VTIME_NEVER);
@@ -231,6 +238,9 @@ void flash_event(struct board *board, uint64_t cycle)
     (void)cycle;
     if (flash->cut != NULL) {
         lose_power(board);
+    } else if (flash->operation == FLASH_OPTIONS) {
+        flash->options = flash->optcr & OPTCR_MASK;
+        flash->optcr &= ~OPTCR_STRT;
     } else if (flash->fails) {
         fail(board);
     } else {
@@ -298,6 +308,37 @@ static void write_key(struct board *board, uint32_t value)
     }
 }
 
+/* Section 3.6.3. Further wrong keys lock as those of FLASH_CR do; that is not modelled. */
+static void write_option_key(struct board *board, uint32_t value)
+{
+    struct flash *flash = &board->flash;
+    bool right = value == (flash->option_keys == 0 ? OPTION_KEY1 : OPTION_KEY2);
+    flash->option_keys = right ? flash->option_keys + 1U : 0U;
+    if (flash->option_keys == 2) {
+        flash->option_keys = 0;
+        flash->optcr &= ~OPTCR_LOCK;
+    }
+}
+
+/* Locked, it takes nothing. What is written is kept when OPTSTRT is set; it counts as no operation of the flash. */
+static void write_options(struct board *board, uint32_t value)
+{
+    struct flash *flash = &board->flash;
+    if ((flash->optcr & OPTCR_LOCK) != 0) {
+        return;
+    }
+    cpu_stall_on_flash(board, MEMORY_FLASH_BASE);
+    flash->optcr = value & (OPTCR_MASK | OPTCR_LOCK | OPTCR_STRT);
+    if ((value & OPTCR_STRT) != 0) {
+        flash->operation = FLASH_OPTIONS;
+        flash->bytes = 0;
+        flash->cut = NULL;
+        flash->option_writes++;
+        events_set_ps(board, EVENT_FLASH, board_now_ps(board) + OPTIONS_MS * VTIME_PS_PER_MS);
+        cpu_poke(&board->cpu);
+    }
+}
+
 static void write_control(struct board *board, uint32_t value)
 {
     struct flash *flash = &board->flash;
@@ -339,7 +380,7 @@ bool flash_read_register(struct board *board, unsigned instance, uint32_t offset
         *value = flash->cr;
         return true;
     case FLASH_OPTCR:
-        *value = OPTCR_RESET;
+        *value = flash->optcr;
         return true;
     default:
         return false;
@@ -356,6 +397,12 @@ bool flash_write_register(struct board *board, unsigned instance, uint32_t offse
         return true;
     case FLASH_KEYR:
         write_key(board, value);
+        return true;
+    case FLASH_OPTKEYR:
+        write_option_key(board, value);
+        return true;
+    case FLASH_OPTCR:
+        write_options(board, (flash->optcr & ~mask) | (value & mask));
         return true;
     case FLASH_SR:
         flash->sr &= ~(value & mask & SR_CLEARABLE);

@@ -15,12 +15,20 @@ enum flash_operation {
     FLASH_IDLE,
     FLASH_PROGRAM,
     FLASH_ERASE,
+    FLASH_OPTIONS,
 };
+
+/* OPTCR of a part as it is delivered: no brown-out reset, no protection (RM0090 section 3.9.8). */
+#define FLASH_OPTIONS_DELIVERED UINT32_C(0x0FFFAAED)
 
 struct flash {
     uint32_t acr;
     uint32_t sr;
     uint32_t cr;
+    uint32_t optcr;
+    uint32_t options;  /* what is kept of OPTCR; a reset brings it back */
+    unsigned option_keys;
+    uint64_t option_writes;
     unsigned keys;     /* how many of the two keys have come */
     bool locked_out;   /* a wrong key: locked until the next reset */
     enum flash_operation operation;

@@ -55,6 +55,7 @@ const char options_usage[] =
     "                        hold=PLACE    the program does not get past this instruction; interrupts do\n"
     "                        lose=N[,MS]   exception N is not taken, or not for some time\n"
     "                        power         power goes and comes back at once\n"
+    "                        supply=MV     the voltage detector sees this supply (3300)\n"
     "                        A PLACE is hexadecimal, or a symbol, or SYMBOL+HEX.\n"
     "  --stuck PIN=LEVEL     a pin is stuck; may be repeated\n"
     "\n"

@@ -1,5 +1,5 @@
 /*
- * Blocks that are no more than registers here: power control (RM0090 chapter 5) and system configuration (chapter 9).
+ * Blocks that are little more than registers here: power control (RM0090 chapter 5), with its voltage detector, and system configuration (chapter 9).
  */
 #ifndef PLAIN_H
 #define PLAIN_H
@@ -11,8 +11,12 @@ struct board;
 
 struct plain {
     uint32_t pwr_cr;
+    uint32_t supply_mv; /* a reset leaves it */
     uint32_t syscfg[5];
 };
+
+/* The supply voltage at power-on. */
+enum { PLAIN_SUPPLY_MV = 3300 };
 
 void plain_reset(struct board *board);
 bool pwr_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);

@@ -38,7 +38,7 @@ bool recorder_open(struct board *board)
                                                      .setup_least_ps = VTIME_NEVER,
                                                      .hold_least_ps = VTIME_NEVER};
     }
-    recorder->first_step_cycle = VTIME_NEVER;
+    recorder->first_step_ps = VTIME_NEVER;
     if (!outfile_open(&recorder->steps, board->options->steps) ||
         !outfile_open(&recorder->vcd.file, board->options->vcd)) {
         return false;
@@ -96,8 +96,8 @@ static void note_pulse(struct board *board, unsigned index, uint64_t cycle)
     struct recorder *recorder = &board->recorder;
     struct recorder_motor *motor = &recorder->motor[index];
     motor->position += recorder->level[SIGNAL_DIRECTION + index] ? -1 : 1;
-    if (recorder->first_step_cycle == VTIME_NEVER) {
-        recorder->first_step_cycle = cycle;
+    if (recorder->first_step_ps == VTIME_NEVER) {
+        recorder->first_step_ps = vtime_ps_of_cycle(&board->time, cycle);
     }
     if (motor->pulses > 0) {
         note_time(board, &motor->period_least_ps, motor->rise_cycle, cycle);

@@ -35,7 +35,7 @@ struct recorder {
     struct outfile steps;
     struct vcd vcd;
     uint64_t tick_hz;          /* that the table says; 0: it has not been begun */
-    uint64_t first_step_cycle; /* NEVER: none yet */
+    uint64_t first_step_ps; /* NEVER: none yet */
 };
 
 /* Opens the files that the options ask for. False after a complaint. */

@@ -140,9 +140,7 @@ static void print_motors(const struct board *board)
 {
     const struct recorder *recorder = &board->recorder;
     put_number("tick_hz", recorder->tick_hz);
-    put_us("first_step_microseconds", recorder->first_step_cycle == VTIME_NEVER
-                                          ? VTIME_NEVER
-                                          : vtime_ps_of_cycle(&board->time, recorder->first_step_cycle));
+    put_us("first_step_microseconds", recorder->first_step_ps);
     (void)printf("\"motors\":[");
     for (unsigned i = 0; i < PINS_MOTORS; i++) {
         const struct recorder_motor *motor = &recorder->motor[i];
@@ -177,6 +175,8 @@ static void print_peripherals(const struct board *board)
     put_number("operations", board->flash.operations);
     put_number("programs", board->flash.programs);
     put_number("erases", board->flash.erases);
+    put_number("options", board->flash.options);
+    put_number("option_writes", board->flash.option_writes);
     (void)printf("\"stalls\":%" PRIu64 "},\n\"watchdog\":{\"started\":%s,", board->flash.stalls,
                  board->iwdg.started ? "true" : "false");
     put_us("longest", board->iwdg.longest_ps);
