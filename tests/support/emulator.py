@@ -181,7 +181,8 @@ def emulator(image: Path) -> Iterator[Emulator]:
     """Start a board; it is running when this returns."""
     line_port, gdb_port = free_port(), free_port()
     command = [
-        PROGRAM, "-M", MACHINE, *TIME, "-display", "none", "-monitor", "none", "-kernel", str(image),
+        PROGRAM, "-M", MACHINE, *TIME, "-display", "none", "-monitor", "none",
+        "-kernel", str(image),
         "-serial", f"tcp:127.0.0.1:{line_port},server=on,wait=off",
         "-gdb", f"tcp:127.0.0.1:{gdb_port}",
     ]  # fmt: skip

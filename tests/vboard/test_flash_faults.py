@@ -35,11 +35,11 @@ def store_twice(unit: VirtualBoard, content: bytes, failure: str) -> Modelled:
     """Set and store a program, ask what is stored after a power cut; and all of it again."""
     path = unit.folder / "flash"
     path.write_bytes(content)
-    script = ask(15, b"\x021\\" + NEW) + ask(45, b"\x031") + ask(95, b"\x051")
-    script += ask(130, b"\x021\\" + NEW) + ask(160, b"\x031") + ask(210, b"\x051")
+    script = ask(30, b"\x021\\" + NEW) + ask(60, b"\x031") + ask(110, b"\x051")
+    script += ask(145, b"\x021\\" + NEW) + ask(175, b"\x031") + ask(225, b"\x051")
     options = ["--flash", str(path), "--flash-erase", "0.5", "--flash-fail", failure]
-    options += ["--fault", "65:power", "--fault", "180:power"]
-    return unit.run(script, 0.24, "", *options)
+    options += ["--fault", "80:power", "--fault", "195:power"]
+    return unit.run(script, 0.255, "", *options)
 
 
 @pytest.mark.parametrize("operation", [1, 8, 13, OPERATIONS])
@@ -112,10 +112,10 @@ def test_a_damaged_program_blinks_until_it_is_replaced(unit):
 def test_a_low_supply_begins_no_operation_and_the_old_program_stays(unit):
     path = unit.folder / "flash"
     path.write_bytes(STORED)
-    script = ask(15, b"\x021\\" + NEW) + ask(45, b"\x031") + ask(65, b"\x031")
-    faults = ["--fault", "30:supply=2850", "--fault", "60:supply=3300"]
+    script = ask(30, b"\x021\\" + NEW) + ask(60, b"\x031") + ask(80, b"\x031")
+    faults = ["--fault", "45:supply=2850", "--fault", "75:supply=3300"]
 
-    modelled = unit.run(script, 0.1, "", "--flash", str(path), "--flash-erase", "0.5", *faults)
+    modelled = unit.run(script, 0.115, "", "--flash", str(path), "--flash-erase", "0.5", *faults)
 
     assert [answer.message for answer in message(unit, 3)] == [FAILED, b"\x031\0"]
     assert modelled.summary["flash"]["erases"] == 1

@@ -23,8 +23,8 @@ MOVES = {b"": 0, OLD: 5, NEW: -7, NEXT: 3}
 START_MS = 40
 """Within it a stored program has run, and no other one has come."""
 ERASE_MS = "0.5"
-SET_MS, STORE_MS, ASK_MS, END_MS = 15.0, 45.0, 100.0, 140.0
-AGAIN_MS, AGAIN_LATER_MS = 90.0, 80.0
+SET_MS, STORE_MS, ASK_MS, END_MS = 30.0, 60.0, 115.0, 155.0
+AGAIN_MS, AGAIN_LATER_MS = 105.0, 80.0
 LEAVES = ("half", "all", "{seed}")
 SEED = 20261121
 PAIRS = 12
