@@ -42,7 +42,7 @@ void hal_board_init(void)
     start_cause = find_cause();
     stm32_step_start(board_clock.crystal);
     stm32_pins_start();
-    stm32_flash_start();
+    stm32_supply_start();
     stm32_line_start(&board_clock);
     enable_interrupt(STM32_LINE_IRQ, STM32_PRIORITY_LINE);
     stm32_watchdog_start();

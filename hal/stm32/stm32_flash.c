@@ -15,10 +15,6 @@ enum {
     WIDTH_32 = 2, /* 2.7 to 3.6 V, RM0090 3.6.2 */
 
     WRITE_TICKS_MAX = 2 * TICKS_PER_MS, /* datasheet: 100 us */
-
-    DETECT_2900_MV = 7,
-    BROWN_OUT_2700_MV = 0, /* level 3, RM0090 5.2.2 */
-    BROWN_OUT_MASK = 3,
 };
 #define AREA_FIRST 0x080C0000U
 #define ERASE_TICKS_MAX (4U * TICK_HZ) /* datasheet: 2 s */
@@ -52,7 +48,7 @@ static void unlock(uint32_t control)
     FLASH_CR = control;
 }
 
-/* Below 2.9 V nothing is begun: words are written 32 bits at a time, for which 2.7 V are the least. */
+/* Below the 2.9 V of stm32_supply.c nothing is begun: 32 bits at a time need 2.7 V. */
 static bool supply_is_good(void)
 {
     return (PWR_CSR & PWR_CSR_PVDO) == 0;
@@ -108,29 +104,4 @@ bool hal_flash_erase(unsigned area)
     lock();
     forget_cached();
     return done;
-}
-
-/* Once in the life of a board: from the next power-on on, the part is held in reset while its supply is below 2.7 V,
- * where neither the processor at this clock nor the flash is specified. */
-static void set_brown_out_level(void)
-{
-    FLASH_OPTKEYR = FLASH_OPTION_KEY_1;
-    FLASH_OPTKEYR = FLASH_OPTION_KEY_2;
-    FLASH_OPTCR = (FLASH_OPTCR & ~FLASH_OPTCR_BOR_LEV((uint32_t)BROWN_OUT_MASK)) |
-                  FLASH_OPTCR_BOR_LEV((uint32_t)BROWN_OUT_2700_MV);
-    FLASH_OPTCR |= FLASH_OPTCR_OPTSTRT;
-    stm32_barrier();
-    (void)wait_until_done(ERASE_TICKS_MAX);
-    FLASH_OPTCR |= FLASH_OPTCR_OPTLOCK;
-}
-
-void stm32_flash_start(void)
-{
-    uint32_t level = FLASH_OPTCR & FLASH_OPTCR_BOR_LEV((uint32_t)BROWN_OUT_MASK);
-    RCC_APB1ENR |= RCC_APB1ENR_PWREN;
-    (void)RCC_APB1ENR;
-    PWR_CR |= PWR_CR_PVDE | PWR_CR_PLS((uint32_t)DETECT_2900_MV);
-    if (level != FLASH_OPTCR_BOR_LEV((uint32_t)BROWN_OUT_2700_MV) && supply_is_good()) {
-        set_brown_out_level();
-    }
 }

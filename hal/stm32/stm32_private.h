@@ -76,9 +76,9 @@ void stm32_line_interrupt(void);
 /* Lets the bus go when a transmission does not come to its end. Every millisecond. */
 void stm32_line_tick(void);
 
-/* stm32_flash.c. Behind the step timer, before the watchdog. Sets the level of the brown-out reset, once in the life of
- * a board. */
-void stm32_flash_start(void);
+/* stm32_supply.c. Behind the step timer, before the watchdog. Watches the supply, and sets the level of the brown-out
+ * reset, once in the life of a board. */
+void stm32_supply_start(void);
 
 /* stm32_watchdog.c */
 void stm32_watchdog_start(void);

@@ -219,46 +219,65 @@ static bool read_fault(struct options *options, const char *text)
     return true;
 }
 
+static bool read_watch(struct options *options, const char *text)
+{
+    if (options->watches == OPTIONS_WATCHES_MAX) {
+        complain("--watch %s: one too many; %d can be watched", text, OPTIONS_WATCHES_MAX);
+        return false;
+    }
+    options->watch[options->watches++] = text;
+    return true;
+}
+
+static bool read_set(struct options *options, const char *text)
+{
+    if (options->sets == OPTIONS_SETS_MAX) {
+        complain("--set %s: one too many; %d can be set", text, OPTIONS_SETS_MAX);
+        return false;
+    }
+    options->set[options->sets++] = text;
+    return true;
+}
+
+static bool read_ticks(struct options *options, const char *text)
+{
+    options->ticks_from_timer = strcmp(text, "timer") == 0;
+    if (!options->ticks_from_timer && strcmp(text, "reset") != 0) {
+        complain("--ticks %s: write reset or timer", text);
+        return false;
+    }
+    return true;
+}
+
+typedef bool reader(struct options *options, const char *text);
+
+/* The options that are more than a number or a name of a file; null: not one of them. */
+static reader *find_reader(const char *name)
+{
+    static const struct {
+        const char *name;
+        reader *read;
+    } readers[] = {
+        {"--watch", read_watch},   {"--set", read_set}, {"--stuck", read_stuck},
+        {"--flash-fail", read_flash_failure}, {"--power-cut", read_cut}, {"--fault", read_fault},
+        {"--ticks", read_ticks},
+    };
+    for (unsigned i = 0; i < sizeof readers / sizeof *readers; i++) {
+        if (strcmp(readers[i].name, name) == 0) {
+            return readers[i].read;
+        }
+    }
+    return NULL;
+}
+
 /* The options that are not in the table. False after a complaint. */
 static bool read_special(struct options *options, const char *name, const char *text, bool *known)
 {
+    reader *read = find_reader(name);
     uint64_t number = 0;
     *known = true;
-    if (strcmp(name, "--watch") == 0) {
-        if (options->watches == OPTIONS_WATCHES_MAX) {
-            complain("--watch %s: one too many; %d can be watched", text, OPTIONS_WATCHES_MAX);
-            return false;
-        }
-        options->watch[options->watches++] = text;
-        return true;
-    }
-    if (strcmp(name, "--set") == 0) {
-        if (options->sets == OPTIONS_SETS_MAX) {
-            complain("--set %s: one too many; %d can be set", text, OPTIONS_SETS_MAX);
-            return false;
-        }
-        options->set[options->sets++] = text;
-        return true;
-    }
-    if (strcmp(name, "--stuck") == 0) {
-        return read_stuck(options, text);
-    }
-    if (strcmp(name, "--flash-fail") == 0) {
-        return read_flash_failure(options, text);
-    }
-    if (strcmp(name, "--power-cut") == 0) {
-        return read_cut(options, text);
-    }
-    if (strcmp(name, "--fault") == 0) {
-        return read_fault(options, text);
-    }
-    if (strcmp(name, "--ticks") == 0) {
-        options->ticks_from_timer = strcmp(text, "timer") == 0;
-        if (!options->ticks_from_timer && strcmp(text, "reset") != 0) {
-            complain("--ticks %s: write reset or timer", text);
-            return false;
-        }
-        return true;
+    if (read != NULL) {
+        return read(options, text);
     }
     if (strcmp(name, "--node") == 0) {
         bool good = read_small(name, text, 1, 16, &number);
