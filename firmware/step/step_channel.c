@@ -13,7 +13,7 @@ static const struct step_segment *queue_slot(const struct step_channel *channel,
 }
 
 /* Moves a cursor to the first pulse of the next segment in the queue. False if there is none. */
-static bool cursor_begin_segment(struct step_cursor *cursor, const struct step_channel *channel, uint32_t head)
+static inline bool cursor_begin_segment(struct step_cursor *cursor, const struct step_channel *channel, uint32_t head)
 {
     if (cursor->tail == head) {
         return false;

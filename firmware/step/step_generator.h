@@ -38,9 +38,6 @@ struct step_generator {
 /* Stands still at `tick`, on a whole step. */
 void step_generator_start(struct step_generator *generator, uint32_t tick);
 
-/* Goes on with a segment, on its first pulse. */
-void step_generator_load(struct step_generator *generator, const struct step_segment *segment);
-
 /* Stays on its pulse, which lies on a segment too: the segment's first `made` pulses have been made. */
 void step_generator_join(struct step_generator *generator, const struct step_segment *segment, uint32_t made);
 
@@ -50,6 +47,24 @@ void step_generator_aim(struct step_segment *segment, uint32_t interval_ticks);
 
 /* Moves on to the pulse that comes about `interval` ticks after the last one, where that was foretold wrongly. */
 uint32_t step_generator_search(struct step_generator *generator, uint32_t interval);
+
+/* Takes over what a segment says of all its pulses. */
+static inline void step_generator_take_motion(struct step_generator *generator, const struct step_segment *segment)
+{
+    generator->accel = segment->accel;
+    generator->pace_ticks = segment->pace_ticks;
+    generator->pace_rest = STEP_QUANTA - segment->pace_ticks * segment->slope;
+}
+
+/* Goes on with a segment, on its first pulse. */
+static inline void step_generator_load(struct step_generator *generator, const struct step_segment *segment)
+{
+    step_generator_take_motion(generator, segment);
+    generator->residual = segment->residual;
+    generator->slope = segment->slope;
+    generator->interval = segment->tick - generator->tick;
+    generator->tick = segment->tick;
+}
 
 /* Takes the position and slope after `interval` ticks for those of the next pulse. */
 static inline uint32_t step_generator_accept(struct step_generator *generator, uint64_t residual, uint64_t slope,

@@ -94,7 +94,7 @@ static void serve(void)
 void stm32_line_interrupt(void)
 {
     serve();
-    stm32_event_set();
+    stm32_event = true;
 }
 
 bool hal_line_read(struct hal_line_byte *byte)

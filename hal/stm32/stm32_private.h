@@ -66,7 +66,7 @@ void stm32_step_interrupt(void);
 /* stm32_tick.c. An event is what main has to look at; it ends a sleep. */
 void stm32_tick_start(const struct hal_client *client, uint32_t core_hz, bool crystal);
 void stm32_tick_interrupt(void);
-void stm32_event_set(void);
+extern volatile bool stm32_event;
 bool stm32_event_take(void);
 void stm32_event_sleep(void);
 

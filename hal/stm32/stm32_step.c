@@ -48,7 +48,7 @@ static void rest(unsigned motor, uint32_t edge)
 __attribute__((noinline)) static void follow(unsigned motor, uint32_t edge, unsigned next)
 {
     if ((next & STEP_CHANNEL_LOOK) != 0) {
-        stm32_event_set();
+        stm32_event = true;
     }
     if ((next & STEP_CHANNEL_ARM) != 0) {
         arm(motor, stm32_step.client[motor]->cursor.generator.tick);
@@ -113,7 +113,7 @@ __attribute__((noinline)) static void serve_specials(void)
 /* Whether it takes more than a write of the compare value to arm the next edge: behind the counter's wrap, or late. */
 static inline bool needs_care(uint32_t tick, uint32_t now)
 {
-    return BASE_SELDOM(tick <= now) || BASE_SELDOM((int32_t)(tick - now) < (int32_t)ROOM_TICKS);
+    return BASE_SELDOM(tick <= now) || BASE_SELDOM((int32_t)(tick - now) < (int32_t)MOVE_TICKS);
 }
 
 /* Where a segment ends, and perhaps the move. */
@@ -128,7 +128,7 @@ __attribute__((noinline)) static void serve_border(unsigned motor)
     } else {
         (&TIM2_CCR1)[motor] = tick;
     }
-    stm32_event_set();
+    stm32_event = true;
 }
 
 static inline void serve_plain(unsigned motor)

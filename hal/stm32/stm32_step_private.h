@@ -37,12 +37,12 @@ enum {
 
     WRITE_TICKS = 24, /* at most, from a look at the counter until a channel is armed */
     ROOM_TICKS = LOW_TICKS + WRITE_TICKS,
+    MOVE_TICKS = LOW_TICKS + 10, /* the same for the one write that moves an armed edge on */
     SPIN_TICKS = 2 * WRITE_TICKS,
     STUCK_TICKS = 5 * TICKS_PER_MS,
 
-    /* The first lead for a stop or a change of speed. On the virtual board planning takes about 93 us from the look at
-     * the clock to the cut, so the first tries fail and the mover succeeds with a later one: too short yet. */
-    LEAD_TICKS = 30 * TICKS_PER_US,
+    /* The first lead for a change of speed; where planning takes longer, the mover tries again with twice as much. */
+    LEAD_TICKS = 60 * TICKS_PER_US,
 };
 
 /* What a channel does with its pin, RM0090 18.4.7. */

@@ -20,12 +20,13 @@ enum {
 static struct {
     struct hal_client client;
     uint64_t time; /* the unit's time at the last millisecond */
-    volatile bool event;
     bool crystal;
     uint8_t inputs;
     uint8_t looks;
     uint32_t milliseconds;
 } tick;
+
+volatile bool stm32_event;
 
 static uint64_t extend_time(void)
 {
@@ -61,7 +62,7 @@ void stm32_tick_interrupt(void)
     }
     if (millisecond || inputs != tick.inputs) {
         tick.inputs = inputs;
-        tick.event = true;
+        stm32_event = true;
         tick.client.tick_isr(tick.client.context);
     }
 }
@@ -87,16 +88,11 @@ void hal_run_release_tick(void)
     __asm__ volatile("msr basepri, %0" ::"r"(0) : "memory");
 }
 
-void stm32_event_set(void)
-{
-    tick.event = true;
-}
-
 bool stm32_event_take(void)
 {
-    bool event = tick.event;
+    bool event = stm32_event;
     if (event) {
-        tick.event = false;
+        stm32_event = false;
     }
     return event;
 }
@@ -105,7 +101,7 @@ bool stm32_event_take(void)
 void stm32_event_sleep(void)
 {
     uint32_t mask = stm32_mask();
-    if (!tick.event) {
+    if (!stm32_event) {
         __asm__ volatile("dsb\n\twfi" ::: "memory");
     }
     stm32_unmask(mask);
