@@ -12,6 +12,7 @@
 /* A blinking LED is on for half a second and off for half a second. */
 #define BLINK_TICKS ((uint64_t)TICK_HZ / 2U)
 
+static_assert((uint32_t)PROTOCOL_LINE_COUNTS == (uint32_t)LINK_COUNTS_TOTAL, "Get Status tells all of them");
 static_assert((uint32_t)PROTOCOL_ANSWER_BYTES_MAX >= (uint32_t)STORE_TEXT_BYTES_MAX, "a stored program must fit");
 
 static bool unit_step_isr(void *context, unsigned motor)
@@ -51,6 +52,7 @@ void unit_init(struct unit *unit)
         .interpreters = unit->interpreter,
         .store = &unit->store,
         .version = UNIT_VERSION,
+        .line_counts = unit->link.receiver.counts,
     };
     unit->client = (struct hal_client){
         .context = unit,

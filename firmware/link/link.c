@@ -8,8 +8,6 @@ void link_init(struct link *link, uint8_t node, const uint8_t *answer)
     link_sender_init(&link->sender);
     link->answer = answer;
     link->ready_tick = TICK_NEVER;
-    link->repeats = 0;
-    link->unsent = 0;
     link->answer_number = LINK_NUMBER_NONE;
     link_forget(link);
 }
@@ -29,16 +27,23 @@ static void ready_answer(struct link *link)
     link->ready_tick = TICK_NEVER;
 }
 
+static void link_count(struct link *link, enum link_count count)
+{
+    link->receiver.counts[count]++;
+}
+
 bool link_take(struct link *link, const struct hal_line_byte *byte, struct link_request *request)
 {
     const struct link_receiver *receiver = &link->receiver;
     if (!link_receiver_take(&link->receiver, byte)) {
         return false;
     }
-    link->unsent += link->waiting ? 1U : 0U;
-    link->waiting = false;
+    if (link->waiting) {
+        link_count(link, LINK_COUNT_UNSENT);
+        link->waiting = false;
+    }
     if (is_repeat(link)) {
-        link->repeats++;
+        link_count(link, LINK_COUNT_REPEATS);
         ready_answer(link);
         return false;
     }
@@ -88,7 +93,7 @@ uint64_t link_poll(struct link *link, uint64_t now_ticks)
     }
     link->waiting = false;
     if (now_ticks > link->ready_tick + LINK_PATIENCE_TICKS) {
-        link->unsent++;
+        link_count(link, LINK_COUNT_UNSENT);
         return TICK_NEVER;
     }
     link_sender_start(&link->sender, link->receiver.node | LINK_ADDRESS_ANSWER, link->answer_number, link->answer,

@@ -31,8 +31,6 @@ struct link {
     uint32_t answered_length;    /* bytes of the request answered last */
     uint32_t answered_crc;       /* its CRC-32 */
     uint64_t ready_tick;         /* when link_poll first saw an answer to be sent; TICK_NEVER: not yet */
-    uint32_t repeats;            /* requests that were not executed again; modulo 2^32 */
-    uint32_t unsent;             /* answers not begun, as the line was not silent; modulo 2^32 */
     uint8_t answered_number;     /* its number; 0: no request is known again */
     uint8_t answer_number;       /* the number that the answer carries */
     bool waiting;                /* the answer is to be sent */

@@ -14,7 +14,7 @@
 #include "hal_line.h"
 #include "link_frame.h"
 
-/* What the receiver has seen. X(NAME, text) */
+/* What the link has seen; the order is that of message 200. X(NAME, text) */
 #define LINK_COUNTS(X)                                                                                                 \
     X(FRAMES, "good frames for this unit")                                                                             \
     X(FOREIGN, "good frames for others, and answers")                                                                  \
@@ -25,7 +25,9 @@
     X(ESCAPE, "frames with a byte escaped that must not be")                                                           \
     X(SHORT, "frames without a message")                                                                               \
     X(LONG, "frames that were too long")                                                                               \
-    X(GAP, "frames with a gap")
+    X(GAP, "frames with a gap")                                                                                        \
+    X(REPEATS, "requests that were not executed again")                                                                \
+    X(UNSENT, "answers not begun, as the line was not silent")
 
 enum link_count {
 #define X(name, text) LINK_COUNT_##name,
@@ -47,7 +49,7 @@ struct link_receiver {
     uint8_t node;    /* of this unit, 1 to 16 */
     uint8_t address; /* of the frame so far, or of the last one */
     uint8_t number;
-    uint32_t counts[LINK_COUNTS_TOTAL]; /* modulo 2^32 */
+    uint32_t counts[LINK_COUNTS_TOTAL]; /* modulo 2^32; REPEATS and UNSENT are counted by the link */
 };
 
 /* Waits for the first flag; all counts are 0. */

@@ -56,6 +56,15 @@ static void answer_version(struct exchange *exchange)
     text_put_string(&exchange->answer, exchange->protocol->version);
 }
 
+static void answer_get_status(struct exchange *exchange)
+{
+    struct protocol_status status;
+    protocol_status_read(&status, exchange->protocol->interpreters);
+    memcpy(status.line_counts, exchange->protocol->line_counts, sizeof status.line_counts);
+    text_put_byte(&exchange->answer, PROTOCOL_GET_STATUS);
+    protocol_status_put(&status, &exchange->answer);
+}
+
 static void answer_unknown(struct exchange *exchange)
 {
     text_put_byte(&exchange->answer, PROTOCOL_UNKNOWN);
@@ -208,6 +217,8 @@ uint32_t protocol_answer(struct protocol *protocol, const uint8_t *request, uint
     }
     if (request[0] == PROTOCOL_VERSION) {
         answer_version(&exchange);
+    } else if (request[0] == PROTOCOL_GET_STATUS) {
+        answer_get_status(&exchange);
     } else if (request[0] < PROTOCOL_VERSION || request[0] > PROTOCOL_GET_PROGRESS) {
         answer_unknown(&exchange);
     } else if (!exchange_find_motors(&exchange)) {

@@ -13,6 +13,7 @@
 #include "interpreter.h"
 #include "mover.h"
 #include "program_listing.h"
+#include "protocol_status.h"
 #include "store.h"
 
 enum {
@@ -30,6 +31,7 @@ enum {
     X(GET_COMMAND, 5)                                                                                                  \
     X(GET_TABLE, 6)                                                                                                    \
     X(GET_PROGRESS, 7)                                                                                                 \
+    X(GET_STATUS, 200)                                                                                                 \
     X(UNKNOWN, 255)
 
 enum protocol_message {
@@ -42,6 +44,7 @@ struct protocol {
     struct interpreter *interpreters; /* UNIT_MOTORS of them */
     struct store *store;
     const char *version;              /* "NN.NN,DD.MM.YYYY"; at most 255 bytes */
+    const uint32_t *line_counts;      /* PROTOCOL_LINE_COUNTS of them, for Get Status */
 };
 
 /* Does what the request asks for and writes the answer. Returns the answer's length; 0 for an empty or over-long

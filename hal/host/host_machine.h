@@ -14,6 +14,7 @@
 #include <stdint.h>
 
 #include "base_limits.h"
+#include "hal_board.h"
 #include "hal_flash.h"
 #include "hal_line.h"
 #include "hal_run.h"
@@ -93,7 +94,7 @@ struct host_faults {
     enum host_flash_done flash_done; /* of the operation that goes wrong */
     uint32_t late_step_ticks; /* every step interrupt comes this much after the edge */
     bool no_crystal;          /* the board allows no motion */
-    bool bad_start;           /* the board has started behind its watchdog or a fault */
+    enum hal_board_cause start_cause; /* why the board has started */
 };
 
 struct host_machine {

@@ -19,17 +19,16 @@ enum hal_board_cause {
 /* Readies clocks, pins, timer, line and watchdog; outputs stay at 0. Every wait in it is bounded. Once. */
 void hal_board_init(void);
 
-/* Why the board has started. */
+/* Why the board has started. A host backend has this function and the next three, not the others. */
 enum hal_board_cause hal_board_start_cause(void);
 
-/* Whether motion is allowed: not without the crystal, as step times would be wrong. A host backend has this function
- * and the next, not the others. */
+/* Whether motion is allowed: not without the crystal, as step times would be wrong. */
 bool hal_board_may_move(void);
 
 /* Whether stored programs may start by themselves: not behind a watchdog or a fault. */
 bool hal_board_may_start_programs(void);
 
-/* Pulses that were made later than asked for, since the start. */
+/* Pulses that were made later than asked for, since the start; modulo 2^32. */
 uint32_t hal_board_late_steps(void);
 
 /* The end of one pass of the main loop: tells the watchdog that main lives, and sleeps until `wake_tick` (nearly; now

@@ -18,6 +18,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from frames import ESCAPE, ESCAPED, FLAG, fcs16, frame
+from statuses import GET_STATUS, VECTORS
 
 VERSION = b"01.02,06.03.2009"
 ANSWER = 0x80
@@ -78,6 +79,8 @@ class FakeUnit:
     answers: dict[bytes, bytes] = field(default_factory=dict)
     """Answers that are not to be the usual ones, by request."""
     flag: bytes = b"\0\0"
+    status: bytes = VECTORS[0].whole
+    """The answer to Get Status; empty: a unit that does not know it."""
     tables: dict[int, bytes] = field(default_factory=dict)
     last: tuple[int, bytes, bytes] = (0, b"", b"")
 
@@ -94,8 +97,12 @@ class FakeUnit:
         if message in self.answers:
             return self.answers[message]
         kind, motors = message[0], message[1:2]
+        if kind == GET_STATUS and self.status:
+            return self.status
         if kind == 1:
             return bytes([1, len(VERSION)]) + VERSION
+        if not 2 <= kind <= 7:
+            return bytes([255, kind, 0, 0])
         numbers = range(1, 5) if motors == b"0" else [int(motors)]
         if kind == 2:
             for number in numbers:
@@ -110,9 +117,7 @@ class FakeUnit:
             return message[:2] + self.programs[int(motors)]
         if kind == 6:
             return message[:2] + self.tables.get(int(motors), b"  0;[]")
-        if kind == 7:
-            return message[:2] + b"   247; 3"
-        return bytes([255, kind, 0, 0])
+        return message[:2] + b"   247; 3"
 
     def store(self, motor: int, text: bytes) -> None:
         if text in (b"K", b"C75"):

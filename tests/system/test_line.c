@@ -189,7 +189,7 @@ void test_requests_without_a_pause_are_all_executed_and_the_last_is_answered(voi
     TEST_ASSERT_NOT_NULL(line_answer(&line, 20));
     bench_run_idle(&bench);
     TEST_ASSERT_EQUAL_UINT32(20, bench_pulses(&bench, 1));
-    TEST_ASSERT_EQUAL_UINT32(19, bench.unit.link.unsent);
+    TEST_ASSERT_EQUAL_UINT32(19, bench.unit.link.receiver.counts[LINK_COUNT_UNSENT]);
 }
 
 void test_an_answer_is_not_begun_while_others_talk(void)

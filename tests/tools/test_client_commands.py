@@ -308,7 +308,9 @@ def test_scan_of_a_silent_line_is_no_connection(tool, monkeypatch):
 def test_watch_prints_a_line_each_time(call, unit):
     text = call("watch", "--motor", "1", "--interval", "0.05", "--count", "2")
 
-    assert text.splitlines()[0] == "0.0 s  1: 5000 +0 steps/s, step 247 of 5000, command 3"
+    assert text.splitlines()[0] == (
+        "0.0 s  1: 5000 +0 steps/s, step 247 of 5000, command 3  BI none  BO none"
+    )
     assert text.count("\n") == 2
 
 
@@ -331,7 +333,7 @@ def test_watch_tells_the_speed(call, unit, monkeypatch):
 
 
 def test_watch_goes_on_when_a_unit_is_away_for_a_while(call, fake):
-    fake.faults += [bytes] * 4 + [fake_unit.lost] * 4
+    fake.faults += [bytes] * 5 + [fake_unit.lost] * 4
 
     text = call("watch", "--motor", "1", "--interval", "0.05", "--count", "3")
 
@@ -345,9 +347,10 @@ def test_watch_is_redrawn_on_a_terminal(call, fake, monkeypatch, capsys):
 
     text = call("watch", "--motor", "2", "--interval", "0.05", "--count", "2")
 
-    first, again = text.split("\x1b[2A\r\x1b[J")
+    first, again = text.split("\x1b[3A\r\x1b[J")
     assert first == again
     assert first.splitlines()[1].split() == ["2", "-5", "0", "247", "-", "3"]
+    assert first.splitlines()[2] == "BI none  BO none"
 
 
 def test_ctrl_c_ends_watch_in_order(start, fake):

@@ -179,7 +179,7 @@ def exchanges_of(block: str) -> list[Exchange]:
     """The requests of a block, each with its answer and the time that goes by before it."""
     exchanges: list[Exchange] = []
     after_ms = 0
-    for line in block.splitlines():
+    for line in block.replace("\n  ", " ").splitlines():
         if line.startswith("> "):
             exchanges.append({"after_ms": after_ms, "request": bytes_of(line[2:])})
             after_ms = 0

@@ -21,6 +21,7 @@ from rkm04_tools.line import Motor, Unit, open_line
 from rkm04_tools.messages import ALL_MOTORS, MOTORS
 from rkm04_tools.sending import Plan, held_commands, plan_program, send_program
 from rkm04_tools.source import read_source
+from rkm04_tools.status import status_text
 from rkm04_tools.table import table, thousands
 from rkm04_tools.watch import run_watch
 
@@ -112,6 +113,14 @@ def run_progress(options: Namespace) -> int:
     rows = [(str(m), thousands(p.steps), str(p.command)) for m, p in found.items()]
     text = table([("motor", "steps", "command"), *rows], "rrr")
     return _tell(options, {"node": node, "motors": answer}, text)
+
+
+def run_status(options: Namespace) -> int:
+    """Print what a unit is like."""
+    node = reading_node_of(options)
+    with open_line(port_of(options)) as line:
+        status = line.unit(node).status()
+    return _tell(options, {"node": node, **status.as_json()}, status_text(status))
 
 
 def run_send(options: Namespace) -> int:
@@ -305,6 +314,7 @@ RUNS: dict[str, Callable[[Namespace], int]] = {
     "program": run_program,
     "table": run_table,
     "progress": run_progress,
+    "status": run_status,
     "stop": run_stop,
     "resume": run_resume,
     "reset": run_reset,

@@ -45,6 +45,8 @@ COMMANDS = (
                "rkm04 table --port COM5 --motor 1", READS, 0),
     CommandRow("progress", "ask for the steps made and the command being run",
                "rkm04 progress --port COM5", READS, 0),
+    CommandRow("status", "ask for inputs, outputs, states of motors and counters of the line",
+               "rkm04 status --port COM5 --json", READS, None),
     CommandRow("stop", "stop motors down their ramps, and their programs (K)",
                "rkm04 stop --port COM5", ACTS, 0),
     CommandRow("resume", "go on where stop has stopped (C75)",
@@ -61,7 +63,7 @@ COMMANDS = (
                "rkm04 backup programs --port COM5", LINE, None),
     CommandRow("restore", "load and store the programs of a folder that backup has written",
                "rkm04 restore programs --port COM5", LINE, None),
-    CommandRow("watch", "show positions and programs until Ctrl-C",
+    CommandRow("watch", "show positions, programs, inputs and outputs until Ctrl-C",
                "rkm04 watch --port COM5 --interval 0.5", READS, 0),
 )  # fmt: skip
 

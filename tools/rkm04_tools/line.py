@@ -29,6 +29,7 @@ from rkm04_tools.messages import (
     GET_COMMAND,
     GET_POSITION,
     GET_PROGRESS,
+    GET_STATUS,
     GET_TABLE,
     MOTORS,
     SET_COMMAND,
@@ -39,6 +40,7 @@ from rkm04_tools.messages import (
     Version,
 )
 from rkm04_tools.sending import Sent, Tell, check_program, send_program, silent
+from rkm04_tools.status import Status, parse_status
 from rkm04_tools.transport import Transport, open_transport, seconds_on_line
 
 ATTEMPTS = 4
@@ -283,6 +285,10 @@ class Unit:
         """The positions of motors 1 to 4."""
         answer = self.ask(messages.request(GET_POSITION, ALL_MOTORS))
         return messages.parse_positions(answer, ALL_MOTORS)
+
+    def status(self) -> Status:
+        """Inputs, outputs, motors and counters; UnknownMessage if it is not this firmware."""
+        return parse_status(self.ask(bytes([GET_STATUS])))
 
     def ask(self, message: bytes, wait: Wait = USUAL) -> bytes:
         """Send any request that needs an answer, and return it."""

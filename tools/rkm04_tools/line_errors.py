@@ -52,6 +52,10 @@ class UnitRefused(Failure):
         self.character = character
 
 
+class UnknownMessage(UnitRefused):
+    """The unit has other software, which does not know this request."""
+
+
 class WrongAnswer(Failure):
     """A whole frame whose content is not what the request asks for."""
 

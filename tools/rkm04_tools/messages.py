@@ -6,9 +6,10 @@ import datetime
 import re
 from dataclasses import dataclass
 
-from rkm04_tools.line_errors import UnitRefused, WrongAnswer
+from rkm04_tools.line_errors import UnitRefused, UnknownMessage, WrongAnswer
 
 VERSION, SET_COMMAND, STORE_FLASH, GET_POSITION, GET_COMMAND, GET_TABLE, GET_PROGRESS = range(1, 8)
+GET_STATUS = 200
 UNKNOWN = 255
 NAMES = {
     VERSION: "Version",
@@ -18,6 +19,7 @@ NAMES = {
     GET_COMMAND: "Get Command",
     GET_TABLE: "Get Tabul Run",
     GET_PROGRESS: "Get Pozic Run",
+    GET_STATUS: "Get Status",
 }
 ANSWER_BYTES_MAX = {
     VERSION: 257,
@@ -27,6 +29,7 @@ ANSWER_BYTES_MAX = {
     GET_COMMAND: 8402,
     GET_TABLE: 800,
     GET_PROGRESS: 40,
+    GET_STATUS: 300,
 }
 
 ALL_MOTORS = 0
@@ -76,7 +79,7 @@ def request(message: int, motor: int, text: bytes = b"") -> bytes:
 
 def parse_version(answer: bytes) -> Version:
     """Read an answer to Version."""
-    _require_known(VERSION, answer)
+    require_known(VERSION, answer)
     text = answer[2:].decode("ascii", "replace")
     match = VERSION_TEXT.fullmatch(text)
     if not match or answer[0] != VERSION or answer[1] != len(text):
@@ -156,16 +159,17 @@ def parse_progress(answer: bytes, motor: int) -> Progress:
     return Progress(int(match[1]), int(match[2]))
 
 
-def _require_known(message: int, answer: bytes) -> None:
+def require_known(message: int, answer: bytes) -> None:
+    """Raise UnknownMessage if the answer is that the unit does not know the request."""
     if answer[:1] == bytes([UNKNOWN]):
-        raise UnitRefused(
+        raise UnknownMessage(
             f"the unit does not know {NAMES[message]} (message {message}); it has other software"
         )
 
 
 def _content(message: int, answer: bytes, motor: int) -> bytes:
     """What follows number and motor."""
-    _require_known(message, answer)
+    require_known(message, answer)
     if answer[:2] != request(message, motor):
         raise WrongAnswer(NAMES[message], answer)
     return answer[2:]

@@ -12,8 +12,9 @@ from typing import Any
 
 from rkm04_tools.failure import DONE
 from rkm04_tools.line import Unit
-from rkm04_tools.line_errors import LineError, PortError
+from rkm04_tools.line_errors import LineError, PortError, UnknownMessage
 from rkm04_tools.messages import ALL_MOTORS, MOTORS, Progress
+from rkm04_tools.status import levels_text
 from rkm04_tools.table import table, thousands
 
 HEAD = ("motor", "position", "steps/s", "steps made", "of", "command")
@@ -65,6 +66,25 @@ class Look:
         )
 
 
+@dataclass(frozen=True)
+class Levels:
+    """Inputs and outputs at a moment, BI1 and BO1 first."""
+
+    inputs: tuple[bool, ...]
+    outputs: tuple[bool, ...]
+
+    def as_json(self) -> dict[str, Any]:
+        """For scripts."""
+        return {
+            "inputs": [int(level) for level in self.inputs],
+            "outputs": [int(level) for level in self.outputs],
+        }
+
+    def as_text(self) -> str:
+        """The numbers of those that are 1."""
+        return f"BI {levels_text(self.inputs)}  BO {levels_text(self.outputs)}"
+
+
 class Watcher:
     """Looks at motors of a unit."""
 
@@ -73,10 +93,27 @@ class Watcher:
         self._numbers = numbers
         self._started = time.monotonic()
         self._before: dict[int, tuple[float, int]] = {}
+        self._tells_levels = True
 
     def look(self) -> list[Look]:
         """Ask them all."""
         return [self._look_at(number) for number in self._numbers]
+
+    def levels(self) -> Levels | None:
+        """Ask for inputs and outputs; None: the unit cannot tell, which is said once."""
+        if not self._tells_levels:
+            return None
+        try:
+            status = self._unit.status()
+        except UnknownMessage:
+            self._tells_levels = False
+            print(
+                f"rkm04: unit {self._unit.node} does not know Get Status (message 200), "
+                "it has other software: inputs and outputs are not shown",
+                file=sys.stderr,
+            )
+            return None
+        return Levels(status.inputs, status.outputs)
 
     def _look_at(self, number: int) -> Look:
         motor = self._unit.motor(number)
@@ -97,15 +134,19 @@ class Screen:
         self._as_json = as_json
         self._drawn = 0
 
-    def show(self, seconds: float, looks: Sequence[Look]) -> None:
+    def show(self, seconds: float, looks: Sequence[Look], levels: Levels | None) -> None:
         """Show what was seen."""
         if self._as_json:
             motors = [look.as_json() for look in looks]
-            print(json.dumps({"seconds": round(seconds, 3), "motors": motors}), flush=True)
+            seen = {"seconds": round(seconds, 3), "motors": motors}
+            seen |= levels.as_json() if levels else {}
+            print(json.dumps(seen), flush=True)
         elif sys.stdout.isatty():
-            self._draw(table([HEAD, *(look.as_row() for look in looks)], "rrrrrr"))
+            text = table([HEAD, *(look.as_row() for look in looks)], "rrrrrr")
+            self._draw(f"{text}\n{levels.as_text()}" if levels else text)
         else:
-            shown = "  ".join(look.as_text() for look in looks)
+            texts = [look.as_text() for look in looks]
+            shown = "  ".join([*texts, levels.as_text()] if levels else texts)
             print(f"{seconds:.1f} s  {shown}", flush=True)
 
     def show_error(self, seconds: float, error: LineError) -> None:
@@ -133,7 +174,7 @@ def run_watch(unit: Unit, options: Namespace) -> int:
         while True:
             seconds = time.monotonic() - started
             try:
-                screen.show(seconds, watcher.look())
+                screen.show(seconds, watcher.look(), watcher.levels())
             except PortError:
                 raise
             except LineError as error:

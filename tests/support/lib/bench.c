@@ -126,7 +126,7 @@ void bench_restart(struct bench *bench)
 void bench_restart_badly(struct bench *bench)
 {
     host_machine_restart(&bench->machine);
-    bench->machine.faults.bad_start = true;
+    bench->machine.faults.start_cause = HAL_BOARD_CAUSE_WATCHDOG;
     start_unit(bench);
 }
 

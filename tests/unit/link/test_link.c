@@ -118,7 +118,7 @@ void test_it_begins_20_ms_after_it_was_ready_at_the_latest(void)
     (void)link_poll(&link, tick);
     TEST_ASSERT_EQUAL_UINT64(TICK_NEVER, link_poll(&link, tick + 20 * TICKS_PER_MS));
     TEST_ASSERT_TRUE(link_is_sending(&link));
-    TEST_ASSERT_EQUAL_UINT32(0, link.unsent);
+    TEST_ASSERT_EQUAL_UINT32(0, link.receiver.counts[LINK_COUNT_UNSENT]);
 }
 
 void test_later_than_that_it_is_given_up(void)
@@ -127,7 +127,7 @@ void test_later_than_that_it_is_given_up(void)
     (void)link_poll(&link, tick);
     TEST_ASSERT_EQUAL_UINT64(TICK_NEVER, link_poll(&link, tick + 20 * TICKS_PER_MS + 1));
     TEST_ASSERT_FALSE(link_is_sending(&link));
-    TEST_ASSERT_EQUAL_UINT32(1, link.unsent);
+    TEST_ASSERT_EQUAL_UINT32(1, link.receiver.counts[LINK_COUNT_UNSENT]);
 }
 
 void test_a_request_that_took_long_is_answered_when_it_is_done(void)
@@ -153,7 +153,7 @@ void test_a_repeat_is_answered_again_and_not_executed(void)
     for (unsigned i = 1; i <= 3; i++) {
         TEST_ASSERT_EQUAL_STRING("A", hear(7));
         TEST_ASSERT_FALSE(ask(7, "a", "B"));
-        TEST_ASSERT_EQUAL_UINT32(i, link.repeats);
+        TEST_ASSERT_EQUAL_UINT32(i, link.receiver.counts[LINK_COUNT_REPEATS]);
     }
 }
 
@@ -287,7 +287,7 @@ void test_a_request_takes_the_place_of_an_answer_that_has_not_begun(void)
     ask(5, "b", "B");
     TEST_ASSERT_EQUAL_STRING("B", hear(5));
     TEST_ASSERT_EQUAL_STRING("", hear(4));
-    TEST_ASSERT_EQUAL_UINT32(1, link.unsent);
+    TEST_ASSERT_EQUAL_UINT32(1, link.receiver.counts[LINK_COUNT_UNSENT]);
 }
 
 void test_a_broadcast_too(void)
@@ -295,7 +295,7 @@ void test_a_broadcast_too(void)
     ask(4, "a", "A");
     take(frame, frame_write(frame, 0, 5, "b", 1));
     TEST_ASSERT_EQUAL_STRING("", hear(4));
-    TEST_ASSERT_EQUAL_UINT32(1, link.unsent);
+    TEST_ASSERT_EQUAL_UINT32(1, link.receiver.counts[LINK_COUNT_UNSENT]);
 }
 
 void test_frames_for_others_are_not_answered(void)
