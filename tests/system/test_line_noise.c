@@ -1,4 +1,6 @@
-/* A bad line: pauses, noise, floods. Nothing wrong is executed, and pulses keep their times. */
+/* A bad line: pauses, noise, damage, floods. Nothing wrong is executed, and pulses keep their times. */
+#include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "line_bench.h"
@@ -62,6 +64,16 @@ static void plan_noise(uint32_t length)
     }
 }
 
+static void print_counts(const char *what)
+{
+    printf("%s:", what);
+    for (unsigned count = 0; count < LINK_COUNTS_TOTAL; count++) {
+        const char *text = link_count_text((enum link_count)count);
+        printf(" %" PRIu32 " %s;", bench.unit.link.receiver.counts[count], text);
+    }
+    printf(" %u events, %" PRIu32 " bytes sent\n", (unsigned)bench.event_count, line.sent_count);
+}
+
 void test_a_million_bytes_of_noise_do_nothing_and_the_next_request_is_answered(void)
 {
     enum { NOISE_BYTES = 1000000, CHUNK_BYTES = 10000 };
@@ -70,10 +82,136 @@ void test_a_million_bytes_of_noise_do_nothing_and_the_next_request_is_answered(v
         line_run(&line);
     }
     bench_run_ms(&bench, 100);
+    print_counts("1000000 bytes of noise");
     TEST_ASSERT_EQUAL_UINT32(0, bench.unit.link.receiver.counts[LINK_COUNT_FRAMES]);
     TEST_ASSERT_EQUAL_UINT32(0, bench.event_count);
     TEST_ASSERT_EQUAL_UINT32(0, line.sent_count);
     line_check(&line);
+}
+
+static uint32_t random_below(uint32_t limit)
+{
+    uint32_t high = line_random_byte();
+    return (high << 8U | line_random_byte()) % limit;
+}
+
+static void flip_bits(uint8_t *frame, uint32_t length)
+{
+    uint32_t count = 1U + random_below(3);
+    for (uint32_t i = 0; i < count; i++) {
+        frame[1U + random_below(length - 1U)] ^= (uint8_t)(1U << random_below(8));
+    }
+}
+
+static void replace_bytes(uint8_t *frame, uint32_t length)
+{
+    uint32_t first = 1U + random_below(length - 2U);
+    uint32_t last = first + random_below(3);
+    for (uint32_t i = first; i <= last && i < length - 1U; i++) {
+        frame[i] = line_random_byte();
+    }
+}
+
+static uint32_t drop_byte(uint8_t *frame, uint32_t length)
+{
+    uint32_t place = 1U + random_below(length - 2U);
+    memmove(frame + place, frame + place + 1U, length - place - 1U);
+    return length - 1U;
+}
+
+static uint32_t insert_byte(uint8_t *frame, uint32_t length)
+{
+    uint32_t place = 1U + random_below(length - 2U);
+    memmove(frame + place + 1U, frame + place, length - place);
+    frame[place] = line_random_byte();
+    return length + 1U;
+}
+
+static void swap_neighbours(uint8_t *frame, uint32_t length)
+{
+    uint32_t place = 1U + random_below(length - 3U);
+    uint8_t first = frame[place];
+    frame[place] = frame[place + 1U];
+    frame[place + 1U] = first;
+}
+
+/* Damages a frame behind its opening flag; returns its new length. */
+static uint32_t damage(uint8_t *frame, uint32_t length)
+{
+    switch (random_below(5)) {
+    case 0:
+        return drop_byte(frame, length);
+    case 1:
+        return insert_byte(frame, length);
+    case 2:
+        replace_bytes(frame, length);
+        return length;
+    case 3:
+        swap_neighbours(frame, length);
+        return length;
+    default:
+        flip_bits(frame, length);
+        return length;
+    }
+}
+
+/* Whether a flag before or behind the content is all that was added: such a frame is good. */
+static bool is_still_good(const uint8_t *damaged, uint32_t damaged_length, const uint8_t *frame, uint32_t length)
+{
+    while (damaged_length > length && damaged[1] == LINK_FLAG) {
+        damaged++;
+        damaged_length--;
+    }
+    while (damaged_length > length && damaged[damaged_length - 2U] == LINK_FLAG) {
+        damaged_length--;
+    }
+    return damaged_length == length && memcmp(damaged, frame, length) == 0;
+}
+
+/* A request to this unit or to all that would set an output, damaged somewhere. */
+static void plan_damaged(void)
+{
+    static const char *const texts[] = {"\002" "0T01", "\002" "1T02W5", "\002" "4F100R", "\002" "2[T03F5R]"};
+    enum { FRAME_MAX = 64 };
+    uint8_t good[FRAME_MAX];
+    uint8_t bad[FRAME_MAX];
+    const char *text = texts[random_below(sizeof texts / sizeof texts[0])];
+    uint8_t address = random_below(2) == 0 ? NODE : 0;
+    uint32_t length = frame_write(good, address, line_random_byte(), text, (uint32_t)strlen(text));
+    uint32_t bad_length;
+    do {
+        memcpy(bad, good, length);
+        bad_length = damage(bad, length);
+    } while (is_still_good(bad, bad_length, good, length));
+    line_plan(&line, bad, bad_length);
+}
+
+static uint32_t dropped_count(void)
+{
+    uint32_t sum = 0;
+    for (unsigned count = LINK_COUNT_STRAY; count <= LINK_COUNT_GAP; count++) {
+        sum += bench.unit.link.receiver.counts[count];
+    }
+    return sum;
+}
+
+void test_ten_thousand_damaged_frames_do_nothing_and_the_next_request_is_answered(void)
+{
+    enum { FRAMES = 10000, CHUNK_FRAMES = 100 };
+    for (unsigned i = 0; i < FRAMES / CHUNK_FRAMES; i++) {
+        for (unsigned k = 0; k < CHUNK_FRAMES; k++) {
+            plan_damaged();
+        }
+        line_run(&line);
+        TEST_ASSERT_EQUAL_UINT32(line.read_count, line.sent_count);
+        bench_run_ms(&bench, 100);
+        line_check(&line);
+        TEST_ASSERT_EQUAL_UINT32(i + 1U, bench.unit.link.receiver.counts[LINK_COUNT_FRAMES]);
+    }
+    print_counts("10000 damaged frames, 100 good ones among them");
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT32(FRAMES, dropped_count());
+    TEST_ASSERT_EQUAL_UINT32(0, bench.unit.link.receiver.counts[LINK_COUNT_FOREIGN]);
+    TEST_ASSERT_EQUAL_UINT32(0, bench.event_count);
 }
 
 /* Requests, broadcasts, requests for others, noise; nothing that changes what the motors do. */

@@ -8,10 +8,12 @@ import signal
 import time
 
 import pytest
+from frames import frame
 from noisy_line import NoisyLine
 from rkm04_tools.line import Wait, open_line
 from rkm04_tools.line_errors import LineError, UnitRefused
 from rkm04_tools.messages import SET_COMMAND, request
+from served import Served
 
 LISTENING = re.compile(r"listening on (socket://127\.0\.0\.1:\d+)")
 NODE = 3
@@ -176,6 +178,33 @@ def test_the_commands_work_together(tool, port, write):
     assert tool("watch", "--count", "1").status == 0
     assert tool("reset").status == 0
     assert tool("program", "--motor", "1").out == "\n"
+
+
+def test_the_status_tells_inputs_states_and_what_came_damaged(tool, tmp_path):
+    served = Served("--tcp", "0", "--control", "0", "--node", NODE, "--unpaced", cwd=tmp_path)
+    try:
+        served.control().order("6=1")
+        with open_line(served.place) as line:
+            unit = line.unit(NODE)
+            unit.motor(4).command("T2 J9")
+            damaged = bytearray(frame(NODE, 9, b"\x04\x30"))
+            damaged[3] ^= 1
+            line.transport.write(bytes(damaged))
+            unit.motor(1).command("=-7 O1")
+
+            assert waits_until(lambda: unit.status().motors[3].failed)
+            status = unit.status()
+    finally:
+        served.end()
+
+    assert status.inputs == (False,) * 5 + (True, False, False)
+    assert status.outputs == (False, True) + (False,) * 6
+    assert status.motors[0].waiting
+    assert status.motors[0].position == -7
+    assert status.motors[3].error == "label not found"
+    assert status.line["fcs"] == 1
+    assert status.line["frames"] >= 4
+    assert (status.cause, status.late_steps) == ("power-on", 0)
 
 
 def test_scan_finds_the_units_of_a_line(serve, tool):
