@@ -181,7 +181,7 @@ def test_the_commands_work_together(tool, port, write):
 
 
 def test_the_status_tells_inputs_states_and_what_came_damaged(tool, tmp_path):
-    served = Served("--tcp", "0", "--control", "0", "--node", NODE, "--unpaced", cwd=tmp_path)
+    served = Served("--tcp", "0", "--control", "0", "--node", str(NODE), "--unpaced", cwd=tmp_path)
     try:
         served.control().order("6=1")
         with open_line(served.place) as line:

@@ -57,7 +57,7 @@ def main(arguments: Sequence[str]) -> int:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
     try:
-        options = _parser().parse_args(arguments)
+        options = make_parser().parse_args(arguments)
         run: Run = options.run
         status = run(options)
         sys.stdout.flush()
@@ -98,7 +98,8 @@ def _service(options: argparse.Namespace) -> int:
     return command.run(options)
 
 
-def _parser() -> Parser:
+def make_parser() -> Parser:
+    """The parser of the whole command line."""
     parser = Parser(
         prog="rkm04",
         description="Tools for the RKM04 unit, which runs the programs of four stepper motors.",
@@ -113,6 +114,7 @@ def _parser() -> Parser:
     _add_serve(commands)
     _add_service(commands)
     add_client_commands(partial(_add, commands))
+    _add_completion(commands, parser)
     return parser
 
 
@@ -122,8 +124,10 @@ def _add(
     run: Run,
     title: str,
     example: str,
+    *,
+    has_json: bool = True,
 ) -> Parser:
-    """Add a command with its example and the option that all have."""
+    """Add a command with its example and the option that all with an answer have."""
     command = commands.add_parser(
         name,
         help=title,
@@ -132,7 +136,8 @@ def _add(
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    command.add_argument("--json", action="store_true", help="print one JSON object")
+    if has_json:
+        command.add_argument("--json", action="store_true", help="print one JSON object")
     command.set_defaults(run=run)
     return command
 
@@ -211,6 +216,15 @@ def _add_bench(commands: Commands) -> None:
         help="with --target stm32: only show where the cycles of a step interrupt go; OUT gets "
         "every instruction",
     )
+
+
+def _add_completion(commands: Commands, parser: Parser) -> None:
+    from rkm04_tools import completion
+
+    title = "print what a shell needs to complete commands and options"
+    command = _add(commands, "completion", partial(completion.run, parser), title,
+                   completion.EXAMPLE, has_json=False)  # fmt: skip
+    completion.add_arguments(command)
 
 
 def _add_board(commands: Commands) -> None:
