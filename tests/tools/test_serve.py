@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import random
 import signal
 import subprocess
 import time
@@ -12,12 +13,14 @@ from typing import Any
 
 import pytest
 from frames import frame
-from served import COMMAND, PATIENCE_SECONDS, ROOT, Control, Served, environment
+from served import COMMAND, PATIENCE_SECONDS, ROOT, Control, Served, Talker, environment
 
 EXAMPLE_5 = ROOT / "tools" / "examples" / "5-wait-for-inputs.rks"
 SILENCE_SECONDS = 0.3
 BYTE_SECONDS = 10 / 19_200
 VERSION = b"\x01"
+KILLS = 16
+KILL_SEED = 20261121
 
 Serve = Callable[..., Served]
 
@@ -185,6 +188,76 @@ def test_a_stored_program_survives_a_kill_behind_the_answer(serve, tmp_path):
     again = serve("--flash", tmp_path / "unit.flash")
 
     assert again.talker().ask(b"\x051") == b"\x051F1"
+
+
+def seconds_of_storing(talker: Talker) -> float:
+    started = time.monotonic()
+    talker.ask(b"\x033")
+    return time.monotonic() - started
+
+
+def test_a_kill_at_any_moment_leaves_the_old_program_or_the_new_one(serve, tmp_path):
+    flash = tmp_path / "unit.flash"
+    rng = random.Random(KILL_SEED)
+    seconds = 0.0
+    expected = {b""}
+    for count in range(1000, 1000 + KILLS):
+        served = serve("--flash", flash)
+        talker = served.talker()
+        found = talker.ask(b"\x051")[2:]
+        assert found in expected
+        talker.ask(b"\x021\\W%d" % count)
+        if not seconds:
+            seconds = seconds_of_storing(talker)
+        talker.send(frame(1, 99, b"\x031"))
+        time.sleep(rng.uniform(0.0, 2 * seconds))
+        served.end(signal.SIGKILL)
+        expected = {found, b"W%d" % count}
+
+
+def test_what_a_kill_has_left_half_written_is_not_used(serve, tmp_path):
+    flash = tmp_path / "unit.flash"
+    serve("--flash", flash).end()
+    (tmp_path / "unit.flash.part").write_bytes(b"half")
+
+    talker = serve("--flash", flash).talker()
+    talker.ask(b"\x021F1")
+
+    assert talker.ask(b"\x031") == b"\x031\0"
+    assert [path.name for path in tmp_path.iterdir()] == ["unit.flash"]
+
+
+def test_an_empty_file_begins_with_an_erased_flash(serve, tmp_path):
+    (tmp_path / "unit.flash").touch()
+
+    assert serve("--flash", tmp_path / "unit.flash").talker().ask(b"\x051") == b"\x051"
+
+
+@pytest.mark.parametrize("stores", [False, True])
+def test_a_second_serve_on_one_flash_file_is_refused(serve, tmp_path, stores):
+    flash = tmp_path / "unit.flash"
+    served = serve("--flash", flash)
+    if stores:
+        # Which puts a new file in the place of the one that was locked.
+        served.talker().ask(b"\x021F1")
+        served.talker().ask(b"\x031")
+
+    status, complaint = refusal("--tcp", "0", "--flash", flash)
+
+    assert status == 2
+    assert complaint == (
+        f"rkm04: {flash}: another rkm04 serve uses it; end that one, or name another file\n"
+    )
+    assert served.talker().ask(VERSION).startswith(b"\x01")
+    served.end()
+    assert serve("--flash", flash).talker().ask(b"\x051") == (b"\x051F1" if stores else b"\x051")
+
+
+def test_a_device_is_no_flash_file():
+    status, complaint = refusal("--tcp", "0", "--flash", "/dev/null")
+
+    assert status == 2
+    assert complaint == "rkm04: /dev/null: not a plain file; name another one\n"
 
 
 def test_several_units_keep_their_programs_apart(serve, tmp_path):

@@ -1,9 +1,16 @@
-/* access: whether there is a file. */
-#define _POSIX_C_SOURCE 200809L
+/* flock, dirname */
+#define _DEFAULT_SOURCE
 
 #include "serve_flash.h"
 
+#include <errno.h>
+#include <fcntl.h>
+#include <libgen.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base_crc32.h"
@@ -15,6 +22,7 @@ enum {
     CRC_BYTES = 4,
     FLASH_BYTES = HAL_FLASH_AREAS * HAL_FLASH_AREA_BYTES,
     IMAGE_BYTES = FLASH_BYTES + MARK_BYTES + CRC_BYTES,
+    FILE_MODE = 0666, /* less what the umask takes */
 };
 
 static const uint8_t mark[MARK_BYTES] = {'R', 'K', 'M', '4'};
@@ -39,26 +47,6 @@ static const char *judge(const struct infile *file)
     return memcmp(end, file->bytes + FLASH_BYTES, sizeof end) == 0 ? NULL : "it is damaged";
 }
 
-enum exit_status serve_flash_load(struct host_machine *machine, const char *path)
-{
-    struct infile file;
-    if (access(path, F_OK) != 0) {
-        return serve_flash_save(machine, path) ? EXIT_DONE : EXIT_USAGE;
-    }
-    if (!infile_read(&file, path)) {
-        return EXIT_USAGE;
-    }
-    const char *wrong = judge(&file);
-    if (wrong == NULL) {
-        memcpy(machine->flash, file.bytes, FLASH_BYTES);
-    } else {
-        complain("%s: not the flash of a unit (%s); name another file, or remove it to begin with an erased one", path,
-                 wrong);
-    }
-    infile_discard(&file);
-    return wrong == NULL ? EXIT_DONE : EXIT_USAGE;
-}
-
 static void put_bytes(struct outfile *file, const uint8_t *bytes, uint32_t length)
 {
     for (uint32_t done = 0; done < length;) {
@@ -71,18 +59,146 @@ static void put_bytes(struct outfile *file, const uint8_t *bytes, uint32_t lengt
     }
 }
 
-bool serve_flash_save(const struct host_machine *machine, const char *path)
+/* False after a complaint. */
+static bool sync_file(int fd, const char *path)
 {
-    struct outfile file;
-    uint8_t end[MARK_BYTES + CRC_BYTES];
-    if (!outfile_open(&file, path)) {
-        return false;
+    if (fsync(fd) == 0) {
+        return true;
     }
+    complain("%s: cannot be brought to the disk (%s); name a file on another one", path, strerror(errno));
+    return false;
+}
+
+/* Brings a new name in a folder to the disk. */
+static void sync_folder(const char *path)
+{
+    char *copy = strdup(path);
+    int fd = copy == NULL ? -1 : open(dirname(copy), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd >= 0) {
+        (void)fsync(fd);
+        (void)close(fd);
+    }
+    free(copy);
+}
+
+static void write_content(struct outfile *file, const struct host_machine *machine)
+{
+    uint8_t end[MARK_BYTES + CRC_BYTES];
     const uint8_t *flash = (const uint8_t *)machine->flash;
     put_end(end, flash);
-    put_bytes(&file, flash, FLASH_BYTES);
-    put_bytes(&file, end, sizeof end);
-    bool good = outfile_close(&file) && outfile_publish(&file);
+    put_bytes(file, flash, FLASH_BYTES);
+    put_bytes(file, end, sizeof end);
+}
+
+/* The new file is locked before it is in place, so that there is no moment without a lock. */
+bool serve_flash_save(struct serve_flash *flash, const struct host_machine *machine)
+{
+    struct outfile file;
+    if (!outfile_open(&file, flash->path)) {
+        return false;
+    }
+    int fd = fcntl(fileno(file.stream), F_DUPFD_CLOEXEC, 0);
+    (void)flock(fd, LOCK_EX | LOCK_NB);
+    write_content(&file, machine);
+    bool good = outfile_close(&file) && sync_file(fd, flash->path) && outfile_publish(&file);
     outfile_discard(&file);
+    if (good) {
+        sync_folder(flash->path);
+    }
+    int old = good ? flash->fd : fd;
+    flash->fd = good ? fd : flash->fd;
+    if (old >= 0) {
+        (void)close(old);
+    }
     return good;
+}
+
+void serve_flash_init(struct serve_flash *flash)
+{
+    *flash = (struct serve_flash){.fd = -1};
+}
+
+static enum exit_status complain_of_open(const char *path, int error)
+{
+    complain("%s: cannot be opened (%s); name a file in a folder that exists and may be written", path,
+             strerror(error));
+    return EXIT_USAGE;
+}
+
+static bool is_in_place(int fd, const char *path)
+{
+    struct stat opened;
+    struct stat named;
+    return fstat(fd, &opened) == 0 && stat(path, &named) == 0 && opened.st_dev == named.st_dev &&
+           opened.st_ino == named.st_ino;
+}
+
+/* A file that another program has just replaced is locked in vain: then again. */
+static enum exit_status lock_file(struct serve_flash *flash)
+{
+    for (;;) {
+        flash->fd = open(flash->path, O_RDONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, FILE_MODE);
+        if (flash->fd < 0) {
+            return complain_of_open(flash->path, errno);
+        }
+        if (flock(flash->fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            complain("%s: another rkm04 serve uses it; end that one, or name another file", flash->path);
+            return EXIT_USAGE;
+        }
+        if (is_in_place(flash->fd, flash->path)) {
+            return EXIT_DONE;
+        }
+        (void)close(flash->fd);
+    }
+}
+
+static enum exit_status load_file(const struct serve_flash *flash, struct host_machine *machine)
+{
+    struct infile file;
+    if (!infile_read(&file, flash->path)) {
+        return EXIT_USAGE;
+    }
+    const char *wrong = judge(&file);
+    if (wrong == NULL) {
+        memcpy(machine->flash, file.bytes, FLASH_BYTES);
+    } else {
+        complain("%s: not the flash of a unit (%s); name another file, or remove it to begin with an erased one",
+                 flash->path, wrong);
+    }
+    infile_discard(&file);
+    return wrong == NULL ? EXIT_DONE : EXIT_USAGE;
+}
+
+enum exit_status serve_flash_open(struct serve_flash *flash, struct host_machine *machine, const char *path)
+{
+    struct stat status;
+    if (path == NULL) {
+        return EXIT_DONE;
+    }
+    flash->path = strdup(path);
+    if (flash->path == NULL) {
+        return complain_of_open(path, ENOMEM);
+    }
+    enum exit_status locked = lock_file(flash);
+    if (locked != EXIT_DONE) {
+        return locked;
+    }
+    bool plain = fstat(flash->fd, &status) == 0 && S_ISREG(status.st_mode);
+    if (plain && status.st_size == 0) {
+        return serve_flash_save(flash, machine) ? EXIT_DONE : EXIT_USAGE;
+    }
+    if (!plain) {
+        complain("%s: not a plain file; name another one", path);
+        return EXIT_USAGE;
+    }
+    return load_file(flash, machine);
+}
+
+void serve_flash_close(struct serve_flash *flash)
+{
+    if (flash->fd >= 0) {
+        (void)close(flash->fd);
+    }
+    free(flash->path);
+    serve_flash_init(flash);
 }

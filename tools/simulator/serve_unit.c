@@ -1,33 +1,16 @@
 #include "serve_unit.h"
 
-#include <stdlib.h>
-#include <string.h>
+#include <stddef.h>
 
 #include "base_tick.h"
 #include "line.h"
-#include "serve_flash.h"
 #include "units.h"
 
 enum { SECONDS_DECIMALS = 3 };
 
-static bool copy_path(struct serve_unit *unit, const char *path)
-{
-    if (path == NULL) {
-        return true;
-    }
-    unit->flash_path = malloc(strlen(path) + 1U);
-    if (unit->flash_path == NULL) {
-        complain("there is not memory enough for a unit; close other programs");
-        return false;
-    }
-    memcpy(unit->flash_path, path, strlen(path) + 1U);
-    return true;
-}
-
 enum exit_status serve_unit_begin(struct serve_unit *unit, uint8_t node, const char *flash_path)
 {
-    enum exit_status status = EXIT_DONE;
-    unit->flash_path = NULL;
+    serve_flash_init(&unit->flash);
     unit->saved_operations = 0;
     unit->unsaved = false;
     unit->line = NULL;
@@ -35,12 +18,7 @@ enum exit_status serve_unit_begin(struct serve_unit *unit, uint8_t node, const c
     host_machine_init(&unit->machine, 0);
     host_machine_select(&unit->machine);
     host_machine_set_node(&unit->machine, node);
-    if (!copy_path(unit, flash_path)) {
-        return EXIT_REFUSED;
-    }
-    if (flash_path != NULL) {
-        status = serve_flash_load(&unit->machine, flash_path);
-    }
+    enum exit_status status = serve_flash_open(&unit->flash, &unit->machine, flash_path);
     unit_init(&unit->unit);
     unit_start(&unit->unit);
     return status;
@@ -86,13 +64,13 @@ bool serve_unit_has_work(const struct serve_unit *unit)
 
 static bool write_file(struct serve_unit *unit)
 {
-    unit->unsaved = !serve_flash_save(&unit->machine, unit->flash_path);
+    unit->unsaved = !serve_flash_save(&unit->flash, &unit->machine);
     return !unit->unsaved;
 }
 
 bool serve_unit_save(struct serve_unit *unit)
 {
-    if (unit->flash_path == NULL || unit->machine.flash_operations == unit->saved_operations) {
+    if (unit->flash.path == NULL || unit->machine.flash_operations == unit->saved_operations) {
         return true;
     }
     unit->saved_operations = unit->machine.flash_operations;
@@ -166,6 +144,5 @@ char *serve_unit_put_status(const struct serve_unit *unit, char *at)
 
 void serve_unit_discard(struct serve_unit *unit)
 {
-    free(unit->flash_path);
-    unit->flash_path = NULL;
+    serve_flash_close(&unit->flash);
 }

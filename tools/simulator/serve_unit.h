@@ -10,6 +10,7 @@
 
 #include "complain.h"
 #include "host_machine.h"
+#include "serve_flash.h"
 #include "serve_line.h"
 #include "unit.h"
 
@@ -18,7 +19,7 @@ enum { SERVE_STATUS_BYTES_MAX = 768 };
 struct serve_unit {
     struct host_machine machine;
     struct unit unit;
-    char *flash_path;          /* null: the flash is in no file */
+    struct serve_flash flash;
     uint32_t saved_operations; /* flash operations that the file has, or that it could not be given */
     bool unsaved;              /* the last writing has failed */
     struct serve_line *line;
