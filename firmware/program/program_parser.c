@@ -153,7 +153,8 @@ static struct value parser_read_number(struct program_parser *parser)
     bool minus = !plus && parser_take(parser, '-');
     uint32_t number = 0;
     if (!parser_read_digits(parser, &number)) {
-        return (struct value){.form = plus ? PROGRAM_FORM_PLUS : minus ? PROGRAM_FORM_MINUS : PROGRAM_FORM_NONE};
+        enum program_form unsigned_form = plus ? PROGRAM_FORM_PLUS : PROGRAM_FORM_NONE;
+        return (struct value){.form = minus ? PROGRAM_FORM_MINUS : unsigned_form};
     }
     if (plus) {
         return (struct value){.form = PROGRAM_FORM_NONE};

@@ -5,8 +5,8 @@
 #include "hal_board.h"
 
 /* What masters read must not change with the order of our own lists. */
-static_assert((int)HAL_BOARD_CAUSE_POWER == 0 && (int)HAL_BOARD_CAUSE_FAULT == 3, "causes are numbered in messages.md");
-static_assert((int)INTERPRETER_ERROR_NO_LABEL == 1 && (int)INTERPRETER_ERROR_NO_CRYSTAL == 10,
+static_assert(HAL_BOARD_CAUSE_POWER == 0 && HAL_BOARD_CAUSE_FAULT == 3, "causes are numbered in messages.md");
+static_assert(INTERPRETER_ERROR_NO_LABEL == 1 && INTERPRETER_ERROR_NO_CRYSTAL == 10,
               "errors are numbered in messages.md");
 
 static uint8_t state_bits(const struct interpreter *interpreter)

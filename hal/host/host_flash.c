@@ -17,10 +17,10 @@ static struct effect faulty_effect(enum host_flash_done done, uint32_t length, b
 {
     bool last_half = done == HOST_FLASH_LAST_HALF;
     bool all = done == HOST_FLASH_ALL;
-    bool nothing = done == HOST_FLASH_NOTHING;
+    uint32_t first_end = done == HOST_FLASH_NOTHING ? 0 : length / 2;
     return (struct effect){
         .begin = last_half ? length / 2 : 0,
-        .end = all || last_half ? length : nothing ? 0 : length / 2,
+        .end = all || last_half ? length : first_end,
         .success = success,
     };
 }

@@ -163,28 +163,49 @@ static void main_event(struct host_machine *machine, host_main_pass *pass, void 
     }
 }
 
+/* What happens next, of what falls on the same tick in this order. */
+enum event { EVENT_PULSE, EVENT_INPUT, EVENT_LINE, EVENT_MAIN, EVENT_NONE };
+
+static enum event next_event(const struct host_machine *machine, uint64_t pulse, uint64_t input, uint64_t until)
+{
+    const uint64_t ticks[] = {pulse, input, machine->line.next_tick, machine->wake};
+    enum event next = EVENT_NONE;
+    uint64_t earliest = until;
+    for (unsigned event = EVENT_PULSE; event < EVENT_NONE; event++) {
+        if (ticks[event] < earliest) {
+            earliest = ticks[event];
+            next = (enum event)event;
+        }
+    }
+    return next;
+}
+
 void host_machine_run(struct host_machine *machine, uint64_t until, host_main_pass *pass, bool (*done)(void *context),
                       void *context)
 {
     host_machine_select(machine);
     machine->wake = machine->now;
-    for (;;) {
+    for (bool ended = false; !ended;) {
         unsigned motor = first_motor(machine);
-        uint64_t pulse = machine->armed[motor];
         uint64_t input = next_input_tick(machine);
-        uint64_t line = machine->line.next_tick;
-        if (pulse < until && pulse <= input && pulse <= line && pulse <= machine->wake) {
+        switch (next_event(machine, machine->armed[motor], input, until)) {
+        case EVENT_PULSE:
             pulse_event(machine, motor);
-        } else if (input < until && input <= line && input <= machine->wake) {
+            break;
+        case EVENT_INPUT:
             input_event(machine, input);
-        } else if (line < until && line <= machine->wake) {
+            break;
+        case EVENT_LINE:
             line_event(machine);
-        } else if (machine->wake < until) {
+            break;
+        case EVENT_MAIN:
             main_event(machine, pass, context);
             if (done != NULL && done(context)) {
                 return;
             }
-        } else {
+            break;
+        case EVENT_NONE:
+            ended = true;
             break;
         }
     }

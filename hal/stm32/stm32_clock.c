@@ -22,7 +22,7 @@ enum {
     TURNS_MAX = 200000,
 };
 
-static bool wait_for(volatile uint32_t *word, uint32_t mask, uint32_t value)
+static bool wait_for(const volatile uint32_t *word, uint32_t mask, uint32_t value)
 {
     for (uint32_t turns = 0; turns < TURNS_MAX; turns++) {
         if ((*word & mask) == value) {

@@ -179,6 +179,9 @@ def steps(quick: bool) -> dict[str, Callable[[], Count]]:
         return chosen
     chosen["House limits"] = lambda: check(sys.executable, "tools/checks/house.py")
     chosen["Python style and types"] = python_style
+    chosen["Static analysis (clang-tidy, complexity, MISRA)"] = lambda: (
+        check(*PYTHON, "checks.static") + check(*PYTHON, "checks.misra")
+    )
     chosen["Objects for Cortex-M4 (arm-check)"] = arm_check
     chosen["C tests under sanitizers (host-asan)"] = lambda: c_tests_again("host-asan")
     chosen["C tests from the second compiler (host-clang)"] = lambda: c_tests_again("host-clang")

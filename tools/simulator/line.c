@@ -1,5 +1,6 @@
 #include "line.h"
 
+#include <limits.h>
 #include <string.h>
 
 enum { DIGITS_MAX = 20 };
@@ -79,23 +80,30 @@ static bool is_digit_at(const char *at, const char *end)
     return at != end && *at >= '0' && *at <= '9';
 }
 
-bool line_read_fixed(const char **at, const char *end, unsigned decimals, uint64_t max, uint64_t *value)
+/* Appends digits, at least one and no more than `*room`. */
+static bool read_digits(const char **at, const char *end, unsigned *room, uint64_t max, uint64_t *value)
 {
-    *value = 0;
     do {
-        if (!read_digit(at, end, max, value)) {
+        if (*room == 0 || !read_digit(at, end, max, value)) {
             return false;
         }
+        (*room)--;
     } while (is_digit_at(*at, end));
+    return true;
+}
 
+bool line_read_fixed(const char **at, const char *end, unsigned decimals, uint64_t max, uint64_t *value)
+{
+    unsigned any = UINT_MAX;
+    *value = 0;
+    if (!read_digits(at, end, &any, max, value)) {
+        return false;
+    }
     if (decimals > 0 && *at != end && **at == '.') {
         (*at)++;
-        do {
-            if (decimals == 0 || !read_digit(at, end, max, value)) {
-                return false;
-            }
-            decimals--;
-        } while (is_digit_at(*at, end));
+        if (!read_digits(at, end, &decimals, max, value)) {
+            return false;
+        }
     }
     for (; decimals > 0; decimals--) {
         if (*value > max / 10U) {

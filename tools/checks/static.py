@@ -1,0 +1,116 @@
+"""Static analysis of the C sources: clang-tidy with the checks of .clang-tidy, and complexity.
+
+    PYTHONPATH=tools build/venv/bin/python -m checks.static [FILE ...]
+
+Cyclomatic complexity is at most 10, a switch counting once however many cases it has: the flat
+switches of opcodes, states and registers are read case by case. MISRA has a ratchet of its own, in
+misra.py; recursion and stack are proved from the objects (arm_check.py, board_size.py).
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import lizard
+
+ROOT = Path(__file__).resolve().parents[2]
+COMPLEXITY_MAX = 10
+BOARD = "rkm04-f405"
+
+FIRMWARE = ("firmware/*.c", "firmware/*/*.c")
+HOST = ("hal/host/*.c", "tools/simulator/*.c")
+ARM = ("hal/stm32/*.c",)
+FOLDERS = ("firmware", "firmware/*/", "hal/include", "hal/host", "tools/simulator")
+ARM_FOLDERS = ("firmware", "firmware/*/", "hal/include", "hal/stm32", f"hal/stm32/boards/{BOARD}")
+ARM_TARGET = ("--target=arm-none-eabi", "-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=soft")
+NEWLIB = "/usr/include/newlib"
+
+FINDING = re.compile(
+    r"^(.+?):(\d+):\d+: (?:warning|error): (.*) \[([\w.-]+?)(?:,[\w.,-]+)?\]$", re.M
+)
+# What a check says wrongly, by file: (check, file) -> why it is left.
+LEFT: dict[tuple[str, str], str] = {
+    (
+        "bugprone-implicit-widening-of-multiplication-result",
+        "firmware/motion/motion_leg.c",
+    ): "2 * A is at most 120 000",
+    (
+        "bugprone-implicit-widening-of-multiplication-result",
+        "firmware/motion/motion_point.c",
+    ): "2 * STEP_ACCEL_PER_ACCEL is small",
+    ("clang-analyzer-unix.Stream", "tools/simulator/infile.c"): "the end is looked for by reading",
+}
+
+
+def sources(*patterns: str) -> list[str]:
+    return sorted(
+        path.relative_to(ROOT).as_posix() for each in patterns for path in ROOT.glob(each)
+    )
+
+
+def includes(folders: Iterable[str]) -> list[str]:
+    """Options for folders, relative to the root: the same header must not have two names."""
+    paths = [path for each in folders for path in sorted(ROOT.glob(each)) if path.is_dir()]
+    return [f"-I{path.relative_to(ROOT).as_posix()}" for path in paths]
+
+
+def tool(name: str) -> str:
+    return str(Path(sys.executable).with_name(name))
+
+
+def tidy(files: list[str], arguments: list[str]) -> str:
+    """What clang-tidy says of some files."""
+    done = subprocess.run(
+        [tool("clang-tidy"), "--quiet", *files, "--", "-std=c11", *arguments],
+        cwd=ROOT, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+    )  # fmt: skip
+    if done.returncode and not FINDING.search(done.stdout):
+        return f"clang-tidy:0:0: error: it failed: {done.stderr.strip()[-400:]} [clang-tidy]\n"
+    return done.stdout
+
+
+def findings(text: str) -> Iterator[str]:
+    """The findings in what clang-tidy has said, without those that are left."""
+    for file, line, what, check in FINDING.findall(text):
+        name = file.removeprefix(f"{ROOT}/")
+        if (check, name) not in LEFT:
+            yield f"{name}:{line}: {what} [{check}]"
+
+
+def analyse(files: Iterable[str]) -> Iterator[str]:
+    """Run clang-tidy on C files, two at a time."""
+    arm, host = set(sources(*ARM)), includes(FOLDERS)
+    on_arm = [*ARM_TARGET, "-isystem", NEWLIB, *includes(ARM_FOLDERS)]
+    jobs = [([file], on_arm if file in arm else host) for file in files]
+    with ThreadPoolExecutor(min(2, os.cpu_count() or 1)) as pool:
+        for text in pool.map(lambda job: tidy(*job), jobs):
+            yield from findings(text)
+
+
+def complexities(files: Iterable[str]) -> Iterator[str]:
+    """The functions that are too complex."""
+    extensions = lizard.get_extensions(["modified"])
+    for file in files:
+        for each in lizard.FileAnalyzer(extensions)(str(ROOT / file)).function_list:
+            if (count := each.cyclomatic_complexity) > COMPLEXITY_MAX:
+                yield (
+                    f"{file}:{each.start_line}: {each.name} has a cyclomatic complexity of "
+                    f"{count}, more than {COMPLEXITY_MAX}"
+                )
+
+
+def main(arguments: list[str]) -> int:
+    files = arguments or sources(*FIRMWARE, *HOST, *ARM)
+    found = sorted({*complexities(files), *analyse(files)})
+    print("\n".join(found) or f"{len(files)} sources, nothing found")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
