@@ -46,8 +46,8 @@ struct unit {
 /* Start values; nothing moves. */
 void unit_init(struct unit *unit);
 
-/* Starts the interrupts, the line and, unless the board comes from a watchdog or a fault, the stored programs. A program
- * that cannot be trusted is not run: its motor has failed. */
+/* Starts the interrupts, the line and, unless the board comes from a watchdog or a fault, the stored programs. A
+ * program that cannot be trusted is not run: its motor has failed. */
 void unit_start(struct unit *unit);
 
 /* One pass of the main loop: at most one request of the line, and bounded work for each motor, all at the same now.

@@ -1,7 +1,8 @@
 /*
  * Get Status (messages.md, "200 Get Status"): what the unit is like now, in one answer of fixed layout.
  *
- * Comes in: the state of interpreters, movers, io and board. Goes out: a struct, and the bytes of the answer. Main only.
+ * Comes in: the state of interpreters, movers, io and board. Goes out: a struct, and the bytes of the answer. Main
+ * only.
  */
 #ifndef PROTOCOL_STATUS_H
 #define PROTOCOL_STATUS_H

@@ -28,6 +28,20 @@ def environment() -> dict[str, str]:
     return {**os.environ, "PYTHONPATH": str(ROOT / "tools")}
 
 
+def refusal(*arguments: str | Path) -> tuple[int, str]:
+    """Run a `serve` that ends by itself."""
+    done = subprocess.run(
+        [*COMMAND, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE_SECONDS,
+        env=environment(),
+    )
+    assert done.stdout == ""
+    assert done.stderr.count("\n") == 1
+    return done.returncode, done.stderr
+
+
 class Talker:
     """A client: frames out, frames in."""
 

@@ -13,6 +13,7 @@ from typing import Any
 
 import pytest
 from rkm04_tools.cli import main
+from served import Served
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -91,3 +92,19 @@ def write(tmp_path: Path) -> Callable[..., Path]:
         return path
 
     return put
+
+
+@pytest.fixture
+def serve(tmp_path: Path) -> Iterator[Callable[..., Served]]:
+    """Start `serve` on a free port, without pacing, unless told otherwise."""
+    all_of_them: list[Served] = []
+
+    def begin(*arguments: str | Path, paced: bool = False, on_pty: bool = False) -> Served:
+        place = [] if on_pty else ["--tcp", "0"]
+        served = Served(*place, *([] if paced else ["--unpaced"]), *arguments, cwd=tmp_path)
+        all_of_them.append(served)
+        return served
+
+    yield begin
+    for served in all_of_them:
+        served.end()

@@ -16,6 +16,7 @@ LONG_FUNCTION = f"void run(void)\n{{\n{LONG_BODY}}}\n"
     [
         ("firmware/io/a.c", LONG_FUNCTION, 2, "the function has 61 lines"),
         ("firmware/io/a.h", "int a;\n" * 501, 501, "the file has 501 lines"),
+        ("firmware/io/a.c", f"int a;\n/* {'a' * 115} */\n", 2, "the line has 121 columns"),
         ("firmware/io/a.c", "int a;\nfloat b;\n", 2, "floating point"),
         ("firmware/io/a.h", "typedef struct a a;\n", 1, "typedef"),
         ("tools/a.py", "def f():\n" + "    pass\n" * 61, 1, "f has 61 lines"),
@@ -47,6 +48,10 @@ def test_a_flat_switch_that_says_so_may_be_long() -> None:
 
     assert not list(house.check_c(marked))
     assert len(list(house.check_c(f"{marked}\n{LONG_FUNCTION}"))) == 1
+
+
+def test_a_line_of_120_columns_is_not_too_long() -> None:
+    assert not list(house.check_source(f"int a;\n/* {'a' * 114} */\n"))
 
 
 def test_words_in_comments_are_not_floating_point() -> None:

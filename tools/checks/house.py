@@ -1,6 +1,6 @@
 """Checks the limits of the house on every file of the project; prints FILE:LINE: what is wrong.
 
-Functions have at most 60 lines and sources at most 500. A flat opcode switch may be longer if the
+Functions have at most 60 lines, sources at most 500, of 120 columns. A flat opcode switch may be longer if the
 comment above its function says `house: flat switch`.
 """
 
@@ -16,8 +16,10 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 FUNCTION_LINES = 60
 FILE_LINES = 500
+COLUMNS = 120
 EXEMPTION = "house: flat switch"
 
+LONG_LINE = re.compile(rf"^.{{{COLUMNS + 1},}}$", re.MULTILINE)
 C_COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 C_FUNCTION = re.compile(r"^\{\n(.*?)^\}", re.DOTALL | re.MULTILINE)
 C_FLOAT = re.compile(r"\b(?:float|double)\b")
@@ -40,6 +42,8 @@ def project_files() -> list[Path]:
 def check_source(text: str) -> Iterator[Finding]:
     if (lines := text.count("\n")) > FILE_LINES:
         yield len(text) - 1, f"the file has {lines} lines, more than {FILE_LINES}"
+    for match in LONG_LINE.finditer(text):
+        yield match.start(), f"the line has {len(match[0])} columns, more than {COLUMNS}"
     for match in FOREIGN_HOST.finditer(text):
         yield match.start(), f"a source names the host {match[0]}"
 

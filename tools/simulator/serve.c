@@ -115,8 +115,8 @@ static enum exit_status tell_ready(const struct serve *serve)
     return finish_output();
 }
 
-/* Lets the units run as far as the clock has come, or until clients have waited long enough. If the units are hopelessly
- * too slow for it, the clock goes on from where they are. */
+/* Lets the units run as far as the clock has come, or until clients have waited long enough. If the units are
+ * hopelessly too slow for it, the clock goes on from where they are. */
 static void follow_clock(struct serve *serve)
 {
     uint64_t begin_ns = units_real_ns();

@@ -1,9 +1,9 @@
 /*
  * The flash of a unit in a file: its bytes, then "RKM4" and their CRC-32, low byte first.
  *
- * Whenever the program ends, by a kill or with the machine's power too, the file has the old bytes or the new ones: they
- * are written beside it, brought to the disk, and put in its place. The file that is in place is locked (flock), so
- * that no other program of this kind uses it.
+ * Whenever the program ends, by a kill or with the machine's power too, the file has the old bytes or the new ones:
+ * they are written beside it, brought to the disk, and put in its place. The file that is in place is locked (flock),
+ * so that no other program of this kind uses it.
  */
 #ifndef SERVE_FLASH_H
 #define SERVE_FLASH_H
@@ -21,8 +21,8 @@ struct serve_flash {
 /* No file. */
 void serve_flash_init(struct serve_flash *flash);
 
-/* Locks the file and reads it (a null path: no file); one that is not there, or empty, is made of the flash as it is. EXIT_DONE, or after a
- * complaint what else. */
+/* Locks the file and reads it (a null path: no file); one that is not there, or empty, is made of the flash as it is.
+ * EXIT_DONE, or after a complaint what else. */
 enum exit_status serve_flash_open(struct serve_flash *flash, struct host_machine *machine, const char *path);
 
 /* Writes the file, whole or not at all. False after a complaint. */

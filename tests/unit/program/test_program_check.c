@@ -1,37 +1,25 @@
 #include "program_parser.h"
 #include "unity.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-/* The text under test, in a block of its own length, so that a sanitizer sees what reads past its end. */
-static uint8_t *text;
-static uint32_t text_length;
+#include "exact_text.h"
+
+static struct exact_text text;
 
 void setUp(void)
 {
-    text = NULL;
-    text_length = 0;
 }
 
 void tearDown(void)
 {
-    free(text);
-}
-
-static void take_text(const void *bytes, size_t length)
-{
-    free(text);
-    text = malloc(length > 0 ? length : 1);
-    TEST_ASSERT_NOT_NULL(text);
-    memcpy(text, bytes, length);
-    text_length = (uint32_t)length;
+    exact_text_free(&text);
 }
 
 static struct program_summary check(const char *program)
 {
-    take_text(program, strlen(program));
-    return program_check(text, text_length);
+    exact_text_take(&text, program, strlen(program));
+    return program_check(text.bytes, text.length);
 }
 
 void test_a_good_text_is_summed_up(void)
@@ -91,8 +79,8 @@ void test_a_message_of_8192_bytes_is_read_whole(void)
 {
     static char program[8192];
     memset(program, 'R', sizeof program);
-    take_text(program, sizeof program);
-    struct program_summary summary = program_check(text, text_length);
+    exact_text_take(&text, program, sizeof program);
+    struct program_summary summary = program_check(text.bytes, text.length);
     TEST_ASSERT_EQUAL(PROGRAM_OK, summary.status);
     TEST_ASSERT_EQUAL_UINT32(8192, summary.commands);
 }

@@ -5,16 +5,15 @@
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "exact_text.h"
 
 #define LENGTH(array) (sizeof(array) / sizeof(array)[0])
 
 enum { LOG_BYTES_MAX = 4096, TEXT_BYTES_MAX = 1024 };
 
-/* The text under test, in a block of its own length, so that a sanitizer sees what reads past its end. */
-static uint8_t *text;
-static uint32_t text_length;
+static struct exact_text text;
 
 /* What was read, one word for each find: the canonical command, or !place for a bad value, or ?place for an unknown
  * command. */
@@ -22,23 +21,12 @@ static char finds[LOG_BYTES_MAX];
 
 void setUp(void)
 {
-    text = NULL;
-    text_length = 0;
     finds[0] = '\0';
 }
 
 void tearDown(void)
 {
-    free(text);
-}
-
-static void take_text(const void *bytes, size_t length)
-{
-    free(text);
-    text = malloc(length > 0 ? length : 1);
-    TEST_ASSERT_NOT_NULL(text);
-    memcpy(text, bytes, length);
-    text_length = (uint32_t)length;
+    exact_text_free(&text);
 }
 
 static void log_find(const char *word)
@@ -65,13 +53,13 @@ static void read_text(void)
     struct program_parser parser;
     struct program_instruction instruction = {.value = 0};
     finds[0] = '\0';
-    program_parser_init(&parser, text, text_length);
+    program_parser_init(&parser, text.bytes, text.length);
     for (;;) {
         uint32_t before = parser.next;
         enum program_status status = program_parser_next(&parser, &instruction);
-        TEST_ASSERT_TRUE(parser.place >= before && parser.next <= text_length);
+        TEST_ASSERT_TRUE(parser.place >= before && parser.next <= text.length);
         if (status == PROGRAM_END) {
-            TEST_ASSERT_EQUAL_UINT32(text_length, parser.place);
+            TEST_ASSERT_EQUAL_UINT32(text.length, parser.place);
             return;
         }
         TEST_ASSERT_TRUE(parser.next > parser.place);
@@ -81,7 +69,7 @@ static void read_text(void)
 
 static void assert_reads(const char *program, const char *expected)
 {
-    take_text(program, strlen(program));
+    exact_text_take(&text, program, strlen(program));
     read_text();
     TEST_ASSERT_EQUAL_STRING_MESSAGE(expected, finds, program);
 }
@@ -118,7 +106,7 @@ void test_comments_are_skipped(void)
 void test_a_comment_may_span_lines_and_hold_any_byte(void)
 {
     const char program[] = "F1{\r\n\0\xFF q @99}R";
-    take_text(program, sizeof program - 1);
+    exact_text_take(&text, program, sizeof program - 1);
     read_text();
     TEST_ASSERT_EQUAL_STRING("F1 R", finds);
 }
@@ -159,8 +147,8 @@ void test_every_byte_alone_is_what_the_language_says(void)
         } else if (byte == ' ' || byte == '\t' || byte == '\r' || byte == '\n') {
             expected = PROGRAM_END;
         }
-        take_text(&character, 1);
-        program_parser_init(&parser, text, text_length);
+        exact_text_take(&text, &character, 1);
+        program_parser_init(&parser, text.bytes, text.length);
         TEST_ASSERT_EQUAL_MESSAGE(expected, program_parser_next(&parser, &instruction), "status");
         TEST_ASSERT_EQUAL_UINT32_MESSAGE(expected == PROGRAM_END ? 1 : 0, parser.place, "place");
         TEST_ASSERT_EQUAL_UINT32_MESSAGE(1, parser.next, "next");
@@ -175,7 +163,7 @@ void test_lower_case_letters_are_unknown(void)
 void test_nul_and_8_bit_bytes_are_unknown_commands(void)
 {
     const char program[] = "R\0R\x80R\xFFR";
-    take_text(program, sizeof program - 1);
+    exact_text_take(&text, program, sizeof program - 1);
     read_text();
     TEST_ASSERT_EQUAL_STRING("R ?1 R ?3 R ?5 R", finds);
 }
@@ -183,7 +171,7 @@ void test_nul_and_8_bit_bytes_are_unknown_commands(void)
 void test_a_nul_does_not_end_a_number_that_is_missing(void)
 {
     const char program[] = "F\0" "5";
-    take_text(program, sizeof program - 1);
+    exact_text_take(&text, program, sizeof program - 1);
     read_text();
     TEST_ASSERT_EQUAL_STRING("!0 ?1", finds);
 }
@@ -242,7 +230,7 @@ void test_a_number_of_any_length_is_one_mistake(void)
     memset(program, '9', sizeof program);
     program[0] = 'W';
     program[TEXT_BYTES_MAX - 1] = 'R';
-    take_text(program, sizeof program);
+    exact_text_take(&text, program, sizeof program);
     read_text();
     TEST_ASSERT_EQUAL_STRING("!0 R", finds);
 }
@@ -325,8 +313,8 @@ void test_a_conditional_jump_keeps_its_parts(void)
 {
     struct program_parser parser;
     struct program_instruction jump = {.value = 0};
-    take_text("I05L10", 6);
-    program_parser_init(&parser, text, text_length);
+    exact_text_take(&text, "I05L10", 6);
+    program_parser_init(&parser, text.bytes, text.length);
     TEST_ASSERT_EQUAL(PROGRAM_OK, program_parser_next(&parser, &jump));
     TEST_ASSERT_EQUAL_UINT8(PROGRAM_JUMP_IF_LOW, jump.opcode);
     TEST_ASSERT_EQUAL_UINT8(5, jump.io);
@@ -392,8 +380,8 @@ void test_the_end_is_found_again_and_again(void)
 {
     struct program_parser parser;
     struct program_instruction instruction;
-    take_text("R ", 2);
-    program_parser_init(&parser, text, text_length);
+    exact_text_take(&text, "R ", 2);
+    program_parser_init(&parser, text.bytes, text.length);
     TEST_ASSERT_EQUAL(PROGRAM_OK, program_parser_next(&parser, &instruction));
     TEST_ASSERT_EQUAL(PROGRAM_END, program_parser_next(&parser, &instruction));
     TEST_ASSERT_EQUAL(PROGRAM_END, program_parser_next(&parser, &instruction));
@@ -409,11 +397,11 @@ static const char long_program[] =
 void test_a_cut_text_is_read_as_far_as_it_goes(void)
 {
     char whole[LOG_BYTES_MAX];
-    take_text(long_program, strlen(long_program));
+    exact_text_take(&text, long_program, strlen(long_program));
     read_text();
     memcpy(whole, finds, sizeof whole);
     for (size_t length = 0; length < strlen(long_program); length++) {
-        take_text(long_program, length);
+        exact_text_take(&text, long_program, length);
         read_text();
         char *last = strrchr(finds, ' ');
         size_t sure = last != NULL ? (size_t)(last - finds) : 0;
@@ -424,8 +412,8 @@ void test_a_cut_text_is_read_as_far_as_it_goes(void)
 void test_a_cut_text_has_no_unknown_command_but_a_comment(void)
 {
     for (size_t length = 0; length < strlen(long_program); length++) {
-        take_text(long_program, length);
-        struct program_summary summary = program_check(text, text_length);
+        exact_text_take(&text, long_program, length);
+        struct program_summary summary = program_check(text.bytes, text.length);
         if (summary.status == PROGRAM_UNKNOWN_COMMAND) {
             TEST_ASSERT_EQUAL_HEX8('{', summary.character);
         }
@@ -456,7 +444,7 @@ void test_random_bytes_are_read_to_their_end(void)
         for (size_t i = 0; i < length; i++) {
             bytes[i] = random_byte(&state);
         }
-        take_text(bytes, length);
+        exact_text_take(&text, bytes, length);
         read_text();
     }
 }

@@ -4,33 +4,21 @@
 
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "exact_text.h"
 
 #define LENGTH(array) (sizeof(array) / sizeof(array)[0])
 
-/* The text under test, in a block of its own length, so that a sanitizer sees what reads past its end. */
-static uint8_t *text;
-static uint32_t text_length;
+static struct exact_text text;
 
 void setUp(void)
 {
-    text = NULL;
-    text_length = 0;
 }
 
 void tearDown(void)
 {
-    free(text);
-}
-
-static void take_text(const void *bytes, size_t length)
-{
-    free(text);
-    text = malloc(length > 0 ? length : 1);
-    TEST_ASSERT_NOT_NULL(text);
-    memcpy(text, bytes, length);
-    text_length = (uint32_t)length;
+    exact_text_free(&text);
 }
 
 struct range {
@@ -90,15 +78,15 @@ static void assert_number_makes(char letter, int64_t number, unsigned opcode)
     struct program_parser parser;
     struct program_instruction instruction = {.opcode = PROGRAM_OPCODES};
     (void)snprintf(program, sizeof program, "%c%" PRId64, letter, number);
-    take_text(program, strlen(program));
-    program_parser_init(&parser, text, text_length);
+    exact_text_take(&text, program, strlen(program));
+    program_parser_init(&parser, text.bytes, text.length);
 
     enum program_status status = program_parser_next(&parser, &instruction);
 
     TEST_ASSERT_EQUAL_MESSAGE(opcode == PROGRAM_OPCODES ? PROGRAM_BAD_VALUE : PROGRAM_OK, status, program);
     TEST_ASSERT_EQUAL_UINT_MESSAGE(opcode, instruction.opcode, program);
     TEST_ASSERT_EQUAL_INT64_MESSAGE(opcode == PROGRAM_OPCODES ? 0 : number, instruction.value, program);
-    TEST_ASSERT_EQUAL_UINT32_MESSAGE(text_length, parser.next, program);
+    TEST_ASSERT_EQUAL_UINT32_MESSAGE(text.length, parser.next, program);
 }
 
 static void assert_number_is_judged(char letter, int64_t number)

@@ -2,7 +2,8 @@
  * ST's STM32F407G-DISC1 (STM32F407VGT6, LQFP100, 8 MHz crystal), with drivers, line and inputs wired to its headers.
  * README.md beside this file has the same pins as a table, with what else sits on that board.
  *
- * X(signal, port, pin, use): each signal's pin. `use` is IN, IN_UP (pull-up) or OUT, or the peripheral that has the pin.
+ * X(signal, port, pin, use): each signal's pin. `use` is IN, IN_UP (pull-up) or OUT, or the peripheral that has the
+ * pin.
  */
 #ifndef BOARD_H
 #define BOARD_H

@@ -2,7 +2,8 @@
  * The reference board: STM32F405RGT6 (LQFP64) with an 8 MHz crystal. README.md beside this file has the same pins as a
  * table, with notes on wiring.
  *
- * X(signal, port, pin, use): each signal's pin. `use` is IN, IN_UP (pull-up) or OUT, or the peripheral that has the pin.
+ * X(signal, port, pin, use): each signal's pin. `use` is IN, IN_UP (pull-up) or OUT, or the peripheral that has the
+ * pin.
  */
 #ifndef BOARD_H
 #define BOARD_H
