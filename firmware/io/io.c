@@ -10,8 +10,6 @@ static_assert(UNIT_INPUTS <= 8 && UNIT_OUTPUTS <= 8, "inputs and outputs have a 
 static_assert(UNIT_VARIABLES <= 16, "variables have a bit of 16 each");
 static_assert(UNIT_VARIABLE_FIRST > UNIT_INPUTS && UNIT_VARIABLE_FIRST > UNIT_OUTPUTS, "numbers tell which is meant");
 
-enum { BITS_MAX = 16 };
-
 void io_init(struct io *io)
 {
     *io = (struct io){.outputs = 0};
@@ -31,7 +29,6 @@ uint8_t io_inputs(const struct io *io)
 
 static bool bits_have(unsigned bits, unsigned place)
 {
-    assert(place < BITS_MAX);
     return (bits >> place & 1U) != 0;
 }
 
@@ -46,7 +43,6 @@ bool io_level(const struct io *io, unsigned number)
 /* `bits` with the bit at `place` set or cleared. */
 static unsigned bits_with(unsigned bits, unsigned place, bool level)
 {
-    assert(place < BITS_MAX);
     unsigned bit = 1U << place;
     return level ? bits | bit : bits & ~bit;
 }

@@ -59,7 +59,8 @@ void motion_plan_begin(struct motion_plan *plan, const struct motion_order *orde
 /* The next segment; false if there is none left. */
 bool motion_plan_next(struct motion_plan *plan, struct step_segment *segment);
 
-/* How to brake from the step `step` on, where the motor has `slope`. False if the move is being stopped or ends there. */
+/* How to brake from the step `step` on, where the motor has `slope`. False if the move is being stopped or ends
+ * there. */
 bool motion_plan_brake(const struct motion_plan *plan, uint64_t step, uint64_t slope, struct motion_brake *brake);
 
 /* Lays the plan anew from the point `at`, stopping down the ramp with the acceleration of each section that it comes

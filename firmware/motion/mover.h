@@ -30,7 +30,7 @@ struct mover {
     struct motion_plan plan;
     struct mover_guards guards;
     enum hal_trace_stop cause; /* why the move is being stopped or was stopped; NONE: not at all */
-    struct step_cursor brake; /* while `braking`: the pulse from which the motor brakes, and the stop is to be planned */
+    struct step_cursor brake; /* while `braking`: the pulse from which the motor brakes and the stop is to be planned */
     uint8_t motor;
     bool moving;
     bool braking;

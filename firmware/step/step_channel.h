@@ -71,8 +71,8 @@ bool step_channel_look(const struct step_channel *channel, struct step_cursor *c
  * gives the caller time to plan. False if no pulse is left there. */
 bool step_channel_foresee(const struct step_channel *channel, uint32_t tick, struct step_cursor *cursor);
 
-/* Stops what was queued and brakes, from the armed pulse `at` on and to the pulse `until` at most: a stop-gap that takes
- * effect at once, while the segments behind `at` are being planned. False, and nothing is changed, at rest. */
+/* Stops what was queued and brakes, from the armed pulse `at` on and to the pulse `until` at most: a stop-gap that
+ * takes effect at once, while the segments behind `at` are being planned. False, and nothing is changed, at rest. */
 bool step_channel_brake(struct step_channel *channel, int32_t accel, uint64_t until, struct step_cursor *at);
 
 /* Puts the first planned segment behind `at` in the place of the stop-gap. The pulses that were made in the meantime

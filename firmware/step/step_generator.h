@@ -3,11 +3,11 @@
  *
  * State is the exact position and slope at the last pulse's tick. On a ramp it foretells the next interval from the
  * speed in the middle of it, evaluates the exact position after it, and corrects it until the position is within half
- * a tick's way of the next whole step. The foretelling has the digits of 32-bit words: above some thousand steps/s it is
- * nearly always right; below, where there is time, it is a tick or more off and the search goes on with division. At
+ * a tick's way of the next whole step. The foretelling has the digits of 32-bit words: above some thousand steps/s it
+ * is nearly always right; below, where there is time, it is a tick or more off and the search goes on with division. At
  * constant speed every interval is the same whole number of ticks or one more, and the position decides which.
- * Pure arithmetic: no queue, no pin, no clock. Called from the step interrupt, for which the usual cases are inline; the
- * planner calls it on copies.
+ * Pure arithmetic: no queue, no pin, no clock. Called from the step interrupt, for which the usual cases are inline;
+ * the planner calls it on copies.
  */
 #ifndef STEP_GENERATOR_H
 #define STEP_GENERATOR_H

@@ -9,9 +9,9 @@
  *      ___________/~~~~~~~~~~~~~~~~~~~~\______________/~~~
  *                 |  interrupt, client |    next armed
  *
- * Finding the next pulse takes longer than most drivers' minimum width, so the pin mostly is low at once behind it. What
- * is left of a wider pulse is waited for if that takes less than an interrupt would (SPIN_TICKS); else the same channel
- * makes the falling edge too, and its interrupt arms what comes next.
+ * Finding the next pulse takes longer than most drivers' minimum width, so the pin mostly is low at once behind it.
+ * What is left of a wider pulse is waited for if that takes less than an interrupt would (SPIN_TICKS); else the same
+ * channel makes the falling edge too, and its interrupt arms what comes next.
  *
  * A channel stands in PWM mode 2 (RM0090 18.3.9): its pin is high from the compare value on and low before it, so one
  * write of the next value both ends a pulse and arms the next. That works while the counter does not wrap in between,

@@ -27,7 +27,7 @@ int f(int a)
     return 0;
 }
 """
-BASELINE: dict[str, Any] = {"rules": {"15.5": {"count": 2, "reason": "because"}}, "false": []}
+BASELINE: dict[str, Any] = {"rules": {"15.5": {"count": 2, "reason": "because"}}, "left": []}
 
 
 @pytest.fixture
@@ -86,11 +86,10 @@ def test_as_many_deviations_as_recorded_are_good():
     assert misra.judge(returns(2), BASELINE) == ([], [])
 
 
-def test_one_more_is_wrong_and_all_places_are_told():
-    wrong, _ = misra.judge(returns(3), BASELINE)
+def test_one_more_is_wrong():
+    [wrong], _ = misra.judge(returns(3), BASELINE)
 
-    assert wrong[:3] == [f"a.c:{line}: MISRA C:2012 rule 15.5" for line in (1, 2, 3)]
-    assert wrong[3].startswith("rule 15.5: 3 deviations, 2 are in the baseline")
+    assert wrong.startswith("rule 15.5: 3 deviations, 2 are in the baseline")
 
 
 def test_one_less_is_told():
@@ -110,16 +109,16 @@ def test_a_new_rule_is_wrong_until_it_has_a_reason():
     assert wrong == ["rule 8.7: has no reason in misra_baseline.json"]
 
 
-def test_what_cppcheck_finds_itself_is_wrong_unless_it_is_known_to_be_false():
+def test_what_cppcheck_finds_itself_is_wrong_unless_it_is_left():
     found = [misra.Found("a.c", 1, "nullPointer", "Null")]
-    false = {"rules": {}, "false": [{"file": "a.c", "id": "nullPointer", "reason": "it is not"}]}
+    left = {"rules": {}, "left": [{"file": "a.c", "id": "nullPointer", "reason": "it is not"}]}
 
-    assert misra.judge(found, {"rules": {}, "false": []})[0] == ["a.c:1: Null [nullPointer]"]
-    assert misra.judge(found, false)[0] == []
+    assert misra.judge(found, {"rules": {}, "left": []})[0] == ["a.c:1: Null [nullPointer]"]
+    assert misra.judge(found, left)[0] == []
 
 
 def test_every_deviation_of_the_baseline_has_a_reason():
     baseline = json.loads(misra.BASELINE.read_text())
 
     assert all(entry["count"] > 0 and entry["reason"] for entry in baseline["rules"].values())
-    assert all(entry["reason"] for entry in baseline["false"])
+    assert all(entry["reason"] for entry in baseline["left"])

@@ -1,7 +1,7 @@
 """Checks the limits of the house on every file of the project; prints FILE:LINE: what is wrong.
 
-Functions have at most 60 lines, sources at most 500, of 120 columns. A flat opcode switch may be longer if the
-comment above its function says `house: flat switch`.
+Functions have at most 60 lines, sources at most 500, lines 120 columns. A flat opcode switch may be
+longer if the comment above its function says `house: flat switch`.
 """
 
 from __future__ import annotations

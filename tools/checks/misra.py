@@ -2,12 +2,13 @@
 
     PYTHONPATH=tools build/venv/bin/python -m checks.misra            compare with the baseline
     PYTHONPATH=tools build/venv/bin/python -m checks.misra --update   write the counts as they are
+    PYTHONPATH=tools build/venv/bin/python -m checks.misra 15.5       show the places of a rule
 
 The baseline is misra_baseline.json; an update keeps its reasons, and new rules get none.
 
 cppcheck and its addon find the deviations. The baseline has for each rule how many there are and
 why. The check fails when a rule has more of them than there, or has no reason. What cppcheck finds
-without the addon has no baseline: it is mended, or is in `false`, each with the reason.
+without the addon has no baseline: it is mended, or is in `left`, each with the reason.
 """
 
 from __future__ import annotations
@@ -23,7 +24,8 @@ from typing import Any
 from checks.static import ARM_FOLDERS, ROOT, includes, tool
 
 BASELINE = ROOT / "tools" / "checks" / "misra_baseline.json"
-SCOPE = ("firmware", "hal/stm32")
+SCOPE = ("firmware", "hal/stm32", "-ihal/stm32/bench")
+RULE_NUMBER = re.compile(r"\d+\.\d+")
 RULE = re.compile(r"misra-c2012-(\d+\.\d+)")
 ARGUMENTS = [
     "--enable=warning,style,performance,portability", "--addon=misra", "--std=c11",
@@ -79,18 +81,18 @@ def key(rule: str) -> tuple[int, ...]:
 def judge(found: list[Found], baseline: dict[str, Any]) -> tuple[list[str], list[str]]:
     """What is wrong, and what may be tightened."""
     wrong, better = [], []
-    false = {(each["file"], each["id"]) for each in baseline["false"]}
+    left = {(each["file"], each["id"]) for each in baseline["left"]}
     others = [each for each in found if not each.is_misra]
-    wrong += [str(each) for each in others if (each.file, each.rule) not in false]
+    wrong += [str(each) for each in others if (each.file, each.rule) not in left]
     counts = Counter(each.rule for each in found if each.is_misra)
     rules = baseline["rules"]
     for rule in sorted({*counts, *rules}, key=key):
         entry = rules.get(rule, {"count": 0, "reason": ""})
         if counts[rule] > entry["count"]:
-            wrong += [str(each) for each in found if each.rule == rule]
             wrong.append(
                 f"rule {rule}: {counts[rule]} deviations, {entry['count']} are in the baseline; "
-                "mend the new one, or run checks.misra --update and give the reason"
+                f"mend the new one (checks.misra {rule} shows all places), or run checks.misra "
+                "--update and give the reason"
             )
         elif counts[rule] < entry["count"]:
             better.append(
@@ -108,11 +110,14 @@ def updated(found: list[Found], baseline: dict[str, Any]) -> dict[str, Any]:
         rule: {"count": counts[rule], "reason": baseline["rules"].get(rule, {}).get("reason", "")}
         for rule in sorted(counts, key=key)
     }
-    return {"rules": rules, "false": baseline["false"]}
+    return {"rules": rules, "left": baseline["left"]}
 
 
 def main(arguments: list[str]) -> int:
     found = run_cppcheck()
+    if arguments and RULE_NUMBER.fullmatch(arguments[0]):
+        print("\n".join(str(each) for each in found if each.rule == arguments[0]))
+        return 0
     baseline = json.loads(BASELINE.read_text(encoding="utf-8"))
     if arguments == ["--update"]:
         BASELINE.write_text(json.dumps(updated(found, baseline), indent=1) + "\n", encoding="utf-8")

@@ -19,7 +19,7 @@ static uint32_t lead_ticks;
 static uint64_t planning_ticks; /* that pass until the cut */
 static uint64_t handing_ticks;  /* that pass after the cut */
 static uint64_t braking_ticks;  /* that pass while a stop is planned */
-static unsigned holds;          /* since planning began: the first foresees, the second cuts; a stop looks, brakes, joins */
+static unsigned holds;          /* since planning began: first to foresee, then to cut; a stop looks, brakes, joins */
 static bool stops;
 static unsigned cuts_tried;
 static uint64_t pulses;
@@ -169,7 +169,7 @@ void test_a_stop_below_the_start_speed_takes_effect_at_the_next_pulse(void)
     TEST_ASSERT_EQUAL_INT(HAL_TRACE_STOP_COMMAND, mover_stop_cause(&mover));
 }
 
-/* From 16 000 steps/s down to 100 takes 2133 steps at 60 000 steps/s^2, and from the 50th pulse of a ramp the 50 back. */
+/* From 16 000 steps/s down to 100 takes 2133 steps at 60 000 steps/s^2, and from the 50th pulse of a ramp 50. */
 static const struct motion_order ramped = {
     .section = {{4000, 16000, 60000}},
     .start_speed_steps_per_s = 100,
