@@ -41,8 +41,8 @@ void step_generator_start(struct step_generator *generator, uint32_t tick);
 /* Stays on its pulse, which lies on a segment too: the segment's first `made` pulses have been made. */
 void step_generator_join(struct step_generator *generator, const struct step_segment *segment, uint32_t made);
 
-/* Completes a segment that stands on another moment, within 25 s before its first pulse: residual and slope are those of
- * `tick`, and no pulse has been made. The first pulse comes about `interval_ticks` later; nearer is found faster. */
+/* Completes a segment that stands on another moment, within 25 s before its first pulse: residual and slope are those
+ * of `tick`, and no pulse has been made. The first pulse comes about `interval_ticks` later; nearer is found faster. */
 void step_generator_aim(struct step_segment *segment, uint32_t interval_ticks);
 
 /* Moves on to the pulse that comes about `interval` ticks after the last one, where that was foretold wrongly. */
