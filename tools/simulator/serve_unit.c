@@ -1,6 +1,7 @@
 #include "serve_unit.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "base_tick.h"
 #include "line.h"
