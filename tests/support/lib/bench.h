@@ -2,8 +2,8 @@
  * The test bench: a whole unit on the host machine, with everything that it does on record.
  *
  * bench_init begins at a random epoch, so that no test relies on where the counter stands; RKM04_SEED repeats a run.
- * All ticks count from the start of the machine, motors from 1 as in messages. bench_check, called in tearDown, tells
- * of what must never be: a late pulse, pulses too close, a `done` that is not the pulses made. A build whose program
+ * All ticks count from the start of the machine, motors from 1 as in messages. The judge (judge.h) sees everything
+ * that happens, each move with its order; bench_check, called in tearDown, tells what it complains of. A build whose program
  * memory is too small for the programs of these tests passes them over.
  */
 #ifndef BENCH_H
@@ -15,6 +15,7 @@
 #include "base_tick.h"
 #include "hal_trace.h"
 #include "host_machine.h"
+#include "judge.h"
 #include "unit.h"
 
 enum {
@@ -58,7 +59,7 @@ struct bench {
     struct host_input script[BENCH_INPUTS_MAX];
     uint8_t answer[PROTOCOL_ANSWER_BYTES_MAX + 1]; /* and the end of a string */
     uint32_t answer_length;
-    bool simulated; /* T41 was on at some time: pulses are not the steps made */
+    struct judge judge;
 
     /* What bench_run_pulses waits for; main is called then, whatever the unit says. */
     unsigned wanted_motor;
@@ -113,6 +114,6 @@ bool bench_output(const struct bench *bench, unsigned output);
 uint64_t bench_led_tick(const struct bench *bench, unsigned motor, uint32_t edge);
 
 /* What must hold after every test. */
-void bench_check(const struct bench *bench);
+void bench_check(struct bench *bench);
 
 #endif
