@@ -6,6 +6,7 @@
  */
 #include <string.h>
 
+#include "fuzz_commands.h"
 #include "fuzz_stream.h"
 #include "program_listing.h"
 #include "program_memory.h"
@@ -138,31 +139,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     return 0;
 }
 
-/* One time in two, puts a command of the table somewhere, with a number at an end of its range or one beyond. */
+/* One time in two, puts a command of the table somewhere. */
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed)
 {
-    uint8_t text[PROGRAM_COMMAND_BYTES_MAX + 1];
     size = LLVMFuzzerMutate(data, size, max_size);
-    if (seed % 2U == 0) {
-        return size;
-    }
-    const unsigned opcode = seed / 2U % PROGRAM_OPCODES;
-    const struct program_row *row = program_opcode_row(opcode);
-    bool conditional = row->form == PROGRAM_FORM_HIGH || row->form == PROGRAM_FORM_LOW;
-    struct program_instruction instruction = {
-        .opcode = (uint8_t)opcode,
-        .value = (seed >> 8U) % 2U == 0 ? row->min : row->max,
-        .io = conditional ? (uint8_t)(80U + (seed >> 9U) % 16U) : 0,
-    };
-    uint32_t length = program_list_instruction(&instruction, text);
-    if ((seed >> 13U) % 4U == 0 && text[length - 1] >= '0' && text[length - 1] < '9') {
-        text[length - 1]++;
-    }
-    if (size + length > max_size) {
-        return size;
-    }
-    size_t at = (seed >> 15U) % (size + 1);
-    memmove(data + at + length, data + at, size - at);
-    memcpy(data + at, text, length);
-    return size + length;
+    return seed % 2U == 0 ? size : fuzz_insert_command(data, size, max_size, 0, seed / 2U);
 }

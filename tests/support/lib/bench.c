@@ -6,6 +6,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "judge_unit.h"
 #include "unity.h"
 
 /* Half of all epochs let the 32-bit counter wrap within this time: 3 s. */
@@ -39,17 +40,13 @@ static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
         (struct bench_pulse){.tick = tick, .motor = (uint8_t)(motor + 1U), .backward = backward};
     bench->pulse_count++;
     bench->made[motor + 1U]++;
-    judge_pulse(&bench->judge, tick, motor + 1U, backward);
+    judge_unit_step(&bench->judge, tick, motor, backward);
 }
 
-/* T41 takes DIR from its pins and gives it back: those are edges, too. */
 static void on_direction(void *context, uint64_t tick, unsigned motor, bool backward)
 {
     struct bench *bench = context;
-    if (bench->unit.io.simulating) {
-        judge_hide(&bench->judge);
-    }
-    judge_direction(&bench->judge, tick, motor + 1U, backward);
+    judge_unit_direction(&bench->judge, &bench->unit, tick, motor, backward);
 }
 
 static void add_edge(struct bench *bench, uint64_t tick, unsigned motor, uint8_t value)
@@ -76,10 +73,7 @@ static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trac
     bench->events[bench->event_count] =
         (struct bench_event){.tick = tick, .value = value, .motor = (uint8_t)motor, .event = event};
     bench->event_count++;
-    judge_event(&bench->judge, tick, motor, event, value);
-    if (event == HAL_TRACE_MOVE) {
-        judge_order(&bench->judge, motor, &bench->unit.interpreter[motor - 1U].order, bench_position(bench, motor));
-    }
+    judge_unit_trace(&bench->judge, &bench->unit, tick, motor, event, value);
 }
 
 static bool step_isr(void *context, unsigned motor)
@@ -193,14 +187,7 @@ static uint64_t main_pass(void *context)
 {
     struct bench *bench = context;
     uint64_t wake = unit_poll(&bench->unit);
-    if (bench->unit.io.simulating) {
-        judge_hide(&bench->judge);
-    }
-    for (unsigned motor = 1; motor <= UNIT_MOTORS; motor++) {
-        judge_position(&bench->judge, motor, bench_position(bench, motor));
-        judge_interpreter(&bench->judge, motor, &bench->unit.interpreter[motor - 1U]);
-    }
-    judge_pass(&bench->judge);
+    judge_unit_pass(&bench->judge, &bench->unit);
     return wake;
 }
 
