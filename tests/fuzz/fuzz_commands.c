@@ -1,5 +1,6 @@
 #include "fuzz_commands.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 #include "program_listing.h"

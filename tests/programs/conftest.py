@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
-from judge import Event, Limits, Steps, judge, read_steps, read_trace
+from judge import Event, Limits, Steps, judge_files, read_steps, read_trace
 from reference import TICK_HZ, Curve
 from rkm04_tools.cli import main
 
@@ -133,7 +133,7 @@ def run_program(
         assert (status, told.err) == (0, "")
         events = read_trace(trace)
         result = Run(json.loads(told.out), read_steps(steps), events, moves_of(events))
-        assert judge(result.steps, events, limits) == []
+        assert judge_files(steps, trace, limits) == []
         assert result.summary["late_steps"] == 0
         return result
 

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 from frames import frame
-from judge import Event, Steps, read_steps, read_trace
+from judge import Event, Steps, judge_files, read_steps, read_trace
 from reference import TICK_HZ
 from rkm04_tools import board, host, virtual_board
 
@@ -171,7 +171,7 @@ class VirtualBoard:
     def simulate(
         self, programs: Mapping[int, bytes], seconds: float, inputs: str = ""
     ) -> Simulated:
-        """Run programs on the simulator."""
+        """Run programs on the simulator, under the judge."""
         steps, trace = self.folder / "simulated.csv", self.folder / "trace.csv"
         arguments = ["--for", str(seconds), "--steps", str(steps), "--trace", str(trace)]
         for motor, text in programs.items():
@@ -179,10 +179,11 @@ class VirtualBoard:
             file.write_bytes(text)
             arguments += ["--motor", f"{motor}={file}"]
         summary = host.simulate([*arguments, *self._file("inputs", inputs)])
+        assert judge_files(steps, trace, counter_set=True) == []
         return Simulated(summary, read_steps(steps), read_trace(trace))
 
     def run(self, lines: str, seconds: float, inputs: str = "", *options: str) -> Modelled:
-        """Run the image, with a script for the line and one for the inputs."""
+        """Run the image, with a script for the line and one for the inputs, under the judge."""
         steps = self.folder / "board.csv"
         arguments = ["--elf", str(self.image.file("elf")), "--for", f"{seconds:.6f}"]
         arguments += self._file("pins", virtual_board.board_pins(self.image.board))
@@ -191,6 +192,7 @@ class VirtualBoard:
         arguments += ["--watch", "stm32_late_steps", "--stack-limit", "stm32_stack_bottom"]
         arguments += [*self._file("line-script", lines), *self._file("inputs", inputs), *options]
         summary = virtual_board.run(self.program, arguments)
+        assert judge_files(steps) == []
         return Modelled(summary, read_steps(steps), self.folder)
 
     def _file(self, name: str, text: str) -> list[str]:

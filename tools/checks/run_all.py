@@ -20,6 +20,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
 BRANCHES_PERCENT = 95  # of firmware/, that the C tests must reach
+FUZZ_SECONDS = 15  # of exploration, each fuzzer
+LONG_MINUTES = 8  # the same with --long
 # What no test can reach: the other side of an assertion.
 UNREACHABLE = r".*\b(static_)?assert\(.*"
 
@@ -157,6 +159,15 @@ def python_tests() -> Count:
     return Count(max(tests - failures - errors - skipped, 0), failed, skipped)
 
 
+def fuzzers(seconds: int) -> Count:
+    """A check for the corpora and the exploration from them; what it prints are the runs."""
+    if not build("fuzz"):
+        return Count(failed=1)
+    command = [sys.executable, "-P", "tools/checks/fuzz.py", "--seconds", str(seconds)]
+    good = succeeds(*command, show=True)
+    return Count(passed=1) if good else Count(failed=1)
+
+
 def python_style() -> Count:
     folders = ["tools", "tests"]
     return (
@@ -170,7 +181,7 @@ def has_tiny_limits() -> bool:
     return any("RKM04_TINY_LIMITS" in path.read_text() for path in ROOT.glob("firmware/**/*.h"))
 
 
-def steps(quick: bool) -> dict[str, Callable[[], Count]]:
+def steps(quick: bool, fuzz_seconds: int = FUZZ_SECONDS) -> dict[str, Callable[[], Count]]:
     chosen: dict[str, Callable[[], Count]] = {
         "C tests (host)": lambda: c_tests_once("host"),
         "Python tests": python_tests,
@@ -188,6 +199,7 @@ def steps(quick: bool) -> dict[str, Callable[[], Count]]:
     if has_tiny_limits():
         chosen["C tests with tiny limits (tiny)"] = lambda: c_tests_again("tiny")
     chosen["Coverage of firmware/ (coverage)"] = coverage
+    chosen["Fuzzers (fuzz)"] = lambda: fuzzers(fuzz_seconds)
     return chosen
 
 
@@ -196,9 +208,14 @@ def main() -> int:
     parser.add_argument(
         "--quick", action="store_true", help="the C tests and the Python tests only"
     )
+    parser.add_argument(
+        "--long", type=int, nargs="?", const=LONG_MINUTES, metavar="MINUTES",
+        help=f"each fuzzer explores for so long ({LONG_MINUTES})",
+    )  # fmt: skip
     options = parser.parse_args()
     total = Count()
-    for title, step in steps(options.quick).items():
+    fuzz_seconds = options.long * 60 if options.long else FUZZ_SECONDS
+    for title, step in steps(options.quick, fuzz_seconds).items():
         print(f"== {title}", flush=True)
         started = time.monotonic()
         count = step()

@@ -11,8 +11,10 @@
 
 enum {
     EVENTS_OF_PASS_MAX = JUDGE_MOTORS * INTERPRETER_SLICE_COMMANDS * 14,
-    MOVE_SLACK = 1, /* ticks that a pulse may stand off its time */
 };
+
+/* Ticks that a pulse may stand off its time. */
+static const long double pulse_slack = 1.0L;
 
 struct judge_limits judge_default_limits(void)
 {
@@ -100,7 +102,7 @@ static void judge_planned_pulse(struct judge *judge, unsigned number, uint64_t t
         return;
     }
     long double due = (long double)motor->start_tick + judge_curve_tick(&motor->curve, motor->made);
-    if (fabsl((long double)tick - due) > MOVE_SLACK) {
+    if (fabsl((long double)tick - due) > pulse_slack) {
         judge_complain_move(judge, number, JUDGE_RULE_EXACT, "has a pulse more than a tick off its time, at", tick);
     }
     const struct judge_leg *leg = judge_curve_leg(&motor->curve, motor->made);

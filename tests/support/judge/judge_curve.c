@@ -138,7 +138,7 @@ static void begin_legs(struct judge_curve *curve)
     curve->count = 0;
     curve->present = 0;
     curve->most_w = 0.0L;
-    curve->least_w = INFINITY;
+    curve->least_w = (long double)INFINITY;
 }
 
 /* A start or a change: speeds up to S need no ramp, but no more than can be braked from. */

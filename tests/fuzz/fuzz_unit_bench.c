@@ -1,0 +1,141 @@
+#include "fuzz_unit_bench.h"
+
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base_tick.h"
+#include "fuzz_stream.h"
+#include "judge_unit.h"
+
+enum {
+    COPIED_BYTES = offsetof(struct fuzz_unit, machine) + offsetof(struct host_machine, flash),
+    ERASED = 0xFF,
+    LINE_BYTE_TICKS = 800, /* the line is quicker than it should be, so that long answers take no time */
+};
+
+/* 0, a wrap of the 32-bit counter after 30 ms, one after 3 s, and some other time. */
+static const uint64_t epochs[FUZZ_EPOCHS] = {
+    0,
+    (UINT64_C(7) << 32U) - UINT64_C(30) * TICKS_PER_MS,
+    (UINT64_C(1) << 32U) - UINT64_C(3) * TICK_HZ,
+    UINT64_C(0x123456789ABCD),
+};
+
+static struct fuzz_unit live;
+static uint8_t fresh[FUZZ_EPOCHS][COPIED_BYTES];
+static bool made;
+
+static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
+{
+    struct fuzz_unit *fuzz = context;
+    judge_unit_step(&fuzz->judge, tick, motor, backward);
+}
+
+static void on_direction(void *context, uint64_t tick, unsigned motor, bool backward)
+{
+    struct fuzz_unit *fuzz = context;
+    judge_unit_direction(&fuzz->judge, &fuzz->unit, tick, motor, backward);
+}
+
+static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
+{
+    struct fuzz_unit *fuzz = context;
+    judge_unit_trace(&fuzz->judge, &fuzz->unit, tick, motor, event, value);
+}
+
+static void on_line(void *context, uint64_t tick, uint8_t value)
+{
+    struct fuzz_unit *fuzz = context;
+    (void)tick;
+    FUZZ_REQUIRE(fuzz->sent_count < FUZZ_SENT_MAX);
+    fuzz->sent[fuzz->sent_count++] = value;
+}
+
+static uint64_t main_pass(void *context)
+{
+    struct fuzz_unit *fuzz = context;
+    uint64_t wake = unit_poll(&fuzz->unit);
+    fuzz->passes++;
+    judge_unit_pass(&fuzz->judge, &fuzz->unit);
+    return wake;
+}
+
+bool fuzz_unit_is_over(const struct fuzz_unit *fuzz)
+{
+    return fuzz->passes >= FUZZ_PASSES_MAX || fuzz->machine.pulses >= FUZZ_PULSES_MAX;
+}
+
+static bool is_over(void *context)
+{
+    return fuzz_unit_is_over(context);
+}
+
+static void switch_on(void)
+{
+    unit_init(&live.unit);
+    unit_start(&live.unit);
+}
+
+static void make_fresh(unsigned which)
+{
+    const struct judge_limits limits = judge_default_limits();
+    memset(&live, 0, sizeof live);
+    judge_init(&live.judge, &limits);
+    host_machine_init(&live.machine, epochs[which]);
+    host_machine_set_byte_ticks(&live.machine, LINE_BYTE_TICKS);
+    host_machine_select(&live.machine);
+    live.machine.listener = (struct host_listener){
+        .context = &live,
+        .step = on_step,
+        .direction = on_direction,
+        .trace = on_trace,
+        .line = on_line,
+    };
+    switch_on();
+    memcpy(fresh[which], &live, COPIED_BYTES);
+}
+
+struct fuzz_unit *fuzz_unit_begin(unsigned epoch)
+{
+    for (unsigned which = 0; !made && which < FUZZ_EPOCHS; which++) {
+        make_fresh(which);
+    }
+    made = true;
+    if (live.machine.flash_operations != 0) {
+        memset(live.machine.flash, ERASED, sizeof live.machine.flash);
+    }
+    memcpy(&live, fresh[epoch % FUZZ_EPOCHS], COPIED_BYTES);
+    host_machine_select(&live.machine);
+    return &live;
+}
+
+void fuzz_unit_run(struct fuzz_unit *fuzz, uint64_t ticks)
+{
+    if (!fuzz_unit_is_over(fuzz)) {
+        host_machine_run(&fuzz->machine, fuzz->machine.now + ticks, main_pass, is_over, fuzz);
+    }
+}
+
+void fuzz_unit_restart(struct fuzz_unit *fuzz)
+{
+    /* What the flash has seen so far must stay known to fuzz_unit_begin. */
+    uint32_t operations = fuzz->machine.flash_operations;
+    host_machine_restart(&fuzz->machine);
+    judge_restart(&fuzz->judge);
+    switch_on();
+    fuzz->machine.flash_operations += operations;
+}
+
+void fuzz_unit_end(struct fuzz_unit *fuzz)
+{
+    char text[JUDGE_TEXT_BYTES + 32];
+    FUZZ_REQUIRE(fuzz->machine.late_steps == 0);
+    judge_flash(&fuzz->judge, fuzz->machine.flash_rewrites);
+    judge_finish(&fuzz->judge, fuzz_unit_is_over(fuzz) ? UINT64_MAX : fuzz->machine.now);
+    for (uint32_t i = 0; i < fuzz->judge.complaints; i++) {
+        judge_tell(&fuzz->judge, i, text);
+        (void)fprintf(stderr, "judge: %s\n", text);
+    }
+    FUZZ_REQUIRE(fuzz->judge.complaints == 0);
+}
