@@ -8,7 +8,7 @@
  *   low 3 bits 0, 1  a message of 1 to 4 commands: opcode, condition, number of two bytes
  *   2  up to 32 commands right into memory      3  a pass      4  time goes by, two bytes of 10 us
  *   5  levels of the inputs      6  the mover: makes steps, ends its move, begins its last section
- *   7  the last message once more, or, the first time, memory nearly full of labels
+ *   7  the last message once more, or, the first time and if the operand is 0, memory nearly full of labels
  */
 #include <string.h>
 
@@ -269,10 +269,10 @@ static void do_store(struct fuzz_stream *stream, unsigned commands)
     }
 }
 
-static void do_fill(unsigned label)
+static void do_fill(unsigned operand)
 {
-    const struct program_instruction instruction = {.opcode = PROGRAM_LABEL, .value = (int32_t)label};
-    if (bench.filled) {
+    const struct program_instruction instruction = {.opcode = PROGRAM_LABEL, .value = 1};
+    if (bench.filled || operand != 0) {
         if (bench.text_length != 0) {
             take_message();
         }
@@ -318,7 +318,7 @@ static void do_operation(struct fuzz_stream *stream)
     case 4: bench.now += (uint64_t)fuzz_take_pair(stream) * 10U * TICKS_PER_US; break;
     case 5: bench.inputs = fuzz_take_byte(stream); break;
     case 6: do_motion(stream); break;
-    default: do_fill(1U + operand); break;
+    default: do_fill(operand); break;
     }
     if (operation % 8U != 3U) {
         do_pass();
