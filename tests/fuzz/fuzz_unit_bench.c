@@ -121,8 +121,8 @@ void fuzz_unit_restart(struct fuzz_unit *fuzz)
 {
     /* What the flash has seen so far must stay known to fuzz_unit_begin. */
     uint32_t operations = fuzz->machine.flash_operations;
-    host_machine_restart(&fuzz->machine);
     judge_restart(&fuzz->judge);
+    host_machine_restart(&fuzz->machine);
     switch_on();
     fuzz->machine.flash_operations += operations;
 }

@@ -27,7 +27,7 @@ struct judge_limits judge_default_limits(void)
         .slack_ticks = 2,
         .lead_ticks = 100U * TICKS_PER_US,
         .dir_setup_ticks = 5U * TICKS_PER_US,
-        .dir_hold_ticks = 2U * TICKS_PER_US,
+        .dir_hold_ticks = 0,
     };
 }
 

@@ -17,9 +17,10 @@
  *  5 the way left is a stopping distance       speed of each interval against the way left, section by section
  *  6 ends at the target, no pulse behind       `done` against pulses, plan and target; pulses outside of moves
  *    `done`, no `done` before the last pulse
- *  7 DIR stands still around each pulse, STEP  DIR edges against pulses. The width of STEP cannot be seen in edges of
- *    high and low long enough                  the host machine: tests/tools/test_stm32_step.py shows it on the board's
- *                                              timer; low is what is left of the interval, bounded by 2
+ *  7 DIR stands still around each pulse, STEP  DIR edges against pulses; on the host machine not how soon behind one,
+ *    high and low long enough                  and not the width of STEP: the board's driver has both in
+ *                                              hal/stm32/stm32_step_setup.c, tests/tools/test_stm32_step.py shows them.
+ *                                              STEP low is what is left of the interval, bounded by 2
  *  8 no gap inside a move                      intervals against the slowest place of the plan (or the lowest speed),
  *                                              and no pulse overdue when the run is over
  *  9 no pulse too many after a stop            the plan ends where the stop lets it
@@ -58,7 +59,7 @@ struct judge_limits {
     uint32_t slack_ticks;     /* rounding of an interval: a tick for the pulse at each end */
     uint32_t lead_ticks;      /* by which a move may begin later than its clock says */
     uint32_t dir_setup_ticks; /* DIR stands still before a pulse, */
-    uint32_t dir_hold_ticks;  /* and after it */
+    uint32_t dir_hold_ticks;  /* and after it; 0 on the host machine, whose main may run at the tick of a pulse */
     bool counter_set;         /* programs write the position counter: in files it may jump between moves */
 };
 
@@ -142,7 +143,7 @@ void judge_exchange(struct judge *judge, uint32_t requests, uint32_t answers);
 /* Words of the flash that were written when not erased. */
 void judge_flash(struct judge *judge, uint32_t rewrites);
 
-/* The unit was switched off and on: what was begun is over. */
+/* The unit is being switched off and on: what was begun is over, and edges of DIR mean nothing. Before the pins fall. */
 void judge_restart(struct judge *judge);
 
 /* The run is over at a tick; UINT64_MAX: not known, what is overdue is not told. */

@@ -199,6 +199,7 @@ void judge_restart(struct judge *judge)
         motor->unexplained = false;
         motor->position = 0;
         motor->has_position = false;
+        motor->has_pulse = false;
         motor->dir = 0;
     }
     judge->events_of_pass = 0;

@@ -130,15 +130,15 @@ void bench_init(struct bench *bench)
 
 void bench_restart(struct bench *bench)
 {
-    host_machine_restart(&bench->machine);
     judge_restart(&bench->judge);
+    host_machine_restart(&bench->machine);
     start_unit(bench);
 }
 
 void bench_restart_badly(struct bench *bench)
 {
-    host_machine_restart(&bench->machine);
     judge_restart(&bench->judge);
+    host_machine_restart(&bench->machine);
     bench->machine.faults.start_cause = HAL_BOARD_CAUSE_WATCHDOG;
     start_unit(bench);
 }

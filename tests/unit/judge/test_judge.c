@@ -233,6 +233,7 @@ void test_7_dir_that_moves_before_a_pulse_is_found(void)
 
 void test_7_dir_that_moves_behind_a_pulse_is_found(void)
 {
+    judge.limits.dir_hold_ticks = 2U * TICKS_PER_US;
     feed_all();
     judge_direction(&judge, done_tick + TICKS_PER_US, 1, true);
     assert_found("DIR moves behind a pulse");
@@ -247,6 +248,7 @@ void test_7_dir_that_shows_the_other_way_is_found(void)
 
 void test_7_a_dir_that_stands_still_passes(void)
 {
+    judge.limits.dir_hold_ticks = 2U * TICKS_PER_US;
     judge_direction(&judge, START, 1, false);
     feed_all();
     judge_direction(&judge, done_tick + 3U * TICKS_PER_US, 1, true);
