@@ -41,9 +41,9 @@ def run(name: str, seconds: int) -> Result:
     found.mkdir(exist_ok=True)
     folders = [explored, CORPUS / name] if seconds else [CORPUS / name]
     command = [
-        "nice", "-n", str(NICE), str(BUILD / "bin" / f"fuzz-{name}"), *map(str, folders), "-print_final_stats=1",
-        f"-artifact_prefix={found}/{name}-", f"-timeout={RUN_SECONDS_MAX}",
-        f"-max_len={INPUT_BYTES_MAX[name]}",
+        "nice", "-n", str(NICE), str(BUILD / "bin" / f"fuzz-{name}"), *map(str, folders),
+        "-print_final_stats=1", f"-artifact_prefix={found}/{name}-",
+        f"-timeout={RUN_SECONDS_MAX}", f"-max_len={INPUT_BYTES_MAX[name]}",
         f"-max_total_time={seconds}" if seconds else "-runs=0",
     ]  # fmt: skip
     done = subprocess.run(
