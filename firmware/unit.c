@@ -128,6 +128,18 @@ static uint64_t unit_poll_led(struct unit *unit, unsigned motor, uint64_t now_ti
     return led->edge_tick;
 }
 
+/* In turns, so that the last motor has its second segment soon. */
+static void unit_feed(struct unit *unit)
+{
+    bool fed = true;
+    while (fed) {
+        fed = false;
+        for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+            fed = mover_feed(&unit->mover[motor]) || fed;
+        }
+    }
+}
+
 uint64_t unit_poll(struct unit *unit)
 {
     uint16_t variables = unit->io.variables;
@@ -142,9 +154,7 @@ uint64_t unit_poll(struct unit *unit)
         wake = program < wake ? program : wake;
         wake = led < wake ? led : wake;
     }
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        mover_feed(&unit->mover[motor]);
-    }
+    unit_feed(unit);
     /* A motor polled before the one that wrote a variable may be waiting for it. */
     return unit->io.variables != variables ? now : wake;
 }

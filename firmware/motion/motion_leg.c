@@ -62,14 +62,18 @@ static void segment_from_end(const struct motion_leg *leg, struct step_segment *
     segment->accel = -(int32_t)leg->accel;
 }
 
-/* About when the first pulse comes: on a ramp the speed at the first pulse gives the time, in cruise the way. */
+/* About when the first pulse comes: at the speed of the beginning, where that does not change much until then; else the
+ * speed at the first pulse gives the time. */
 static uint32_t first_interval(const struct motion_leg *leg, const struct step_segment *segment)
 {
-    if (leg->accel == 0) {
-        return segment->residual >= STEP_QUANTA ? 0 : (uint32_t)((STEP_QUANTA - segment->residual) / segment->slope);
+    uint64_t way = segment->residual >= STEP_QUANTA && segment->residual <= 2U * STEP_QUANTA
+                       ? 0 : STEP_QUANTA - segment->residual;
+    uint64_t ticks = way / segment->slope;
+    if (leg->accel == 0 || leg->accel * ticks < segment->slope / 8U) {
+        return (uint32_t)ticks;
     }
-    uint64_t change = leg->pulse_slope > segment->slope ? leg->pulse_slope - segment->slope
-                                                        : segment->slope - leg->pulse_slope;
+    uint64_t slope = motion_leg_slope(leg->pulse_twice_speed2);
+    uint64_t change = slope > segment->slope ? slope - segment->slope : segment->slope - slope;
     return (uint32_t)(change / (2U * (uint64_t)leg->accel));
 }
 

@@ -20,7 +20,7 @@ struct motion_leg {
     struct motion_place to;
     uint64_t from_slope;      /* quanta a tick (step_scale.h) */
     uint64_t to_slope;
-    uint64_t pulse_slope;     /* of a ramp: the slope at its first pulse */
+    uint64_t pulse_twice_speed2; /* of a ramp: twice the square of the speed at its first pulse, (steps/s)^2 */
     uint32_t accel;           /* quanta a tick^2; 0: cruise */
 };
 

@@ -121,56 +121,95 @@ static struct motion_profile lay_section(const struct motion_plan *plan, unsigne
     return plan->stopping ? motion_profile_lay_stop(&way) : motion_profile_lay(&way);
 }
 
-static void leg_first_ramp(const struct motion_profile *profile, struct motion_leg *leg)
+static uint64_t slope_of(struct motion_progress *progress, uint64_t twice_speed2)
 {
+    if (progress->twice_speed2 != twice_speed2) {
+        progress->twice_speed2 = twice_speed2;
+        progress->slope = motion_leg_slope(twice_speed2);
+    }
+    return progress->slope;
+}
+
+static void leg_first_ramp(struct motion_progress *progress, struct motion_leg *leg)
+{
+    const struct motion_profile *profile = &progress->profile;
     uint64_t change = 4U * (uint64_t)profile->accel_steps_per_s2;
     leg->to = profile->corner_a;
     leg->accel = profile->accel_steps_per_s2 * STEP_ACCEL_PER_ACCEL;
-    leg->from_slope = motion_leg_slope(profile->enter);
-    leg->to_slope = motion_leg_slope(profile->turn);
-    leg->pulse_slope = motion_leg_slope(profile->turn < profile->enter ? profile->enter - lower(change, profile->enter)
-                                                                       : profile->enter + change);
+    leg->from_slope = slope_of(progress, profile->enter);
+    leg->to_slope = slope_of(progress, profile->turn);
+    leg->pulse_twice_speed2 = profile->turn < profile->enter ? profile->enter - lower(change, profile->enter)
+                                                             : profile->enter + change;
 }
 
-static void leg_cruise(const struct motion_profile *profile, struct motion_leg *leg)
+static void leg_cruise(struct motion_progress *progress, struct motion_leg *leg)
 {
-    leg->to = profile->corner_b;
+    leg->to = progress->profile.corner_b;
     if (leg->to.step - leg->from.step > PIECE_PULSES) {
         leg->to = (struct motion_place){.step = leg->from.step + PIECE_PULSES};
     }
-    leg->from_slope = motion_leg_slope(profile->cruise);
+    leg->from_slope = slope_of(progress, progress->profile.cruise);
     leg->to_slope = leg->from_slope;
 }
 
-static void leg_last_ramp(const struct motion_profile *profile, struct motion_leg *leg)
+static void leg_last_ramp(struct motion_progress *progress, struct motion_leg *leg)
 {
+    const struct motion_profile *profile = &progress->profile;
     leg->to = (struct motion_place){.step = profile->end};
     leg->accel = profile->accel_steps_per_s2 * STEP_ACCEL_PER_ACCEL;
-    leg->from_slope = motion_leg_slope(profile->cruise);
-    leg->to_slope = motion_leg_slope(profile->exit);
+    leg->from_slope = slope_of(progress, profile->cruise);
+    leg->to_slope = slope_of(progress, profile->exit);
     if (leg->to.step > leg->from.step) {
         uint64_t steps_left = leg->to.step - leg->from.step - 1U;
-        leg->pulse_slope = motion_leg_slope(profile->exit + 4U * (uint64_t)profile->accel_steps_per_s2 * steps_left);
+        leg->pulse_twice_speed2 = profile->exit + 4U * (uint64_t)profile->accel_steps_per_s2 * steps_left;
     }
 }
 
 /* The leg that begins where the progress stands. */
-static struct motion_leg lay_leg(const struct motion_progress *progress)
+static struct motion_leg lay_leg(struct motion_progress *progress)
 {
     struct motion_leg leg = {.start = progress->time, .from = progress->place};
     switch (progress->leg) {
     case 0:
-        leg_first_ramp(&progress->profile, &leg);
+        leg_first_ramp(progress, &leg);
         break;
     case 1:
-        leg_cruise(&progress->profile, &leg);
+        leg_cruise(progress, &leg);
         break;
     default:
-        leg_last_ramp(&progress->profile, &leg);
+        leg_last_ramp(progress, &leg);
         break;
     }
     motion_leg_set_end(&leg);
     return leg;
+}
+
+static bool is_same_place(struct motion_place a, struct motion_place b)
+{
+    return a.step == b.step && a.quanta == b.quanta;
+}
+
+/* Whether the leg has no length. */
+static bool is_leg_empty(const struct motion_progress *progress)
+{
+    switch (progress->leg) {
+    case 0:
+        return is_same_place(progress->place, progress->profile.corner_a);
+    case 1:
+        return is_same_place(progress->place, progress->profile.corner_b);
+    default:
+        return is_same_place(progress->place, (struct motion_place){.step = progress->profile.end});
+    }
+}
+
+static void next_leg(struct motion_plan *plan)
+{
+    struct motion_progress *progress = &plan->progress;
+    progress->leg++;
+    if (progress->leg == LEGS || plan->stopping) {
+        progress->leg = 0;
+        progress->section++;
+    }
 }
 
 /* Puts the progress behind the leg that was laid; a piece of a cruise is followed by the next. */
@@ -181,12 +220,16 @@ static void advance(struct motion_plan *plan, const struct motion_leg *leg)
     progress->time = leg->end;
     progress->place = leg->to;
     if (!piece) {
-        progress->leg++;
+        next_leg(plan);
     }
-    if (progress->leg == LEGS || plan->stopping) {
-        progress->leg = 0;
-        progress->section++;
-    }
+}
+
+/* Whether the move's last section of several begins where the progress stands. */
+static bool is_mark(const struct motion_plan *plan)
+{
+    unsigned last = plan->order.sections - 1U;
+    return last > 0 && !plan->stopping && plan->progress.section == last &&
+           plan->progress.place.step == section_begin(plan, last);
 }
 
 bool motion_plan_next(struct motion_plan *plan, struct step_segment *segment)
@@ -196,9 +239,11 @@ bool motion_plan_next(struct motion_plan *plan, struct step_segment *segment)
         if (progress->leg == 0) {
             progress->profile = lay_section(plan, progress->section);
         }
-        unsigned last = plan->order.sections - 1U;
-        bool marked = last > 0 && !plan->stopping && progress->section == last &&
-                      progress->place.step == section_begin(plan, last);
+        if (is_leg_empty(progress)) {
+            next_leg(plan);
+            continue;
+        }
+        bool marked = is_mark(plan);
         struct motion_leg leg = lay_leg(progress);
         advance(plan, &leg);
         if (motion_leg_pulses(&leg) > 0) {
@@ -305,11 +350,6 @@ static struct motion_corner corner_at(struct motion_place place, uint64_t twice_
         .step = place.step + (place.quanta >= STEP_QUANTA / 2U ? 1U : 0U),
         .speed_steps_per_s = nearest_speed(twice_speed2),
     };
-}
-
-static bool is_same_place(struct motion_place a, struct motion_place b)
-{
-    return a.step == b.step && a.quanta == b.quanta;
 }
 
 /* The corners inside a section and at its end. A stop ends with its last whole step, before its corner. */

@@ -32,6 +32,8 @@ struct motion_progress {
     struct motion_profile profile; /* of `section`, from its first leg on */
     struct motion_time time;
     struct motion_place place;
+    uint64_t twice_speed2;         /* of which `slope` is the slope: each root is wanted at two legs */
+    uint64_t slope;
     uint8_t section;
     uint8_t leg;                   /* 0 to 2 */
 };

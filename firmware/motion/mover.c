@@ -16,7 +16,7 @@ void mover_init(struct mover *mover, unsigned motor)
     step_channel_init(&mover->channel, motor);
 }
 
-/* Lays the next segment, which takes a Cortex-M4 50 us. False if there is none, or no room for it now. */
+/* Lays the next segment, which takes a Cortex-M4 about 16 us. False if there is none, or no room for it now. */
 static bool feed_segment(struct mover *mover)
 {
     struct step_segment segment;
@@ -27,14 +27,18 @@ static bool feed_segment(struct mover *mover)
     return fed;
 }
 
-void mover_feed(struct mover *mover)
+bool mover_feed(struct mover *mover)
 {
-    bool fed = mover->moving;
-    while (fed) {
-        hal_run_hold_tick();
-        fed = feed_segment(mover);
-        hal_run_release_tick();
+    if (!mover->moving) {
+        return false;
     }
+    hal_run_hold_tick();
+    bool fed = feed_segment(mover);
+    if (fed && !step_channel_is_running(&mover->channel)) {
+        step_channel_run(&mover->channel);
+    }
+    hal_run_release_tick();
+    return fed;
 }
 
 static enum hal_trace_stop guard_cause(const struct mover_guards *guards, uint8_t inputs)
@@ -165,8 +169,8 @@ void mover_change_speed(struct mover *mover, uint32_t speed_steps_per_s)
     hal_run_release_tick();
 }
 
-/* The step interrupt rests when the queue is empty. If the planner was late there is more now: then the motor goes on,
- * late, and the backend counts it. */
+/* The step interrupt rests when the queue is empty. If the planner was late there is more: then the motor goes on, late,
+ * and the backend counts it. */
 void mover_poll(struct mover *mover)
 {
     if (!mover->moving) {

@@ -133,7 +133,8 @@ static uint64_t main_pass(void *context)
         probe->corner_count = mover_corners(&probe->mover, probe->corners);
     }
     mover_poll(&probe->mover);
-    mover_feed(&probe->mover);
+    while (mover_feed(&probe->mover)) {
+    }
     return UINT64_MAX;
 }
 

@@ -267,11 +267,6 @@ def test_a_speed_that_is_sent_alone_changes_the_move_from_the_next_pulse(unit):
     assert modelled.late_steps == 0
 
 
-def known(fault: str) -> pytest.MarkDecorator:
-    """A fault of the firmware; the test fails when it is gone, so that this mark goes too."""
-    return pytest.mark.xfail(reason=fault, strict=True, raises=AssertionError)
-
-
 ONE_STEP = b"S2000 V16000 A60000 L30 F1 R D R D E"
 TEN_SECTIONS = b"S2000 %s R R R" % b" ".join(
     b"V%d A%d F%d Y" % (2000 + 1400 * (i % 3), 60000 - 1000 * i, 1 + i) for i in range(10)
@@ -284,7 +279,7 @@ TEN_SECTIONS = b"S2000 %s R R R" % b" ".join(
         (ONE_STEP, 1),
         (TEN_SECTIONS, 1),
         (ONE_STEP, 4),
-        pytest.param(TEN_SECTIONS, 4, marks=known("four short compound moves likewise")),
+        (TEN_SECTIONS, 4),
     ],
     ids=["one step", "ten sections", "four times one step", "four times ten sections"],
 )

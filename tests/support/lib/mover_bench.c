@@ -51,7 +51,8 @@ static uint64_t main_pass(void *context)
 {
     struct mover_bench *bench = context;
     mover_poll(&bench->mover);
-    mover_feed(&bench->mover);
+    while (mover_feed(&bench->mover)) {
+    }
     return TICK_NEVER;
 }
 

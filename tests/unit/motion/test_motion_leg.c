@@ -20,7 +20,7 @@ static struct motion_leg ramp(uint32_t from_speed, uint32_t to_speed)
         .to = {.step = 47},
         .from_slope = slope_of(from_speed),
         .to_slope = slope_of(to_speed),
-        .pulse_slope = slope_of(from_speed),
+        .pulse_twice_speed2 = 2U * motion_square(from_speed),
         .accel = 1000 * STEP_ACCEL_PER_ACCEL,
     };
 }
@@ -204,7 +204,7 @@ void test_the_longest_falling_ramp_wraps_without_loss(void)
         .to = motion_place_add(0, speeds, 2),
         .from_slope = slope_of(16000),
         .to_slope = slope_of(1),
-        .pulse_slope = slope_of(16000),
+        .pulse_twice_speed2 = 2U * motion_square(16000),
         .accel = STEP_ACCEL_PER_ACCEL,
     };
     motion_leg_set_end(&leg);
@@ -222,8 +222,8 @@ void test_a_segment_of_a_ramp_stands_on_its_first_pulse_whatever_the_guess(void)
     for (uint32_t wrong = 0; wrong < 20; wrong += 5) {
         struct motion_leg up = ramp(100, 300);
         struct motion_leg down = ramp(300, 100);
-        up.pulse_slope = slope_of(101 + wrong);
-        down.pulse_slope = slope_of(299 - wrong);
+        up.pulse_twice_speed2 = 2U * motion_square(101 + wrong);
+        down.pulse_twice_speed2 = 2U * motion_square(299 - wrong);
         motion_leg_set_end(&up);
         motion_leg_set_end(&down);
 

@@ -130,7 +130,8 @@ static void start(const struct motion_order *order, unsigned made)
 {
     static const struct mover_guards none = {0};
     mover_start(&mover, order, false, now, &none, 0);
-    mover_feed(&mover);
+    while (mover_feed(&mover)) {
+    }
     for (unsigned i = 0; i < made; i++) {
         make_pulses_until(armed);
     }
@@ -151,7 +152,8 @@ static void run_to_the_end(void)
     handing_ticks = 0;
     for (mover_poll(&mover); mover_is_moving(&mover); mover_poll(&mover)) {
         TEST_ASSERT_TRUE(is_armed);
-        mover_feed(&mover);
+        while (mover_feed(&mover)) {
+        }
         make_pulses_until(armed);
     }
     TEST_ASSERT_EQUAL_UINT64(pulses, mover_steps_made(&mover));
