@@ -6,7 +6,6 @@
 #include "hal_board.h"
 #include "hal_io.h"
 #include "hal_time.h"
-#include "program_parser.h"
 #include "unit_line.h"
 
 /* A blinking LED is on for half a second and off for half a second. */
@@ -68,11 +67,8 @@ static void unit_start_program(struct unit *unit, unsigned motor, uint64_t now_t
 {
     struct interpreter *interpreter = &unit->interpreter[motor];
     uint32_t length = store_load(&unit->store, motor, unit->answer);
-    bool good = !store_is_damaged(&unit->store, motor) && program_check(unit->answer, length).status == PROGRAM_OK;
 
-    if (good) {
-        (void)interpreter_take(interpreter, unit->answer, length, now_ticks);
-    } else {
+    if (store_is_damaged(&unit->store, motor) || !interpreter_load(interpreter, unit->answer, length, now_ticks)) {
         interpreter_fail(interpreter, INTERPRETER_ERROR_STORED_PROGRAM, now_ticks);
     }
 }

@@ -16,6 +16,7 @@
 #include "motion_order.h"
 #include "mover.h"
 #include "program_memory.h"
+#include "program_parser.h"
 
 enum {
     INTERPRETER_LOOPS_MAX = 8,
@@ -118,10 +119,15 @@ struct interpreter {
 /* Start values, empty memory; `mover` and `io` must outlive it. */
 void interpreter_init(struct interpreter *interpreter, unsigned motor, struct mover *mover, struct io *io);
 
-/* Takes a text that program_check has found good, as one Set Command message: stores its commands, or acts at once on
- * K, C75 or V alone. True if the memory has overflowed since the last `\` of the text (flag 3). The commands may run
- * from `now_ticks` on. */
-bool interpreter_take(struct interpreter *interpreter, const uint8_t *text, uint32_t length, uint64_t now_ticks);
+/* Takes a text that program_check has found good, with what it said, as one Set Command message: stores its commands,
+ * or acts at once on K, C75 or V alone. True if the memory has overflowed since the last `\` of the text (flag 3). The
+ * commands may run from `now_ticks` on. */
+bool interpreter_take(struct interpreter *interpreter, const uint8_t *text, uint32_t length,
+                      const struct program_summary *summary, uint64_t now_ticks);
+
+/* Gives a program to an interpreter that has just been initialised; K and C75 in it do nothing. The text is read once,
+ * so it need not have been checked. False: it has an error, and no command of it is kept. */
+bool interpreter_load(struct interpreter *interpreter, const uint8_t *text, uint32_t length, uint64_t now_ticks);
 
 /* Ends the program with an error, as if one of its commands had caused it. */
 void interpreter_fail(struct interpreter *interpreter, enum interpreter_error error, uint64_t now_ticks);

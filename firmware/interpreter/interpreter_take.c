@@ -1,7 +1,5 @@
 #include "interpreter_private.h"
 
-#include "program_parser.h"
-
 /* K: the motor stops, and with it the program. */
 static void take_halt(struct interpreter *interpreter, uint64_t now_ticks)
 {
@@ -93,33 +91,49 @@ static bool take_command(struct interpreter *interpreter, const struct program_i
     return program_memory_append(&interpreter->memory, instruction, interpreter->io->memory_locked);
 }
 
-static bool take_program(struct interpreter *interpreter, const uint8_t *text, uint32_t length, uint64_t now_ticks)
+/* Stores the commands up to the end or the first error, and returns which of them it was. */
+static enum program_status take_program(struct interpreter *interpreter, const uint8_t *text, uint32_t length,
+                                        uint64_t now_ticks, bool *overflow)
 {
     struct program_parser parser;
     struct program_instruction instruction;
-    bool overflow = false;
 
+    *overflow = false;
     program_parser_init(&parser, text, length);
-    while (program_parser_next(&parser, &instruction) == PROGRAM_OK) {
+    enum program_status status = program_parser_next(&parser, &instruction);
+    while (status == PROGRAM_OK) {
         if (instruction.opcode == PROGRAM_RESET) {
             take_reset(interpreter, now_ticks);
-            overflow = false;
+            *overflow = false;
         } else if (!take_command(interpreter, &instruction, now_ticks)) {
-            overflow = true;
+            *overflow = true;
         }
+        status = program_parser_next(&parser, &instruction);
     }
-    return overflow;
+    return status;
 }
 
-bool interpreter_take(struct interpreter *interpreter, const uint8_t *text, uint32_t length, uint64_t now_ticks)
+bool interpreter_load(struct interpreter *interpreter, const uint8_t *text, uint32_t length, uint64_t now_ticks)
 {
-    struct program_summary summary = program_check(text, length);
-
-    interpreter_watch_move(interpreter, now_ticks);
-    if (summary.commands == 1 && take_alone(interpreter, &summary.first, now_ticks)) {
+    bool overflow;
+    if (take_program(interpreter, text, length, now_ticks, &overflow) != PROGRAM_END) {
+        interpreter_clear(interpreter);
         return false;
     }
-    bool overflow = take_program(interpreter, text, length, now_ticks);
+    interpreter_raise_clock(interpreter, now_ticks);
+    return true;
+}
+
+bool interpreter_take(struct interpreter *interpreter, const uint8_t *text, uint32_t length,
+                      const struct program_summary *summary, uint64_t now_ticks)
+{
+    bool overflow;
+
+    interpreter_watch_move(interpreter, now_ticks);
+    if (summary->commands == 1 && take_alone(interpreter, &summary->first, now_ticks)) {
+        return false;
+    }
+    (void)take_program(interpreter, text, length, now_ticks, &overflow);
     if (interpreter->state == INTERPRETER_IDLE) {
         interpreter_raise_clock(interpreter, now_ticks);
     }

@@ -15,6 +15,14 @@ const struct program_row *program_opcode_row(unsigned opcode)
     return &program_rows[opcode];
 }
 
+unsigned program_opcode_find(unsigned opcode, uint8_t letter)
+{
+    while (opcode < PROGRAM_OPCODES && program_rows[opcode].letter != letter) {
+        opcode++;
+    }
+    return opcode;
+}
+
 const char *program_opcode_name(uint8_t opcode)
 {
     return opcode < PROGRAM_OPCODES ? program_opcode_row(opcode)->name : "";

@@ -46,6 +46,9 @@ struct program_row {
 /* The row of an opcode, which must be below PROGRAM_OPCODES. */
 const struct program_row *program_opcode_row(unsigned opcode);
 
+/* The first opcode from `opcode` on that has this letter; PROGRAM_OPCODES if there is none. */
+unsigned program_opcode_find(unsigned opcode, uint8_t letter);
+
 /* The name of an opcode as in the table, for people and tools; empty where there is no such opcode. */
 const char *program_opcode_name(uint8_t opcode);
 

@@ -200,27 +200,18 @@ static bool row_takes_value(const struct program_row *row, const struct value *v
     return form_taken && value->number >= row->min && value->number <= row->max;
 }
 
-/* The first row from `opcode` on that has this letter; PROGRAM_OPCODES if there is none. */
-static unsigned opcode_find(unsigned opcode, uint8_t letter)
-{
-    while (opcode < PROGRAM_OPCODES && program_opcode_row(opcode)->letter != letter) {
-        opcode++;
-    }
-    return opcode;
-}
-
 /* Reads the command at `place`, on whose letter the parser stands. */
 static enum program_status parser_read_command(struct program_parser *parser, struct program_instruction *instruction)
 {
     uint8_t letter = character_letter(parser->text[parser->place]);
-    unsigned opcode = opcode_find(0, letter);
+    unsigned opcode = program_opcode_find(0, letter);
     if (opcode == PROGRAM_OPCODES) {
         return PROGRAM_UNKNOWN_COMMAND;
     }
     parser->next = parser->place + 1U;
     struct value value = parser_read_value(parser, (enum program_form)program_opcode_row(opcode)->form);
     while (opcode < PROGRAM_OPCODES && !row_takes_value(program_opcode_row(opcode), &value)) {
-        opcode = opcode_find(opcode + 1U, letter);
+        opcode = program_opcode_find(opcode + 1U, letter);
     }
     if (opcode == PROGRAM_OPCODES) {
         return PROGRAM_BAD_VALUE;

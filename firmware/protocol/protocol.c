@@ -74,12 +74,13 @@ static void answer_unknown(struct exchange *exchange)
 }
 
 /* Gives a good text to the motors that are named. True if one of their memories has overflowed. */
-static bool take_text(struct exchange *exchange, const uint8_t *text, uint32_t length)
+static bool take_text(struct exchange *exchange, const uint8_t *text, uint32_t length,
+                      const struct program_summary *summary)
 {
     bool overflow = false;
     for (unsigned motor = exchange->first; motor < exchange->last; motor++) {
         struct interpreter *interpreter = &exchange->protocol->interpreters[motor];
-        overflow = interpreter_take(interpreter, text, length, exchange->now_ticks) || overflow;
+        overflow = interpreter_take(interpreter, text, length, summary, exchange->now_ticks) || overflow;
     }
     return overflow;
 }
@@ -91,7 +92,7 @@ static void answer_set_command(struct exchange *exchange)
     struct program_summary summary = program_check(text, length);
     uint8_t flag = (uint8_t)-(int)summary.status;
 
-    if (summary.status == PROGRAM_OK && take_text(exchange, text, length)) {
+    if (summary.status == PROGRAM_OK && take_text(exchange, text, length, &summary)) {
         flag = FLAG_OVERFLOW;
     }
     text_put_byte(&exchange->answer, flag);

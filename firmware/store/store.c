@@ -85,7 +85,7 @@ static void scan_log(struct store *store)
         }
         offset += record.size_bytes;
     }
-    store->end = store_flash_is_blank(store->area, offset, HAL_FLASH_AREA_BYTES) ? offset : HAL_FLASH_AREA_BYTES;
+    store->end = offset;
 }
 
 /* Finds the image of a motor, which must be what was written. False if there is none. */
@@ -178,16 +178,21 @@ static bool move_to_other_area(struct store *store)
     return done;
 }
 
+/* Where anything has been written behind the last record the area is full. This is looked for here, as the start has
+ * no time for it. */
 static bool has_room(const struct store *store, uint32_t length)
 {
-    return store->usable && store_record_size_bytes(length) <= HAL_FLASH_AREA_BYTES - store->end;
+    return store->usable && store_record_size_bytes(length) <= HAL_FLASH_AREA_BYTES - store->end
+        && store_flash_is_blank(store->area, store->end, HAL_FLASH_AREA_BYTES);
+}
+
+static bool make_room(struct store *store, uint32_t length)
+{
+    return has_room(store, length) || (move_to_other_area(store) && has_room(store, length));
 }
 
 static bool append(struct store *store, unsigned motor, const uint8_t *text, uint32_t length)
 {
-    if (!has_room(store, length)) {
-        return false;
-    }
     if (!store_record_write(store->area, store->end, motor, store->generation + 1U, text, length)) {
         /* The memory may report an error of the last word and yet have written it. */
         struct store_record record = store_record_read(store->area, store->end);
@@ -213,7 +218,7 @@ enum store_error store_save(struct store *store, unsigned motor, const uint8_t *
         && store_record_has_text(store->area, store->image[motor], &record, text, length)) {
         return STORE_OK;
     }
-    if ((has_room(store, length) || move_to_other_area(store)) && append(store, motor, text, length)) {
+    if (make_room(store, length) && append(store, motor, text, length)) {
         return STORE_OK;
     }
     /* What flash holds now is what counts. The rest of this area is not tried again: the next text goes to the other

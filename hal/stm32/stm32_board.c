@@ -9,7 +9,7 @@
 
 enum { IRQS_A_WORD = 32, PRIORITIES_A_WORD = 4, PRIORITY_SHIFT = 4 };
 
-static struct stm32_clock board_clock;
+struct stm32_clock stm32_board_clock;
 static enum hal_board_cause start_cause;
 
 static void enable_interrupt(uint32_t irq, uint32_t priority)
@@ -38,12 +38,11 @@ static enum hal_board_cause find_cause(void)
 
 void hal_board_init(void)
 {
-    board_clock = stm32_clock_start();
     start_cause = find_cause();
-    stm32_step_start(board_clock.crystal);
+    stm32_step_start(stm32_board_clock.crystal);
     stm32_pins_start();
     stm32_supply_start();
-    stm32_line_start(&board_clock);
+    stm32_line_start(&stm32_board_clock);
     enable_interrupt(STM32_LINE_IRQ, STM32_PRIORITY_LINE);
     stm32_watchdog_start();
 }
@@ -52,7 +51,7 @@ void hal_run_start(const struct hal_client *client)
 {
     stm32_step_set_client(client);
     enable_interrupt(TIM2_IRQ, STM32_PRIORITY_STEP);
-    stm32_tick_start(client, board_clock.core_hz, board_clock.crystal);
+    stm32_tick_start(client, stm32_board_clock.core_hz, stm32_board_clock.crystal);
 }
 
 enum hal_board_cause hal_board_start_cause(void)
@@ -62,7 +61,7 @@ enum hal_board_cause hal_board_start_cause(void)
 
 bool hal_board_may_move(void)
 {
-    return board_clock.crystal;
+    return stm32_board_clock.crystal;
 }
 
 bool hal_board_may_start_programs(void)

@@ -36,7 +36,7 @@ static inline void stm32_barrier(void)
     __asm__ volatile("dsb\n\tisb" ::: "memory");
 }
 
-/* stm32_clock.c */
+/* stm32_clock.c. Called before there are variables and code in RAM. */
 struct stm32_clock {
     uint32_t core_hz;
     uint32_t apb1_hz;
@@ -44,6 +44,9 @@ struct stm32_clock {
     bool crystal;
 };
 struct stm32_clock stm32_clock_start(void);
+
+/* stm32_board.c. Set at the start. */
+extern struct stm32_clock stm32_board_clock;
 
 /* stm32_pins.c. Safe: outputs off, the bus let go; before the start, too. */
 void stm32_pins_start(void);

@@ -64,7 +64,10 @@ static uint64_t now(void)
 
 static bool take(const char *text)
 {
-    return interpreter_take(&interpreter, (const uint8_t *)text, (uint32_t)strlen(text), now());
+    const uint8_t *bytes = (const uint8_t *)text;
+    uint32_t length = (uint32_t)strlen(text);
+    struct program_summary summary = program_check(bytes, length);
+    return interpreter_take(&interpreter, bytes, length, &summary, now());
 }
 
 static uint64_t poll(void)
