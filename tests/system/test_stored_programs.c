@@ -183,6 +183,7 @@ void test_a_reset_makes_a_motor_with_a_damaged_program_run_again(void)
 TEST_CASE("T01 ?")
 TEST_CASE("T01 V0")
 TEST_CASE("T01 {")
+TEST_CASE("? T01")
 void test_a_stored_text_that_is_no_program_is_not_run(const char *text)
 {
     TEST_ASSERT_EQUAL_INT(STORE_OK, store_save(&bench.unit.store, 0, (const uint8_t *)text, (uint32_t)strlen(text)));
@@ -190,6 +191,7 @@ void test_a_stored_text_that_is_no_program_is_not_run(const char *text)
     bench_run_idle(&bench);
     TEST_ASSERT_EQUAL_INT64(INTERPRETER_ERROR_STORED_PROGRAM, bench_event(&bench, 1, HAL_TRACE_ERROR, 0)->value);
     TEST_ASSERT_FALSE(bench_output(&bench, 1));
+    TEST_ASSERT_EQUAL_STRING("", bench_ask(&bench, 5, 1));
 }
 
 void test_a_memory_that_reports_an_error_is_told_and_the_old_program_stays(void)

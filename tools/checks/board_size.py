@@ -43,7 +43,7 @@ EXCEPTION_FRAME = 36
 
 FLASH = range(0x0800_0000, 0x0801_0000)
 RAM = range(0x2000_0000, 0x2002_0000)
-LOADED = (".first_vectors", ".ram", ".text")
+LOADED = (".first_vectors", ".main_only", ".ram", ".text")
 
 
 class Unknown(Exception):

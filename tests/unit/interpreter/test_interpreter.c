@@ -70,6 +70,11 @@ static bool take(const char *text)
     return interpreter_take(&interpreter, bytes, length, &summary, now());
 }
 
+static bool load(const char *text)
+{
+    return interpreter_load(&interpreter, (const uint8_t *)text, (uint32_t)strlen(text), now());
+}
+
 static uint64_t poll(void)
 {
     return interpreter_poll(&interpreter, now());
@@ -298,4 +303,45 @@ void test_every_error_has_a_text(void)
     TEST_ASSERT_EQUAL_STRING("label not found", interpreter_error_text(INTERPRETER_ERROR_NO_LABEL));
     TEST_ASSERT_EQUAL_STRING("the stored program is damaged",
                              interpreter_error_text(INTERPRETER_ERROR_STORED_PROGRAM));
+}
+
+void test_a_program_that_is_loaded_runs(void)
+{
+    TEST_ASSERT_TRUE(load("T01 T02"));
+    poll();
+    TEST_ASSERT_EQUAL_HEX8(3, machine.outputs);
+}
+
+TEST_CASE("T01 T02 ?")
+TEST_CASE("T01 V0 T02")
+TEST_CASE("T01 {")
+void test_of_a_text_with_an_error_nothing_is_loaded(const char *text)
+{
+    TEST_ASSERT_FALSE(load(text));
+    TEST_ASSERT_TRUE(interpreter_is_idle(&interpreter));
+    poll();
+    TEST_ASSERT_EQUAL_HEX8(0, machine.outputs);
+    TEST_ASSERT_EQUAL_UINT32(0, interpreter.memory.written);
+}
+
+TEST_CASE("K")
+TEST_CASE("C75")
+TEST_CASE("")
+void test_a_text_without_a_command_to_keep_is_loaded_and_does_nothing(const char *text)
+{
+    TEST_ASSERT_TRUE(load(text));
+    TEST_ASSERT_EQUAL_UINT8(INTERPRETER_IDLE, interpreter.state);
+    TEST_ASSERT_EQUAL_UINT32(0, interpreter.memory.written);
+}
+
+void test_a_speed_alone_is_loaded_as_a_command(void)
+{
+    TEST_ASSERT_TRUE(load("V500"));
+    TEST_ASSERT_EQUAL_UINT32(1, interpreter.memory.written);
+}
+
+void test_a_program_that_is_loaded_begins_at_the_time_of_loading(void)
+{
+    TEST_ASSERT_TRUE(load("W1"));
+    TEST_ASSERT_EQUAL_UINT64(now() + TICKS_PER_MS, interpreter_poll(&interpreter, now() + 200U * TICKS_PER_US));
 }

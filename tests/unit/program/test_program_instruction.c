@@ -32,6 +32,15 @@ void test_a_row_tells_letter_form_and_range(void)
     TEST_ASSERT_EQUAL_INT32(2000000000, row->max);
 }
 
+void test_the_opcodes_of_a_letter_are_found_one_after_the_other(void)
+{
+    TEST_ASSERT_EQUAL_UINT(PROGRAM_WAIT_INPUT_HIGH, program_opcode_find(0, 'O'));
+    TEST_ASSERT_EQUAL_UINT(PROGRAM_WAIT_VARIABLE_HIGH, program_opcode_find(PROGRAM_WAIT_INPUT_HIGH + 1U, 'O'));
+    TEST_ASSERT_EQUAL_UINT(PROGRAM_OPCODES, program_opcode_find(PROGRAM_WAIT_VARIABLE_HIGH + 1U, 'O'));
+    TEST_ASSERT_EQUAL_UINT(PROGRAM_RELEASE, program_opcode_find(0, ']'));
+    TEST_ASSERT_EQUAL_UINT(PROGRAM_OPCODES, program_opcode_find(0, '?'));
+}
+
 void test_an_instruction_has_8_bytes(void)
 {
     TEST_ASSERT_EQUAL_UINT(8, sizeof(struct program_instruction));
