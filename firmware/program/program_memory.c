@@ -8,6 +8,7 @@
 #define IO_UNIT 256
 
 static_assert(PROGRAM_COMMANDS_MAX > 0, "the ring has a place to overwrite");
+static_assert(PROGRAM_COMMANDS_MAX <= UINT16_MAX, "a place and one more fit in 16 bits");
 static_assert(PROGRAM_LABEL_MAX < IO_UNIT, "a label must leave the number of an input alone");
 
 void program_memory_clear(struct program_memory *memory)
@@ -15,7 +16,7 @@ void program_memory_clear(struct program_memory *memory)
     memory->written = 0;
     memory->released = 0;
     for (unsigned label = 0; label <= PROGRAM_LABEL_MAX; label++) {
-        memory->label_next[label] = 0;
+        memory->label_place[label] = 0;
     }
 }
 
@@ -30,7 +31,7 @@ bool program_memory_append(struct program_memory *memory, const struct program_i
     memory->value[place] = instruction->value + instruction->io * IO_UNIT;
     memory->written++;
     if (instruction->opcode == PROGRAM_LABEL) {
-        memory->label_next[instruction->value] = memory->written;
+        memory->label_place[instruction->value] = (uint16_t)(place + 1U);
     } else if (instruction->opcode == PROGRAM_RELEASE) {
         memory->released = memory->written;
     }
@@ -53,14 +54,18 @@ struct program_instruction program_memory_at(const struct program_memory *memory
     return instruction;
 }
 
-/* Where the youngest `@` has been overwritten, all older ones have been too. */
+/* Where the youngest `@` has been overwritten, and so something else stands there, all older ones have been too. */
 bool program_memory_find_label(const struct program_memory *memory, uint32_t label, uint32_t *ordinal)
 {
-    uint32_t next = memory->label_next[label];
-    if (next <= program_memory_oldest(memory)) {
+    if (memory->label_place[label] == 0) {
         return false;
     }
-    *ordinal = next - 1U;
+    uint32_t place = memory->label_place[label] - 1U;
+    if (memory->opcode[place] != PROGRAM_LABEL || (uint32_t)memory->value[place] != label) {
+        return false;
+    }
+    uint32_t last = memory->written - 1U;
+    *ordinal = last - (last % PROGRAM_COMMANDS_MAX + PROGRAM_COMMANDS_MAX - place) % PROGRAM_COMMANDS_MAX;
     return true;
 }
 

@@ -24,11 +24,11 @@ enum {
 };
 
 struct program_memory {
-    int32_t value[PROGRAM_COMMANDS_MAX];       /* ring: of a conditional jump io * 256 + label, else the number */
-    uint8_t opcode[PROGRAM_COMMANDS_MAX];      /* ring: enum program_opcode */
-    uint32_t written;                           /* ordinal of the next command to be written */
-    uint32_t released;                          /* ordinal of the youngest `]`, plus 1; 0: none */
-    uint32_t label_next[PROGRAM_LABEL_MAX + 1]; /* per label: ordinal of its youngest `@`, plus 1; 0: none */
+    int32_t value[PROGRAM_COMMANDS_MAX];         /* ring: of a conditional jump io * 256 + label, else the number */
+    uint8_t opcode[PROGRAM_COMMANDS_MAX];        /* ring: enum program_opcode */
+    uint32_t written;                            /* ordinal of the next command to be written */
+    uint32_t released;                           /* ordinal of the youngest `]`, plus 1; 0: none */
+    uint16_t label_place[PROGRAM_LABEL_MAX + 1]; /* per label: place of its youngest `@` in the ring, plus 1; 0: none */
 };
 
 /* Forgets all commands. */

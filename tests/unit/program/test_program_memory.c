@@ -183,6 +183,32 @@ void test_a_label_is_found_until_it_is_overwritten(void)
     TEST_ASSERT_FALSE(program_memory_find_label(&memory, 4, &ordinal));
 }
 
+TEST_CASE(PROGRAM_JUMP, 4)
+TEST_CASE(PROGRAM_LABEL, 5)
+void test_what_has_overwritten_a_label_is_not_taken_for_it(int opcode, int value)
+{
+    uint32_t ordinal = 99;
+    (void)append(PROGRAM_LABEL, 4, false);
+    append_steps(1, PROGRAM_COMMANDS_MAX - 1);
+    (void)append((enum program_opcode)opcode, value, false);
+    TEST_ASSERT_FALSE(program_memory_find_label(&memory, 4, &ordinal));
+}
+
+void test_a_label_is_found_at_every_place_of_the_ring_until_it_is_overwritten(void)
+{
+    for (uint32_t at = 0; at < 2 * PROGRAM_COMMANDS_MAX + 2; at++) {
+        uint32_t ordinal = 0;
+        program_memory_clear(&memory);
+        append_steps(1, at);
+        (void)append(PROGRAM_LABEL, 80, false);
+        TEST_ASSERT_TRUE(program_memory_find_label(&memory, 80, &ordinal));
+        TEST_ASSERT_EQUAL_UINT32(at, ordinal);
+        append_steps(1, PROGRAM_COMMANDS_MAX - 1);
+        TEST_ASSERT_TRUE(program_memory_find_label(&memory, 80, &ordinal));
+        TEST_ASSERT_EQUAL_UINT32(at, ordinal);
+    }
+}
+
 void test_an_overwritten_label_may_be_stored_again(void)
 {
     uint32_t ordinal = 99;
