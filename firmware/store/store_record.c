@@ -53,18 +53,18 @@ static uint32_t text_offset(uint32_t offset)
 
 bool store_flash_is_blank(unsigned area, uint32_t begin, uint32_t end)
 {
-    uint8_t blank[CHUNK_BYTES];
-    uint8_t chunk[CHUNK_BYTES];
+    uint64_t chunk[CHUNK_BYTES / sizeof(uint64_t)];
+    uint64_t all = UINT64_MAX;
     uint32_t length = 0;
-    memset(blank, ERASED, CHUNK_BYTES);
-    for (; begin < end; begin += length) {
+    memset(chunk, ERASED, sizeof chunk);
+    for (; begin < end && all == UINT64_MAX; begin += length) {
         length = smaller(end - begin, CHUNK_BYTES);
-        hal_flash_read(area, begin, chunk, length);
-        if (memcmp(chunk, blank, length) != 0) {
-            return false;
+        hal_flash_read(area, begin, (uint8_t *)chunk, length);
+        for (unsigned i = 0; i < CHUNK_BYTES / sizeof(uint64_t); i++) {
+            all &= chunk[i];
         }
     }
-    return true;
+    return all == UINT64_MAX;
 }
 
 static bool put_word(unsigned area, uint32_t offset, const uint8_t word[HAL_FLASH_WORD_BYTES])

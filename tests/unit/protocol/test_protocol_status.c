@@ -71,7 +71,9 @@ static void run_ms(uint32_t milliseconds)
 static void take(unsigned motor, const char *text)
 {
     const uint8_t *bytes = (const uint8_t *)text;
-    (void)interpreter_take(&interpreter[motor - 1U], bytes, (uint32_t)strlen(text), machine.epoch + machine.now);
+    uint32_t length = (uint32_t)strlen(text);
+    struct program_summary summary = program_check(bytes, length);
+    (void)interpreter_take(&interpreter[motor - 1U], bytes, length, &summary, machine.epoch + machine.now);
 }
 
 static void assert_motor(unsigned motor, unsigned bits)
