@@ -57,15 +57,12 @@ struct program_instruction program_memory_at(const struct program_memory *memory
 /* Where the youngest `@` has been overwritten, and so something else stands there, all older ones have been too. */
 bool program_memory_find_label(const struct program_memory *memory, uint32_t label, uint32_t *ordinal)
 {
-    if (memory->label_place[label] == 0) {
+    uint32_t next = memory->label_place[label];
+    if (next == 0 || memory->opcode[next - 1U] != PROGRAM_LABEL || memory->value[next - 1U] != (int32_t)label) {
         return false;
     }
-    uint32_t place = memory->label_place[label] - 1U;
-    if (memory->opcode[place] != PROGRAM_LABEL || (uint32_t)memory->value[place] != label) {
-        return false;
-    }
-    uint32_t last = memory->written - 1U;
-    *ordinal = last - (last % PROGRAM_COMMANDS_MAX + PROGRAM_COMMANDS_MAX - place) % PROGRAM_COMMANDS_MAX;
+    uint32_t behind = (memory->written - next) % PROGRAM_COMMANDS_MAX; /* commands since then */
+    *ordinal = memory->written - 1U - behind;
     return true;
 }
 

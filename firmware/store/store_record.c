@@ -54,17 +54,17 @@ static uint32_t text_offset(uint32_t offset)
 bool store_flash_is_blank(unsigned area, uint32_t begin, uint32_t end)
 {
     uint64_t chunk[CHUNK_BYTES / sizeof(uint64_t)];
-    uint64_t all = UINT64_MAX;
+    uint64_t zeros = 0;
     uint32_t length = 0;
     memset(chunk, ERASED, sizeof chunk);
-    for (; begin < end && all == UINT64_MAX; begin += length) {
+    for (; begin < end && zeros == 0; begin += length) {
         length = smaller(end - begin, CHUNK_BYTES);
         hal_flash_read(area, begin, (uint8_t *)chunk, length);
         for (unsigned i = 0; i < CHUNK_BYTES / sizeof(uint64_t); i++) {
-            all &= chunk[i];
+            zeros |= ~chunk[i];
         }
     }
-    return all == UINT64_MAX;
+    return zeros == 0;
 }
 
 static bool put_word(unsigned area, uint32_t offset, const uint8_t word[HAL_FLASH_WORD_BYTES])
