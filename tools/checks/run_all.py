@@ -177,6 +177,14 @@ def python_style() -> Count:
     )
 
 
+def proofs(script: str) -> Count:
+    """One line for each proof; status 77 means that a tool is not installed."""
+    done = subprocess.run([sys.executable, ROOT / "tests/support" / script], cwd=ROOT)
+    if done.returncode == 77:
+        return Count(skipped=1)
+    return Count(passed=1) if done.returncode == 0 else Count(failed=1)
+
+
 def has_tiny_limits() -> bool:
     return any("RKM04_TINY_LIMITS" in path.read_text() for path in ROOT.glob("firmware/**/*.h"))
 
@@ -198,6 +206,7 @@ def steps(quick: bool, fuzz_seconds: int = FUZZ_SECONDS) -> dict[str, Callable[[
     chosen["C tests from the second compiler (host-clang)"] = lambda: c_tests_again("host-clang")
     if has_tiny_limits():
         chosen["C tests with tiny limits (tiny)"] = lambda: c_tests_again("tiny")
+    chosen["Proofs"] = lambda: proofs("prove.py") + proofs("line_model.py")
     chosen["Coverage of firmware/ (coverage)"] = coverage
     chosen["Fuzzers (fuzz)"] = lambda: fuzzers(fuzz_seconds)
     return chosen

@@ -1,0 +1,72 @@
+"""The proofs fail where the firmware is wrong, and where they do not fit it any more."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from prove import PROOFS, ROOT, Mismatch, Result, missing, prove, put_together
+
+needs_provers = pytest.mark.skipif(bool(missing()), reason=f"not installed: {missing()}")
+
+
+def planted(tmp_path: Path, source: str, right: str, wrong: str) -> Path:
+    """A root with one source, in which something is wrong."""
+    text = (ROOT / source).read_text()
+    assert right in text
+    path = tmp_path / source
+    path.parent.mkdir(parents=True)
+    path.write_text(text.replace(right, wrong))
+    return tmp_path
+
+
+@needs_provers
+@pytest.mark.parametrize(
+    ("name", "function", "source", "right", "wrong"),
+    [
+        (
+            "base_tick", "tick_is_before", "firmware/base/base_tick.c",
+            "tick_difference(a, b) < 0", "tick_difference(a, b) <= 0",
+        ),
+        (
+            "link_receiver", "take_plain", "firmware/link/link_receiver.c",
+            "if (place == (uint32_t)", "if (place > (uint32_t)",
+        ),
+        (
+            "program_memory", "program_memory_find_label", "firmware/program/program_memory.c",
+            "next <= program_memory_oldest(memory)", "next < program_memory_oldest(memory)",
+        ),
+        (
+            "interpreter_stacks", "run_call", "firmware/interpreter/interpreter_commands.c",
+            "call_depth == INTERPRETER_CALLS_MAX", "call_depth > INTERPRETER_CALLS_MAX",
+        ),
+    ],
+)  # fmt: skip
+def test_a_planted_error_leaves_goals_unproved(
+    tmp_path: Path, name: str, function: str, source: str, right: str, wrong: str
+) -> None:
+    contracts = put_together(PROOFS / f"{name}.acsl", planted(tmp_path, source, right, wrong))
+    contracts.name = f"planted_{name}"
+
+    result = prove(contracts, 2, ["-wp-fct", function])
+
+    assert 0 < result.proved < result.goals
+    assert not result.is_good()
+    assert any(f"typed_{function}_" in complaint for complaint in result.complaints)
+
+
+def test_contracts_for_a_line_that_is_gone_do_not_fit(tmp_path: Path) -> None:
+    root = planted(tmp_path, "firmware/base/base_tick.c", "bool tick_is_before", "bool is_before")
+
+    with pytest.raises(Mismatch, match="tick_is_before"):
+        put_together(PROOFS / "base_tick.acsl", root)
+
+
+@pytest.mark.parametrize(
+    ("proved", "goals", "complaints", "good"),
+    [(3, 3, (), True), (2, 3, (), False), (0, 0, (), False), (3, 3, ("assumes",), False)],
+)
+def test_a_result_is_good_if_all_goals_are_proved_and_nothing_is_assumed(
+    proved: int, goals: int, complaints: tuple[str, ...], good: bool
+) -> None:
+    assert Result("a", proved, goals, complaints, 0.0).is_good() is good

@@ -1,0 +1,122 @@
+"""Checks the model of the line, tests/proofs/line.pml, with Spin: every run of it, to the end.
+
+    python tests/support/line_model.py
+
+The variants that must hold are explored completely; those with a planted error, and the one that
+asks for more than the line promises, must fail.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+MODEL = Path(__file__).resolve().parents[2] / "tests/proofs/line.pml"
+COMMANDS = ("spin", "gcc")
+
+ERRORS = re.compile(r"errors: (\d+)")
+STATES = re.compile(r"^\s*(\d+) states, stored", re.MULTILINE)
+INCOMPLETE = ("Search not completed", "max search depth too small", "out of memory", "memory limit")
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A way to build the model, and what is said of it."""
+
+    claim: str
+    switches: tuple[str, ...] = ()
+    cycles: bool = False  # looks for runs without an end instead of violated assertions
+
+
+HOLD = (
+    Variant("executed once, answered by its own answer; nobody blocks", ("ACTIONS=3",)),
+    Variant("executed once, also if answers come too late", ("ACTIONS=2", "LATE", "AT_MOST_ONCE")),
+    Variant("the master comes to an end", ("ACTIONS=2",), cycles=True),
+    Variant(
+        "executed once across starts of a unit that waits for Version",
+        ("ACTIONS=2", "ACROSS", "SESSION_FIRST"),
+    ),
+)
+FAIL = (
+    Variant("executed once across a start of the unit", ("ACTIONS=1", "ACROSS")),
+    Variant("swallowed: a late answer and the same random number", ("ACTIONS=2", "LATE")),
+    Variant("planted: no memory of the last request", ("ACTIONS=1", "PLANT_NO_MEMORY")),
+    Variant("planted: number not compared", ("ACTIONS=2", "PLANT_NUMBER_NOT_COMPARED")),
+    Variant("planted: FCS not checked", ("ACTIONS=1", "PLANT_NO_CHECK")),
+    Variant("planted: a new number for a repeat", ("ACTIONS=1", "PLANT_NEW_NUMBER")),
+    Variant("planted: a session begins without Version", ("ACTIONS=2", "PLANT_NO_VERSION")),
+    Variant("planted: a broadcast leaves a long answer", ("ACTIONS=2", "PLANT_ANSWER_KEPT")),
+)
+
+
+@dataclass(frozen=True)
+class Explored:
+    """What the search has found."""
+
+    errors: int
+    states: int
+    complete: bool
+
+    def holds(self) -> bool:
+        return self.complete and self.errors == 0 and self.states > 0
+
+
+def _run(command: Sequence[str | Path], folder: str) -> str:
+    done = subprocess.run(
+        list(map(str, command)), cwd=folder, check=True, stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+    )  # fmt: skip
+    return done.stdout
+
+
+def explore(variant: Variant, level: int = 2) -> Explored:
+    """Builds a variant and searches all of its states, up to the first error."""
+    kind = "-DNP" if variant.cycles else "-DSAFETY"
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copy(MODEL, folder)
+        _run(["spin", *(f"-D{switch}" for switch in variant.switches), "-a", MODEL.name], folder)
+        _run(["gcc", f"-O{level}", "-w", kind, "-DMEMLIM=4000", "-o", "pan", "pan.c"], folder)
+        search = ["./pan", "-m100000", "-w24", *(["-l"] if variant.cycles else [])]
+        output = _run(search, folder)
+    errors, states = ERRORS.search(output), STATES.search(output)
+    return Explored(
+        int(errors[1]) if errors else -1,
+        int(states[1]) if states else 0,
+        not any(text in output for text in INCOMPLETE),
+    )
+
+
+def missing() -> list[str]:
+    """What is not installed of what the model needs."""
+    return [command for command in COMMANDS if not shutil.which(command)]
+
+
+def main() -> int:
+    if absent := missing():
+        print(f"not installed: {', '.join(absent)}")
+        return 77
+    good = True
+    for variants, must_hold in ((HOLD, True), (FAIL, False)):
+        for variant in variants:
+            started = time.monotonic()
+            explored = explore(variant, 2 if must_hold else 0)
+            verdict = "holds" if explored.holds() else "fails" if explored.errors > 0 else "unknown"
+            right = verdict == ("holds" if must_hold else "fails")
+            good = good and right
+            print(
+                f"line.pml: {'' if right else 'WRONG: '}{verdict}: {variant.claim} "
+                f"({explored.states} states, {time.monotonic() - started:.0f} s)",
+                flush=True,
+            )
+    return 0 if good else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

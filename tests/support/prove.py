@@ -1,0 +1,230 @@
+"""Proves the contracts in the *.acsl files of tests/proofs with Frama-C's WP.
+
+    python tests/support/prove.py [NAME...]
+
+A file of contracts is C text, then parts that begin with a `%` line:
+
+    % trust FUNCTION...   the contract is used, the body is not proved
+    % prove FUNCTION...   a function of a header that is to be proved; else those are trusted
+    % unsigned            unsigned numbers must not wrap either
+    % source PATH         a source of the firmware; what follows goes into a copy of it
+    % before LINE         the text below goes before the next line that reads like this
+    % after LINE          or behind it
+
+Each LINE is looked for behind the one before it. If it is not there, the source has changed and the
+proof has to follow: the run fails.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROOFS = ROOT / "tests/proofs"
+BUILD = ROOT / "build/proofs"
+PROVERS = ("z3", "cvc4")
+SECONDS = 30  # for a goal and a prover; an idle machine needs 2
+VERSION = "25."  # of Frama-C: what it leaves to the provers differs from one to the next
+COMMANDS = ("frama-c", "why3", "z3", "cvc4")
+FOLDERS = (*sorted(path for path in (ROOT / "firmware").iterdir() if path.is_dir()),
+           ROOT / "hal/include", PROOFS)  # fmt: skip
+
+INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+INLINE = re.compile(r"^static inline [^;{]*?(\w+)\([^;{]*\)\n\{", re.MULTILINE)
+PROVED = re.compile(r"^\[wp\] Proved goals:\s+(\d+) / (\d+)$", re.MULTILINE)
+UNPROVED = re.compile(r"^\[wp\] \[(?:Failed|Timeout|Unknown|Stepout)[^\n]*$", re.MULTILINE)
+# Whatever makes WP assume more than it was told: each would hide a hole in a proof.
+ASSUMED = re.compile(
+    r"^.*(?:Missing RTE|No 'assigns'|Missing assigns|No code nor|Cast with incompatible|"
+    r"Neither code nor|User Error|Hide sub-term|Assume|ignored).*$",
+    re.MULTILINE,
+)
+
+
+class Mismatch(Exception):
+    """A file of contracts that does not fit its source."""
+
+
+@dataclass
+class Contracts:
+    """One file of contracts, put together with the sources that it names."""
+
+    name: str
+    trusted: list[str] = field(default_factory=list)
+    proved: list[str] = field(default_factory=list)
+    unsigned: bool = False
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class Result:
+    """What WP said of one file."""
+
+    name: str
+    proved: int
+    goals: int
+    complaints: tuple[str, ...]
+    seconds: float
+
+    def is_good(self) -> bool:
+        return self.goals > 0 and self.proved == self.goals and not self.complaints
+
+    def __str__(self) -> str:
+        return f"{self.name}: proved {self.proved} / {self.goals} ({self.seconds:.0f} s)"
+
+
+def _put_in(source: list[str], start: int, anchor: str, lines: list[str], behind: bool) -> int:
+    """Puts lines next to the anchor; returns where the next anchor is looked for."""
+    for place in range(start, len(source)):
+        if source[place].strip() == anchor:
+            at = place + 1 if behind else place
+            source[at:at] = lines
+            return place + len(lines) + (0 if behind else 1)
+    raise Mismatch(f"the source has no line `{anchor}` behind the one before it")
+
+
+def put_together(path: Path, root: Path = ROOT) -> Contracts:
+    """Reads a file of contracts."""
+    contracts = Contracts(path.stem)
+    source: list[str] = []
+    done: list[str] = []
+    place = 0
+    pieces = re.split(r"^% *(\w+)(.*)\n", path.read_text(), flags=re.MULTILINE)
+    done.append(pieces[0])
+    for word, argument, text in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
+        argument = argument.strip()
+        if word == "trust":
+            contracts.trusted += argument.split()
+            done.append(text)
+        elif word == "prove":
+            contracts.proved += argument.split()
+            done.append(text)
+        elif word == "unsigned":
+            contracts.unsigned = True
+            done.append(text)
+        elif word == "source":
+            done += ["\n".join(source), text]
+            source = (root / argument).read_text().splitlines()
+            place = 0
+        elif word in ("before", "after"):
+            place = _put_in(source, place, argument, text.splitlines(), word == "after")
+        else:
+            raise Mismatch(f"`% {word}` means nothing")
+    contracts.text = "\n".join([*done, *source, ""])
+    return contracts
+
+
+def _headers(text: str, seen: dict[str, str]) -> dict[str, str]:
+    """The project's headers that a text includes, and those that they include."""
+    for name in INCLUDE.findall(text):
+        found = [folder / name for folder in FOLDERS if (folder / name).is_file()]
+        if name not in seen and found:
+            seen[name] = found[0].read_text()
+            _headers(seen[name], seen)
+    return seen
+
+
+def not_proved(contracts: Contracts) -> list[str]:
+    """The functions whose bodies are left out."""
+    headers = "".join(_headers(contracts.text, {}).values())
+    inline = set(INLINE.findall(headers)) - set(contracts.proved)
+    return sorted({*inline, *contracts.trusted})
+
+
+def why3_configuration() -> Path:
+    """Why3's list of the provers on this machine, in the build folder and not in the user's."""
+    path = BUILD / "why3.conf"
+    if not path.exists():
+        subprocess.run(
+            ["why3", "config", "detect", "-C", path],
+            check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        )  # fmt: skip
+    return path
+
+
+def prove(contracts: Contracts, seconds: int = SECONDS, extra: Sequence[str] = ()) -> Result:
+    """Lets WP prove one file."""
+    BUILD.mkdir(parents=True, exist_ok=True)
+    path = BUILD / f"{contracts.name}.c"
+    path.write_text(contracts.text)
+    trusted = not_proved(contracts)
+    trust = [f"-wp-skip-fct={','.join(trusted)}"] if trusted else []
+    if contracts.unsigned:
+        trust.append("-warn-unsigned-overflow")
+    includes = " ".join(f"-I{folder}" for folder in FOLDERS)
+    command = [
+        "frama-c", "-session", str(BUILD / "session"), "-no-autoload-plugins",
+        "-load-module", "wp,rtegen", "-c11", "-machdep", "gcc_x86_32", "-wp", "-wp-rte", "-wp-prover", ",".join(PROVERS),
+        "-wp-timeout", str(seconds),
+        "-wp-par", str(min(os.cpu_count() or 1, 2)), "-wp-cache", "update",
+        f"-cpp-extra-args={includes}", *trust, *extra, str(path),
+    ]  # fmt: skip
+    environment = {**os.environ, "WHY3CONFIG": str(why3_configuration())}
+    started = time.monotonic()
+    done = subprocess.run(
+        command, cwd=BUILD, env=environment, stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+    )  # fmt: skip
+    (BUILD / f"{contracts.name}.log").write_text(done.stdout)
+    counts = PROVED.search(done.stdout)
+    assumed = [each for each in ASSUMED.findall(done.stdout) if _matters(each, contracts)]
+    complaints = [*UNPROVED.findall(done.stdout), *assumed]
+    if not counts:
+        complaints += done.stdout.splitlines()[-8:]
+    proved, goals = map(int, counts.groups()) if counts else (0, 0)
+    return Result(contracts.name, proved, goals, tuple(complaints), time.monotonic() - started)
+
+
+def _matters(complaint: str, contracts: Contracts) -> bool:
+    """Whether a complaint is about the code that is proved, not about what only headers call."""
+    unknown = re.search(r"Neither code nor specification for function (\w+)", complaint)
+    return not unknown or unknown[1] in contracts.text
+
+
+def missing() -> list[str]:
+    """What is not installed of what the proofs need."""
+    absent = [command for command in COMMANDS if not shutil.which(command)]
+    if "frama-c" not in absent:
+        done = subprocess.run(["frama-c", "-version"], capture_output=True, text=True)
+        if not done.stdout.startswith(VERSION):
+            absent.append(f"frama-c {VERSION} (this is {done.stdout.strip()})")
+    return absent
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="prove.py", description="Proves the contracts.")
+    parser.add_argument("names", nargs="*", help="files of contracts, without .acsl; all if none")
+    parser.add_argument("--seconds", type=int, default=SECONDS, help="for each goal and prover")
+    parser.add_argument("--wp", action="append", default=[], help="one more option for Frama-C")
+    options = parser.parse_args()
+    if absent := missing():
+        print(f"not installed: {', '.join(absent)}")
+        return 77
+    good = True
+    for path in sorted(PROOFS.glob("*.acsl")):
+        if options.names and path.stem not in options.names:
+            continue
+        try:
+            result = prove(put_together(path), options.seconds, options.wp)
+        except Mismatch as error:
+            print(f"{path.name}: {error}")
+            good = False
+            continue
+        print(result, flush=True)
+        for complaint in result.complaints:
+            print(f"    {complaint}")
+        good = good and result.is_good()
+    return 0 if good else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
