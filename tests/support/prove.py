@@ -163,8 +163,8 @@ def prove(contracts: Contracts, seconds: int = SECONDS, extra: Sequence[str] = (
     includes = " ".join(f"-I{folder}" for folder in FOLDERS)
     command = [
         "frama-c", "-session", str(BUILD / "session"), "-no-autoload-plugins",
-        "-load-module", "wp,rtegen", "-c11", "-machdep", "gcc_x86_32", "-wp", "-wp-rte", "-wp-prover", ",".join(PROVERS),
-        "-wp-timeout", str(seconds),
+        "-load-module", "wp,rtegen", "-c11", "-machdep", "gcc_x86_32", "-wp", "-wp-rte",
+        "-wp-prover", ",".join(PROVERS), "-wp-timeout", str(seconds),
         "-wp-par", str(min(os.cpu_count() or 1, 2)), "-wp-cache", "update",
         f"-cpp-extra-args={includes}", *trust, *extra, str(path),
     ]  # fmt: skip
