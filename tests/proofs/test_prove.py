@@ -34,7 +34,7 @@ def planted(tmp_path: Path, source: str, right: str, wrong: str) -> Path:
         ),
         (
             "program_memory", "program_memory_find_label", "firmware/program/program_memory.c",
-            "next <= program_memory_oldest(memory)", "next < program_memory_oldest(memory)",
+            "if (next == 0 || ", "if (",
         ),
         (
             "interpreter_stacks", "run_call", "firmware/interpreter/interpreter_commands.c",
