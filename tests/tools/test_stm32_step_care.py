@@ -1,0 +1,372 @@
+"""The step driver where a write of the compare value is not enough: wraps, late edges, changes."""
+
+from __future__ import annotations
+
+import itertools
+
+import pytest
+from step_rig import DIER, LOW, MOTORS, WRAP
+
+START = 1000
+SLACK = 40  # a few looks at the counter
+ROOM_TICKS = 24  # an edge nearer than that, and than the low time, is late
+
+AROUND_WRAP = [-300, -211, -210, -60, -44, -43, -42, -41, -3, -2, -1, 0, 1, 2, 41, 42, 43, 300]
+
+
+# The counter's wrap
+
+
+@pytest.mark.parametrize("edge", AROUND_WRAP)
+@pytest.mark.parametrize("delay", [0, 100])
+def test_edges_around_the_wrap_come_at_their_ticks(make_rig, edge, delay):
+    ticks = [WRAP + edge + 3000 * i for i in range(-2, 3)]
+    for steady in (False, True):
+        rig = make_rig(WRAP - 10_000)
+        if steady:
+            rig.start_steady(1, ticks[0], 3000, 5)
+        else:
+            rig.start(1, ticks)
+
+        rig.run(20_000, delay)
+
+        assert rig.rises(1) == ticks
+        assert rig.pulses(1) == 5
+        assert rig.late == 0
+
+
+@pytest.mark.parametrize("edge", AROUND_WRAP)
+def test_a_first_edge_around_the_wrap_comes_at_its_tick(make_rig, edge):
+    rig = make_rig(WRAP - 1000)
+    rig.start(3, [WRAP + edge])
+
+    rig.run(5000)
+
+    assert rig.rises(3) == [WRAP + edge]
+    assert rig.late == 0
+
+
+@pytest.mark.parametrize("edge", AROUND_WRAP)
+def test_edges_of_all_motors_around_the_wrap_come_at_their_ticks(make_rig, edge):
+    rig = make_rig(WRAP - 10_000)
+    ticks = [WRAP + edge + 1500 * i for i in range(-3, 4)]
+    for motor in range(MOTORS):
+        rig.start(motor, ticks)
+
+    rig.run(20_000)
+
+    assert all(rig.rises(motor) == ticks for motor in range(MOTORS))
+    assert rig.late == 0
+
+
+def test_the_counter_may_wrap_between_an_edge_and_its_late_interrupt(make_rig):
+    for edge in range(-250, 0, 9):
+        rig = make_rig(WRAP - 5000)
+        ticks = [WRAP + edge, WRAP + edge + 3000]
+        rig.start_steady(0, ticks[0], 3000, 2)
+
+        rig.run(10_000, delay=300)
+
+        assert rig.rises(0) == ticks
+        assert rig.late == 0
+
+
+# Late edges
+
+
+@pytest.mark.parametrize("behind", [0, 1, 500, 100_000])
+def test_a_tick_that_is_past_is_made_good_at_once_and_counted(make_rig, width, behind):
+    rig = make_rig()
+    rig.start(0, [START + 200_000, START + 200_000 - behind])
+
+    rig.run(210_000)
+
+    first, second = rig.rises(0)
+    assert first == START + 200_000
+    assert 2 * width <= second - first <= 2 * width + 2 * SLACK
+    assert rig.late == 1
+
+
+def test_a_first_tick_that_is_past_is_made_good_too(make_rig):
+    rig = make_rig()
+    rig.start(3, [START - 100])
+
+    rig.run(2000)
+
+    assert len(rig.rises(3)) == 1
+    assert rig.late == 1
+
+
+def test_a_tick_that_is_past_is_made_good_across_the_wrap(make_rig, width):
+    for back in range(0, 400, 7):
+        rig = make_rig(WRAP - 2000)
+        rig.start(0, [WRAP - back, WRAP - back - 1, WRAP + 5000])
+
+        rig.run(10_000)
+
+        first, second, third = rig.rises(0)
+        assert (first, third) == (WRAP - back, WRAP + 5000)
+        assert 2 * width <= second - first <= 2 * width + 2 * SLACK
+        assert rig.late == 1
+
+
+def test_late_pulses_one_after_the_other_are_all_made_good(make_rig):
+    rig = make_rig()
+    rig.start(0, [START + 500] + [START + 501] * 5)
+
+    rig.run(10_000)
+
+    assert len(rig.rises(0)) == 6
+    assert rig.late == 5
+
+
+@pytest.mark.parametrize("behind", [0, 4, 8])
+def test_an_edge_that_comes_soon_is_in_time_or_made_good_but_never_lost(make_rig, width, behind):
+    """However long the driver takes from its look at the counter to its write."""
+    lates = []
+    for gap in range(width, 3 * width + 60, 2):
+        rig = make_rig()
+        rig.timer.behind = behind
+        rig.start(0, [START + 900, START + 900 + gap, START + 5000])
+
+        rig.run(8000)
+
+        first, second, third = rig.rises(0)
+        assert (first, third) == (START + 900, START + 5000)
+        assert second == first + gap or (rig.late == 1 and second > first + gap)
+        lates.append(rig.late)
+    assert lates == sorted(lates, reverse=True)
+    assert (lates[0], lates[-1]) == (1, 0)
+
+
+def test_a_late_train_catches_up_and_goes_on_at_its_ticks(make_rig):
+    rig = make_rig()
+    ticks = [START + 1000 * i for i in range(1, 20)]
+    rig.start_steady(0, ticks[0], 1000, len(ticks))
+    rig.run(3500)
+    rig.go_to(START + 6300)
+
+    rig.run(30_000)
+
+    rises = rig.rises(0)
+    assert len(rises) == len(ticks)
+    assert rises[:4] == ticks[:4]
+    assert rises[-10:] == ticks[-10:]
+    assert rig.late == sum(a != b for a, b in zip(rises, ticks, strict=True)) > 0
+
+
+@pytest.mark.parametrize("offset", range(-8, 9, 2))
+def test_a_late_edge_may_come_together_with_those_of_other_motors(make_rig, offset):
+    """The made-good edge of motor 0 falls among the edges of the others."""
+    probe = make_rig()
+    probe.start(0, [START + 500, START + 500])
+    probe.run(2000)
+    made_good = probe.rises(0)[1]
+    rig = make_rig()
+    rig.start(0, [START + 500, START + 500, START + 4000])
+    others = [made_good + offset, made_good + offset + 2000]
+    for motor in range(1, MOTORS):
+        rig.start_steady(motor, others[0], 2000, 2)
+
+    rig.run(8000)
+
+    assert rig.rises(0) == [START + 500, made_good, START + 4000]
+    assert all(rig.rises(motor) == others for motor in range(1, MOTORS))
+    assert rig.late == 1
+
+
+@pytest.mark.parametrize("edge", [0, 1, 2])
+def test_an_edge_behind_the_wrap_may_come_together_with_plain_ones(make_rig, edge):
+    rig = make_rig(WRAP - 6000)
+    ticks = [WRAP + edge + 3000 * i for i in range(-1, 3)]
+    rig.start_steady(0, ticks[0], 3000, 4)
+    rig.run(7000 + 2000)  # motors 1 to 3 are armed behind the wrap, motor 0 is still as it was
+    for motor in range(1, MOTORS):
+        rig.start_steady(motor, ticks[2], 3000, 2)
+
+    rig.run(10_000)
+
+    assert rig.rises(0) == ticks
+    assert all(rig.rises(motor) == ticks[2:] for motor in range(1, MOTORS))
+    assert rig.late == 0
+
+
+# Taking an edge back
+
+
+def test_an_armed_edge_can_be_taken_back(make_rig):
+    rig = make_rig()
+    rig.start(0, [START + 5000])
+
+    taken = rig.call("hal_step_disarm", 0)
+    rig.run(10_000)
+
+    assert taken
+    assert rig.rises(0) == []
+    assert not rig.timer.registers[DIER]
+
+
+@pytest.mark.parametrize("ahead", [-3, 0, 1, 2, 10, 24])
+def test_an_edge_that_is_nearly_there_cannot_be_taken_back(make_rig, ahead):
+    rig = make_rig()
+    rig.start(0, [START + 5000])
+    rig.call("hal_step_hold")
+    rig.go_to(START + 5000 - ahead)
+
+    taken = rig.call("hal_step_disarm", 0)
+    rig.call("hal_step_release")
+    rig.run(2000)
+
+    assert not taken
+    assert rig.rises(0) == [START + 5000]
+    assert rig.pulses(0) == 1
+
+
+def test_a_channel_without_a_pulse_has_nothing_to_be_taken_back(make_rig):
+    assert not make_rig().call("hal_step_disarm", 0)
+
+
+def test_a_stale_match_is_no_pulse(make_rig):
+    rig = make_rig()
+    rig.start(0, [START + 5000])
+    rig.halt(0)
+    rig.run(10_000)
+    rig.start(0, [START + 20_000])
+
+    rig.run(15_000)
+
+    assert rig.rises(0) == [START + 20_000]
+    assert rig.pulses(0) == 1
+
+
+@pytest.mark.parametrize("wrap", [False, True])
+def test_a_halt_at_any_tick_counts_what_the_pin_has_shown(make_rig, width, wrap):
+    """Just before, at and behind the match, and while the pulse lasts."""
+    start = WRAP - 2020 if wrap else START
+    counts = []
+    for offset in range(-40, 2 * width + 40):
+        rig = make_rig(start)
+        rig.start_steady(2, start + 1000, 1000, 3)
+        rig.run(1500)
+        rig.go_to(start + 2000 + offset)
+
+        rig.halt(2)
+        rig.run(4000)
+
+        assert not rig.is_running(2)
+        assert len(rig.rises(2)) == rig.pulses(2), offset
+        assert rig.timer.mode(2) == LOW
+        counts.append(rig.pulses(2))
+    assert counts == sorted(counts)
+    assert (counts[0], counts[-1]) == (1, 2)
+
+
+def test_a_halted_channel_starts_anew_at_any_time(make_rig, width):
+    for offset in range(-60, 2 * width + 40, 3):
+        rig = make_rig()
+        rig.start_steady(2, START + 1000, 1000, 3)
+        rig.run(1500)
+        rig.go_to(START + 2000 + offset)
+        rig.halt(2)
+        if rig.is_running(2):
+            rig.run(width + 10)
+
+        rig.start(2, [START + 4000])
+        rig.run(4000)
+
+        assert rig.rises(2)[-1] == START + 4000
+        assert rig.pulses(2) == 1
+        assert rig.late == 0
+
+
+# Disconnecting and connecting
+
+
+def test_disconnected_channels_keep_their_time_and_their_pins_low(make_rig):
+    rig = make_rig()
+    rig.call("hal_step_connect", 0)
+    now = rig.timer.now
+    rig.start(1, [now + 3000 * i for i in range(1, 6)])
+
+    rig.run(30_000)
+
+    assert rig.timer.edges == []
+    assert rig.pulses(1) == 5
+    assert rig.late == 0
+
+
+def test_a_train_may_be_disconnected_and_connected_again(make_rig):
+    rig = make_rig()
+    ticks = [START + 5000 * i for i in range(1, 10)]
+    rig.start_steady(1, ticks[0], 5000, len(ticks))
+
+    rig.run(12_000)
+    rig.call("hal_step_connect", 0)
+    rig.run(15_000)
+    rig.call("hal_step_connect", 1)
+    rig.run(25_000)
+
+    assert rig.rises(1) == [*ticks[:2], *ticks[5:]]
+    assert rig.pulses(1) == 9
+
+
+@pytest.mark.parametrize("connected", [False, True])
+@pytest.mark.parametrize("masked", [False, True])
+def test_pins_may_be_connected_at_any_moment_of_an_edge(make_rig, width, connected, masked):
+    """A pulse is made whole or not at all, the time goes on, and what follows is right."""
+    ticks = [START + 4000 * i for i in range(1, 6)]
+    around = ticks[2]
+    for offset in itertools.chain(range(-60, 60), range(60, 2 * width + 40, 5)):
+        rig = make_rig()
+        rig.call("hal_step_connect", 0 if connected else 1)
+        rig.start_steady(0, ticks[0], 4000, len(ticks))
+        rig.start(3, ticks)
+        rig.run(around - 2000 - rig.timer.now)
+        # Connecting waits for the set-up time of DIR before it touches STEP.
+        at = around + offset - (422 if connected else 0)
+        rig.go_to(at) if masked else rig.run(at - rig.timer.now)
+
+        rig.call("hal_step_connect", int(connected))
+        rig.run(20_000)
+
+        for motor in (0, 3):
+            rises = rig.rises(motor)
+            expected = ticks[3:] if connected else ticks[:2]
+            assert rises in (expected, sorted([*expected, around])), offset
+            assert rig.pulses(motor) == len(ticks)
+            assert not rig.is_running(motor)
+        assert rig.late == 0
+
+
+@pytest.mark.parametrize("edge", [-43, -1, 0, 1, 2])
+def test_pins_may_be_connected_around_the_wrap(make_rig, edge):
+    ticks = [WRAP + edge + 4000 * i for i in range(-1, 3)]
+    for offset in range(-70, 80, 3):
+        rig = make_rig(WRAP - 10_000)
+        rig.start_steady(0, ticks[0], 4000, len(ticks))
+        rig.run(ticks[1] + offset - rig.timer.now)
+
+        rig.call("hal_step_connect", 0)
+        rig.run(1500)
+        rig.call("hal_step_connect", 1)
+        rig.run(10_000)
+
+        assert rig.rises(0) in (ticks, [ticks[0], *ticks[2:]]), offset
+        assert rig.pulses(0) == len(ticks)
+        assert rig.late == 0
+
+
+def test_a_late_edge_keeps_its_place_when_the_pins_are_connected(make_rig):
+    for wait in range(0, 60, 4):
+        rig = make_rig()
+        rig.start(0, [START + 500, START + 500, START + 4000])
+        rig.run(500 + wait)
+
+        rig.call("hal_step_connect", 0)
+        rig.run(300)
+        rig.call("hal_step_connect", 1)
+        rig.run(8000)
+
+        assert rig.pulses(0) == 3
+        assert rig.rises(0)[-1] == START + 4000
+        assert rig.late == 1
