@@ -19,15 +19,21 @@ static uint32_t made_good(uint32_t tick, uint32_t now)
     return now + (uint32_t)ROOM_TICKS;
 }
 
+/* Whether the counter wraps before the pulse of an edge to come has been high long enough. */
+static inline bool ends_behind_wrap(uint32_t edge, uint32_t now)
+{
+    return edge + (uint32_t)HIGH_TICKS <= now;
+}
+
 /* Puts the pin low and arms the next edge, whatever the channel did before. A late edge is not where the client has it,
- * one behind the counter's wrap is no matter of being above it. */
+ * one behind the counter's wrap is no matter of being above it, and one right before it would be cut short there. */
 static void arm(unsigned motor, uint32_t tick)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
     uint32_t flag = flag_of(motor);
     uint32_t now = TIM2_CNT;
     uint32_t edge = made_good(tick, now);
-    bool plain = !PULSES_ARE_LONG && edge == tick && edge > now;
+    bool plain = !PULSES_ARE_LONG && edge == tick && !ends_behind_wrap(edge, now);
     set_mode(channel, MODE_LOW);
     *channel->compare = edge;
     stm32_step.edge[motor] = edge;
@@ -47,9 +53,6 @@ static void rest(unsigned motor, uint32_t edge)
 /* What follows the pulse at `edge`. */
 __attribute__((noinline)) static void follow(unsigned motor, uint32_t edge, unsigned next)
 {
-    if ((next & STEP_CHANNEL_LOOK) != 0) {
-        stm32_event = true;
-    }
     if ((next & STEP_CHANNEL_ARM) != 0) {
         arm(motor, stm32_step.client[motor]->cursor.generator.tick);
     } else {
@@ -67,12 +70,12 @@ static inline uint32_t wait_out(uint32_t edge)
     return now;
 }
 
-/* Has the channel end the pulse. There are SPIN_TICKS at least until then. */
+/* Has the channel end the pulse, which is none if the pin is disconnected. There are SPIN_TICKS at least until then. */
 static void fall_later(unsigned motor, unsigned next)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
     *channel->compare = stm32_step.edge[motor] + (uint32_t)HIGH_TICKS;
-    set_mode(channel, stm32_step.connected ? MODE_FALL : MODE_LOW);
+    set_mode(channel, MODE_FALL);
     stm32_step.falling |= flag_of(motor);
     stm32_step.waiting |= (next & STEP_CHANNEL_ARM) != 0 ? flag_of(motor) : 0U;
 }
@@ -93,6 +96,9 @@ static void serve_special(unsigned motor)
         return;
     }
     unsigned next = step_channel_next_isr(stm32_step.client[motor]);
+    if ((next & STEP_CHANNEL_LOOK) != 0) {
+        stm32_event = true;
+    }
     if (PULSES_ARE_LONG && TIM2_CNT - edge < (uint32_t)(HIGH_TICKS - SPIN_TICKS)) {
         fall_later(motor, next);
         return;
@@ -110,10 +116,11 @@ __attribute__((noinline)) static void serve_specials(void)
     }
 }
 
-/* Whether it takes more than a write of the compare value to arm the next edge: behind the counter's wrap, or late. */
+/* Whether it takes more than a write of the compare value to arm the next edge: at the counter's wrap or behind it, or
+ * late. */
 static inline bool needs_care(uint32_t tick, uint32_t now)
 {
-    return BASE_SELDOM(tick <= now) || BASE_SELDOM((int32_t)(tick - now) < (int32_t)MOVE_TICKS);
+    return BASE_SELDOM(ends_behind_wrap(tick, now)) || BASE_SELDOM((int32_t)(tick - now) < (int32_t)MOVE_TICKS);
 }
 
 /* Where a segment ends, and perhaps the move. */
@@ -123,7 +130,8 @@ __attribute__((noinline)) static void serve_border(unsigned motor)
     uint32_t edge = client->cursor.generator.tick;
     unsigned next = step_channel_next_segment_isr(client);
     uint32_t tick = client->cursor.generator.tick;
-    if ((next & STEP_CHANNEL_ARM) == 0 || needs_care(tick, wait_out(edge))) {
+    uint32_t now = wait_out(edge);
+    if ((next & STEP_CHANNEL_ARM) == 0 || needs_care(tick, now)) {
         follow(motor, edge, next);
     } else {
         (&TIM2_CCR1)[motor] = tick;

@@ -36,20 +36,19 @@ static void write_directions(bool connected)
     }
 }
 
-/* An edge that is made at this moment, or is just being served, is left out: it would come late. Its interrupt arms the
- * next one in the right mode. */
+/* A pulse that is just being made, or is about to be, ends as it began: whole, or not at all. Its interrupt arms the next
+ * one in the right mode. */
 static void write_mode(unsigned motor)
 {
-    struct stm32_channel *channel = &stm32_step.channel[motor];
     uint32_t flag = flag_of(motor);
     uint32_t edge = edge_of(motor);
-    bool armed = (enabled() & ~stm32_step.falling & flag) != 0;
-    bool soon = (int32_t)(edge - TIM2_CNT) <= (int32_t)WRITE_TICKS;
-    if (armed && soon) {
+    bool armed = (enabled() & flag) != 0;
+    if (armed && (int32_t)(edge - TIM2_CNT) <= (int32_t)WRITE_TICKS) {
         stm32_step.edge[motor] = edge;
         set_enabled(stm32_step.plain & ~flag, stm32_step.special | flag);
+    } else {
+        set_mode(&stm32_step.channel[motor], armed ? armed_mode(motor) : (uint32_t)MODE_LOW);
     }
-    set_mode(channel, armed && !soon ? armed_mode(motor) : (uint32_t)MODE_LOW);
 }
 
 static void write_all_modes(bool connected)
