@@ -1,15 +1,9 @@
-#include "motion_plan.h"
+#include "plan_rig.h"
 #include "segment_view.h"
 #include "step_scale.h"
 #include "unity.h"
 
 /* How orders become segments. That every pulse is exact is shown elsewhere, against the reference. */
-
-enum { SEGMENTS_MAX = 64 };
-
-static struct motion_plan plan;
-static struct step_segment segments[SEGMENTS_MAX];
-static unsigned count;
 
 void setUp(void)
 {
@@ -17,29 +11,6 @@ void setUp(void)
 
 void tearDown(void)
 {
-}
-
-static struct motion_order order_single(uint64_t steps, uint32_t start_speed, uint32_t speed, uint32_t accel)
-{
-    return (struct motion_order){
-        .section = {{steps, speed, accel}},
-        .start_speed_steps_per_s = start_speed,
-        .sections = 1,
-    };
-}
-
-static void begin(struct motion_order order)
-{
-    motion_plan_begin(&plan, &order, 1000);
-}
-
-static void begin_two(uint32_t start_speed, struct motion_section first, struct motion_section second)
-{
-    begin((struct motion_order){
-        .section = {first, second},
-        .start_speed_steps_per_s = start_speed,
-        .sections = 2,
-    });
 }
 
 /* The manual's ninth example. */
@@ -51,25 +22,6 @@ static void begin_manual(void)
         .start_speed_steps_per_s = 100,
         .sections = 6,
     });
-}
-
-/* Takes all segments; returns the pulses on them. */
-static uint64_t take_segments(void)
-{
-    uint64_t pulses = 0;
-    for (count = 0; count < SEGMENTS_MAX && motion_plan_next(&plan, &segments[count]); count++) {
-        pulses += segments[count].steps;
-    }
-    return pulses;
-}
-
-/* Segments by their pulses, and whether the speed rises (+1), stays (0) or falls (-1) on them. */
-static void assert_segment(unsigned index, uint32_t steps, int sign)
-{
-    TEST_ASSERT_LESS_THAN_UINT_MESSAGE(count, index, "no such segment");
-    TEST_ASSERT_EQUAL_UINT32_MESSAGE(steps, segments[index].steps, "steps");
-    int32_t accel = segments[index].accel;
-    TEST_ASSERT_EQUAL_INT_MESSAGE(sign, accel > 0 ? 1 : accel < 0 ? -1 : 0, "sign of the acceleration");
 }
 
 static void assert_exits(const uint64_t *expected, unsigned sections)

@@ -18,6 +18,7 @@ static bool is_armed;
 static uint32_t lead_ticks;
 static uint64_t planning_ticks; /* that pass until the cut */
 static uint64_t handing_ticks;  /* that pass after the cut */
+static uint64_t looking_ticks;  /* that pass between the first look of a stop and its brake */
 static uint64_t braking_ticks;  /* that pass while a stop is planned */
 static unsigned holds;          /* since planning began: first to foresee, then to cut; a stop looks, brakes, joins */
 static bool stops;
@@ -59,7 +60,7 @@ static void hold_seen(int calls)
     (void)calls;
     holds++;
     if (stops) {
-        make_pulses_until(holds == 3 ? now + braking_ticks : now);
+        make_pulses_until(now + (holds == 2 ? looking_ticks : holds == 3 ? braking_ticks : 0));
     } else if (holds % 2U == 0) {
         cuts_tried++;
         make_pulses_until(now + planning_ticks);
@@ -103,6 +104,7 @@ void setUp(void)
     lead_ticks = 0;
     planning_ticks = 0;
     handing_ticks = 0;
+    looking_ticks = 0;
     braking_ticks = 0;
     stops = false;
     holds = 0;
@@ -313,6 +315,48 @@ void test_a_stop_behind_which_no_pulse_is_left_changes_nothing(void)
     TEST_ASSERT_EQUAL_UINT64(1000, pulses);
 }
 
+void test_a_stop_that_meets_the_last_pulse_where_it_brakes_changes_nothing(void)
+{
+    start(&fast, 998);
+    looking_ticks = 5250;
+
+    stop();
+    TEST_ASSERT_EQUAL_UINT64(999, pulses);
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT64(1000, pulses);
+}
+
+void test_a_stop_of_a_move_whose_end_main_has_not_seen_changes_nothing(void)
+{
+    start(&fast, 1000);
+
+    stop();
+    TEST_ASSERT_TRUE(mover_is_moving(&mover));
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT64(1000, pulses);
+}
+
+void test_a_change_of_speed_that_cannot_be_planned_within_a_second_is_given_up(void)
+{
+    static const struct motion_order slow = {
+        .section = {{1000, 100, 2000}},
+        .start_speed_steps_per_s = 100,
+        .sections = 1,
+    };
+    start(&slow, 10);
+    lead_ticks = TICK_HZ / 2U;
+    planning_ticks = 2U * (uint64_t)TICK_HZ;
+
+    mover_change_speed(&mover, 50);
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT(1, cuts_tried);
+    TEST_ASSERT_EQUAL_UINT(0, changes_traced);
+    TEST_ASSERT_EQUAL_UINT64(1000, pulses);
+}
+
 void test_a_change_of_speed_that_the_move_ends_before_is_not_traced(void)
 {
     start(&fast, 998);
@@ -341,4 +385,21 @@ void test_a_queue_that_ran_dry_behind_a_cut_is_filled_and_goes_on(void)
 
     TEST_ASSERT_EQUAL_UINT64(MOTION_SECTIONS, pulses);
     TEST_ASSERT_EQUAL_INT64(MOTION_SECTIONS, mover_position_steps(&mover));
+}
+
+void test_a_queue_that_ran_dry_goes_on_where_it_was_filled_before_main_has_seen_it(void)
+{
+    struct motion_order order = {.start_speed_steps_per_s = 16000, .sections = MOTION_SECTIONS};
+    for (unsigned i = 0; i < MOTION_SECTIONS; i++) {
+        order.section[i] = (struct motion_section){1, 16000, 60000};
+    }
+    start(&order, 1);
+    handing_ticks = 6 * 5250;
+
+    mover_change_speed(&mover, 15999);
+    mover_feed(&mover);
+    TEST_ASSERT_FALSE(is_armed);
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT64(MOTION_SECTIONS, pulses);
 }

@@ -278,6 +278,33 @@ void test_a_segment_is_joined_on_any_of_its_pulses(void)
     }
 }
 
+/* A slope of 2^40 loses ten digits in the division: half of it, and a little more, is less than half then. */
+void test_a_pulse_that_lies_just_beyond_half_a_tick_is_the_one_before(void)
+{
+    const uint64_t slope = UINT64_C(1) << 40U;
+    const uint32_t interval = 1000000;
+    struct step_segment segment = {.slope = slope, .tick = 77, .steps = 1};
+
+    segment.residual = STEP_QUANTA - interval * slope + slope / 2U + 1U;
+    step_generator_aim(&segment, interval);
+    TEST_ASSERT_EQUAL_UINT32(77 + interval - 1U, segment.tick);
+
+    segment.tick = 77;
+    segment.residual = STEP_QUANTA - interval * slope + slope / 2U;
+    step_generator_aim(&segment, interval);
+    TEST_ASSERT_EQUAL_UINT32(77 + interval, segment.tick);
+}
+
+/* The planner lays no such segment; the step interrupt would wait for it. */
+void test_the_search_for_a_pulse_that_never_comes_ends(void)
+{
+    struct step_segment segment = {.tick = 77, .steps = 1};
+
+    step_generator_aim(&segment, 1000);
+
+    TEST_ASSERT_EQUAL_UINT64(0U - STEP_QUANTA, segment.residual);
+}
+
 /* What makes it fast: above some thousand steps/s the speed in the middle of an interval foretells its end. */
 static unsigned foretold_of(const struct motion *motion, unsigned pulses)
 {

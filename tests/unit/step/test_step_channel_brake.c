@@ -1,0 +1,236 @@
+#include <string.h>
+
+#include "mock_hal_step.h"
+#include "step_channel.h"
+#include "unity.h"
+
+#include "channel_rig.h"
+
+/* The stop-gap that brakes at once, and the planned segment that takes its place. */
+
+enum {
+    MADE = 5,          /* pulses before the stop, of MOVE; the next one is armed */
+    MOVE = 1000,
+    PLANNED = 40,      /* pulses behind the armed one, as planned */
+    GAP = PLANNED / 2, /* and those of the stop-gap */
+    ACCEL = 2000 * (int32_t)STEP_ACCEL_PER_ACCEL,
+};
+
+static uint32_t ticks[PLANNED + 2];
+static unsigned count;
+
+void setUp(void)
+{
+    channel_rig_init();
+    count = 0;
+}
+
+void tearDown(void)
+{
+    channel_rig_check();
+}
+
+static struct step_cursor brake_until(uint64_t until)
+{
+    struct step_cursor at;
+    begin_move(MOVE);
+    make_pulses(MADE);
+    TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, until, &at));
+    return at;
+}
+
+static struct step_segment planned_behind(const struct step_cursor *at, uint32_t steps)
+{
+    struct step_segment segment = {
+        .residual = at->generator.residual,
+        .slope = at->generator.slope,
+        .accel = -ACCEL,
+        .tick = at->generator.tick,
+        .steps = steps,
+    };
+    step_generator_aim(&segment, INTERVAL);
+    return segment;
+}
+
+/* Makes up to `most` pulses and keeps their ticks. */
+static void record(unsigned most)
+{
+    for (unsigned i = 0; i < most && step_channel_is_running(&channel); i++) {
+        TEST_ASSERT_LESS_THAN_UINT(PLANNED + 2, count);
+        ticks[count++] = armed_tick;
+        make_pulses(1);
+    }
+}
+
+static void assert_planned_ticks(const struct step_cursor *at)
+{
+    struct step_segment segment = planned_behind(at, PLANNED);
+    struct step_generator generator = at->generator;
+    step_generator_load(&generator, &segment);
+    TEST_ASSERT_EQUAL_UINT(1 + PLANNED, count);
+    TEST_ASSERT_EQUAL_UINT32(at->generator.tick, ticks[0]);
+    for (unsigned i = 1; i <= PLANNED; i++) {
+        TEST_ASSERT_EQUAL_UINT32(generator.tick, ticks[i]);
+        (void)step_generator_next(&generator);
+    }
+    TEST_ASSERT_EQUAL_UINT64(MADE + 1 + PLANNED, step_channel_pulses(&channel));
+    TEST_ASSERT_EQUAL_INT64(MADE + 1 + PLANNED, step_channel_position(&channel));
+}
+
+/* Brakes, makes so many pulses, the armed one included, and has the planned segment in the place of the stop-gap. */
+static void assert_spliced_behind(unsigned made)
+{
+    setUp();
+    struct step_cursor at = brake_until(MADE + 1 + GAP);
+    record(made);
+
+    struct step_segment segment = planned_behind(&at, PLANNED);
+    step_channel_splice(&channel, &at, &segment);
+    TEST_ASSERT_TRUE(step_channel_is_running(&channel));
+    record(PLANNED + 2);
+
+    assert_planned_ticks(&at);
+}
+
+void test_a_look_tells_the_armed_pulse(void)
+{
+    struct step_cursor cursor;
+    begin_move(MOVE);
+    make_pulses(MADE);
+
+    TEST_ASSERT_TRUE(step_channel_look(&channel, &cursor));
+
+    TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&cursor));
+    TEST_ASSERT_EQUAL_UINT32(armed_tick, cursor.generator.tick);
+}
+
+void test_a_look_at_rest_tells_the_last_pulse_and_that_none_is_armed(void)
+{
+    struct step_cursor cursor;
+    begin_move(3);
+    (void)run_to_the_end();
+
+    TEST_ASSERT_FALSE(step_channel_look(&channel, &cursor));
+
+    TEST_ASSERT_EQUAL_UINT64(3, step_cursor_pulse(&cursor));
+    TEST_ASSERT_EQUAL_UINT32(START + 3 * INTERVAL, cursor.generator.tick);
+}
+
+void test_a_brake_stands_on_the_armed_pulse_and_leaves_it_armed(void)
+{
+    struct step_cursor at = brake_until(MADE + 1 + GAP);
+
+    TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&at));
+    TEST_ASSERT_EQUAL_UINT(MADE + 1, arms);
+    TEST_ASSERT_EQUAL_UINT32(START + (MADE + 1) * INTERVAL, armed_tick);
+}
+
+void test_a_brake_acts_from_the_armed_pulse_on(void)
+{
+    (void)brake_until(MADE + 1 + GAP);
+
+    record(GAP + 1);
+
+    for (unsigned i = 2; i < count; i++) {
+        TEST_ASSERT_GREATER_THAN_UINT32(ticks[i - 1] - ticks[i - 2], ticks[i] - ticks[i - 1]);
+    }
+}
+
+void test_a_brake_goes_on_until_its_last_pulse_and_drops_what_is_queued(void)
+{
+    struct step_cursor at;
+    begin_two(MADE + 10, 100);
+    make_pulses(MADE);
+
+    TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, MADE + 20, &at));
+
+    TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS, step_channel_room(&channel));
+    TEST_ASSERT_EQUAL_UINT(20, run_to_the_end());
+    TEST_ASSERT_EQUAL_UINT64(MADE + 20, step_channel_pulses(&channel));
+}
+
+void test_a_brake_that_must_end_at_the_armed_pulse_or_before_leaves_that_pulse(void)
+{
+    for (uint64_t until = MADE - 1; until <= MADE + 1; until++) {
+        setUp();
+        (void)brake_until(until);
+
+        TEST_ASSERT_EQUAL_UINT(1, run_to_the_end());
+        TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_channel_pulses(&channel));
+        TEST_ASSERT_EQUAL_UINT32(START + (MADE + 1) * INTERVAL, step_channel_end_tick(&channel));
+    }
+}
+
+void test_a_brake_at_rest_changes_nothing(void)
+{
+    begin_move(3);
+    (void)run_to_the_end();
+    struct step_cursor at = {.end = 77};
+    struct step_cursor before;
+    (void)step_channel_look(&channel, &before);
+
+    TEST_ASSERT_FALSE(step_channel_brake(&channel, ACCEL, 100, &at));
+
+    TEST_ASSERT_EQUAL_UINT64(77, at.end);
+    TEST_ASSERT_EQUAL_MEMORY(&before, &channel.cursor, sizeof before);
+    TEST_ASSERT_EQUAL_UINT(3, arms);
+}
+
+void test_a_splice_before_the_armed_pulse_is_made_has_all_its_pulses(void)
+{
+    assert_spliced_behind(0);
+}
+
+void test_a_splice_behind_some_pulses_of_the_stop_gap_goes_on_as_planned(void)
+{
+    assert_spliced_behind(1);
+    assert_spliced_behind(2);
+    assert_spliced_behind(GAP / 2);
+    assert_spliced_behind(GAP);
+}
+
+void test_a_splice_behind_a_stop_gap_that_ran_out_arms_the_next_pulse(void)
+{
+    assert_spliced_behind(GAP + 1);
+}
+
+void test_a_splice_goes_on_with_what_was_queued_behind_it(void)
+{
+    struct step_cursor at = brake_until(MADE + 1 + GAP);
+    make_pulses(3);
+    struct step_segment segment = planned_behind(&at, PLANNED);
+    step_channel_splice(&channel, &at, &segment);
+    segment = segment_behind(MOVE, 7);
+    step_channel_push(&channel, &segment);
+
+    (void)run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT64(MADE + 1 + PLANNED + 7, step_channel_pulses(&channel));
+    TEST_ASSERT_EQUAL_UINT32(START + (MOVE + 7) * (uint32_t)INTERVAL, step_channel_end_tick(&channel));
+}
+
+void test_a_splice_with_no_more_pulses_than_were_made_rests(void)
+{
+    struct step_cursor at = brake_until(MADE + 1 + GAP);
+    (void)run_to_the_end();
+    unsigned armed = arms;
+
+    struct step_segment segment = planned_behind(&at, GAP);
+    step_channel_splice(&channel, &at, &segment);
+
+    TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+    TEST_ASSERT_EQUAL_UINT(armed, arms);
+    TEST_ASSERT_EQUAL_UINT64(MADE + 1 + GAP, step_channel_pulses(&channel));
+}
+
+void test_a_splice_whose_last_pulse_is_armed_ends_with_it(void)
+{
+    struct step_cursor at = brake_until(MADE + 1 + GAP);
+    make_pulses(GAP);
+
+    struct step_segment segment = planned_behind(&at, GAP);
+    step_channel_splice(&channel, &at, &segment);
+
+    TEST_ASSERT_EQUAL_UINT(1, run_to_the_end());
+    TEST_ASSERT_EQUAL_UINT64(MADE + 1 + GAP, step_channel_pulses(&channel));
+}
