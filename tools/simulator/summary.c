@@ -62,8 +62,8 @@ void summary_print(const struct run *run, const struct feed *feed)
     print_seconds("real_seconds", run->real_ns);
     (void)printf("\"ratio\":");
     json_print_fixed(summary_milli_ratio(run), MILLI_DECIMALS);
-    (void)printf(",\"ended\":\"%s\",\"late_steps\":%" PRIu64 ",\n\"motors\":[", run->idle ? "idle" : run->cut ? "real" : "time",
-                 run->machine.late_steps);
+    (void)printf(",\"ended\":\"%s\",\"late_steps\":%" PRIu64 ",\n\"motors\":[",
+                 run->idle ? "idle" : run->cut ? "real" : "time", run->machine.late_steps);
     for (unsigned i = 0; i < UNIT_MOTORS; i++) {
         (void)fputs(i == 0 ? "\n" : ",\n", stdout);
         print_motor(run, feed, i);

@@ -1,5 +1,6 @@
 /*
- * What goes wrong on request: --fault MS:WHAT, each once, at a time. The fault ends with the next reset, but for the supply.
+ * What goes wrong on request: --fault MS:WHAT, each once, at a time. The fault ends with the next reset, but for the
+ * supply.
  */
 #ifndef FAULTS_H
 #define FAULTS_H

@@ -161,7 +161,8 @@ unsigned nvic_next_pending(const struct nvic *nvic)
 {
     unsigned best = NVIC_NONE;
     for (unsigned word = 0; word < NVIC_WORDS; word++) {
-        for (uint64_t bits = nvic->pending[word] & nvic->enabled[word] & ~nvic->lost[word]; bits != 0; bits &= bits - 1U) {
+        uint64_t bits = nvic->pending[word] & nvic->enabled[word] & ~nvic->lost[word];
+        for (; bits != 0; bits &= bits - 1U) {
             unsigned exception = word * WORD_BITS + (unsigned)__builtin_ctzll(bits);
             if (best == NVIC_NONE || pending_order(nvic, exception) < pending_order(nvic, best)) {
                 best = exception;

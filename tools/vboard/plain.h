@@ -1,5 +1,6 @@
 /*
- * Blocks that are little more than registers here: power control (RM0090 chapter 5), with its voltage detector, and system configuration (chapter 9).
+ * Blocks that are little more than registers here: power control (RM0090 chapter 5), with its voltage detector, and
+ * system configuration (chapter 9).
  */
 #ifndef PLAIN_H
 #define PLAIN_H
