@@ -159,13 +159,11 @@ static void leg_last_ramp(struct motion_progress *progress, struct motion_leg *l
     leg->accel = profile->accel_steps_per_s2 * STEP_ACCEL_PER_ACCEL;
     leg->from_slope = slope_of(progress, profile->cruise);
     leg->to_slope = slope_of(progress, profile->exit);
-    if (leg->to.step > leg->from.step) {
-        uint64_t steps_left = leg->to.step - leg->from.step - 1U;
-        leg->pulse_twice_speed2 = profile->exit + 4U * (uint64_t)profile->accel_steps_per_s2 * steps_left;
-    }
+    uint64_t steps_left = leg->to.step - leg->from.step - 1U;
+    leg->pulse_twice_speed2 = profile->exit + 4U * (uint64_t)profile->accel_steps_per_s2 * steps_left;
 }
 
-/* The leg that begins where the progress stands. */
+/* The leg that begins where the progress stands; it has a length. */
 static struct motion_leg lay_leg(struct motion_progress *progress)
 {
     struct motion_leg leg = {.start = progress->time, .from = progress->place};

@@ -24,7 +24,7 @@ static unsigned holds;          /* since planning began: first to foresee, then 
 static bool stops;
 static unsigned cuts_tried;
 static uint64_t pulses;
-static uint64_t pulse_tick[2000];
+static uint64_t pulse_tick[3000];
 static unsigned changes_traced;
 
 /* Pulse k stands at k * 5250 ticks. */
@@ -387,7 +387,7 @@ void test_a_queue_that_ran_dry_behind_a_cut_is_filled_and_goes_on(void)
     TEST_ASSERT_EQUAL_INT64(MOTION_SECTIONS, mover_position_steps(&mover));
 }
 
-void test_a_queue_that_ran_dry_goes_on_where_it_was_filled_before_main_has_seen_it(void)
+void test_a_queue_that_ran_dry_goes_on_as_soon_as_it_is_fed(void)
 {
     struct motion_order order = {.start_speed_steps_per_s = 16000, .sections = MOTION_SECTIONS};
     for (unsigned i = 0; i < MOTION_SECTIONS; i++) {
@@ -397,9 +397,35 @@ void test_a_queue_that_ran_dry_goes_on_where_it_was_filled_before_main_has_seen_
     handing_ticks = 6 * 5250;
 
     mover_change_speed(&mover, 15999);
-    mover_feed(&mover);
     TEST_ASSERT_FALSE(is_armed);
+    TEST_ASSERT_TRUE(mover_feed(&mover));
+    TEST_ASSERT_TRUE(is_armed);
     run_to_the_end();
 
     TEST_ASSERT_EQUAL_UINT64(MOTION_SECTIONS, pulses);
+}
+
+/* Without a plan the motor gets to the border; what was planned behind it is there when main looks. */
+void test_a_stop_that_is_planned_when_the_motor_waits_at_a_border_goes_on_behind_it(void)
+{
+    static const struct motion_order two = {
+        .section = {{1060, 16000, 60000}, {4000, 16000, 60000}},
+        .start_speed_steps_per_s = 100,
+        .sections = 2,
+    };
+    start(&two, 1050);
+    stop();
+    run_to_the_end();
+    uint64_t made = pulses;
+
+    setUp();
+    start(&two, 1050);
+    braking_ticks = TICK_HZ;
+    stop();
+    TEST_ASSERT_EQUAL_UINT64(1060, pulses);
+    TEST_ASSERT_FALSE(is_armed);
+    run_to_the_end();
+
+    TEST_ASSERT_GREATER_THAN_UINT64(1100, made);
+    TEST_ASSERT_EQUAL_UINT64(made, pulses);
 }
