@@ -169,8 +169,8 @@ void mover_change_speed(struct mover *mover, uint32_t speed_steps_per_s)
     hal_run_release_tick();
 }
 
-/* The step interrupt rests when the queue is empty. If the planner was late there is more: then the motor goes on, late,
- * and the backend counts it. */
+/* The step interrupt rests when the queue is empty. If the planner was late there is more: then the motor goes on,
+ * late, and the backend counts it. */
 void mover_poll(struct mover *mover)
 {
     if (!mover->moving) {

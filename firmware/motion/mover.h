@@ -54,8 +54,8 @@ void mover_change_speed(struct mover *mover, uint32_t speed_steps_per_s);
 /* Sees the end of a move; in main, whenever the step interrupt asks for it. */
 void mover_poll(struct mover *mover);
 
-/* Lays the next segment, if one is left and there is room; in main, after all motors have been polled, and in turns with
- * the other motors. False if there is nothing to do. */
+/* Lays the next segment, if one is left and there is room; in main, after all motors have been polled, and in turns
+ * with the other motors. False if there is nothing to do. */
 bool mover_feed(struct mover *mover);
 
 /* Whether a move is in progress: from mover_start until mover_poll has seen its last pulse. */

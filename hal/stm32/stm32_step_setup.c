@@ -36,8 +36,8 @@ static void write_directions(bool connected)
     }
 }
 
-/* A pulse that is being made, or is about to be, ends as it began: whole, or not at all. Its interrupt arms the next one
- * in the right mode. */
+/* A pulse that is being made, or is about to be, ends as it began: whole, or not at all. Its interrupt arms the next
+ * one in the right mode. */
 static void write_mode(unsigned motor)
 {
     uint32_t flag = flag_of(motor);

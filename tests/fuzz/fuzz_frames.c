@@ -3,7 +3,8 @@
  * all of that is.
  *
  * Input: the node (low 4 bits) | which byte is broken, 0: none | which byte comes behind a gap, 0: none | the bytes of
- * the line. Built with tiny limits, so that frames are too long often. The mutator mends the FCS of frames, as chance alone makes no good one.
+ * the line. Built with tiny limits, so that frames are too long often. The mutator mends the FCS of frames, as chance
+ * alone makes no good one.
  */
 #include <string.h>
 

@@ -38,7 +38,8 @@ static void check_set_command(const struct reply *reply)
         FUZZ_REQUIRE((flag == FLAG_NONE || flag == FLAG_OVERFLOW) && reply->bytes[3] == 0);
     } else {
         FUZZ_REQUIRE(flag == (summary.status == PROGRAM_BAD_VALUE ? FLAG_VALUE : FLAG_UNKNOWN));
-        FUZZ_REQUIRE(reply->bytes[3] == summary.character && memchr(reply->request + 2, summary.character, reply->length - 2U) != NULL);
+        FUZZ_REQUIRE(reply->bytes[3] == summary.character);
+        FUZZ_REQUIRE(memchr(reply->request + 2, summary.character, reply->length - 2U) != NULL);
     }
 }
 

@@ -6,7 +6,7 @@
  * Input: a head (low 2 bits: epoch; bit 7: the run is made once more at another epoch and must be the same but for the
  * shift) | operations, a byte each with its operands behind:
  *   low 3 bits 0, 1  a request to this unit: the message up to a 0; the frame and its FCS are made here
- *   2  a broadcast likewise       3  the last frame once more, with one bit flipped if there is an operand (5 high bits)
+ *   2  a broadcast likewise       3  the last frame once more, with one bit flipped if there is one (5 high bits)
  *   4  noise: bytes up to a 0     5  an input edge: high bits are input and level, at the next time
  *   6  time: one byte, squared, in units of 20 us        7  a flash fault, a power cut, or off and on
  */

@@ -10,7 +10,7 @@ from step_rig import DIER, LOW, MOTORS, WRAP
 START = 1000
 SLACK = 40  # a few looks at the counter
 
-AROUND_WRAP = [-300, -211, -210, -60, -44, -43, -42, -41, -3, -2, -1, 0, 1, 2, 41, 42, 43, 300]
+AROUND_WRAP = [-300, -211, -210, -43, -42, -41, -1, 0, 1, 2, 42, 300]
 
 
 # The counter's wrap

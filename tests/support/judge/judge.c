@@ -87,7 +87,8 @@ static bool motor_exists(struct judge *judge, unsigned motor, const char *what)
     if (motor >= 1 && motor <= JUDGE_MOTORS) {
         return true;
     }
-    judge_complain(judge, judge_key(JUDGE_RULE_NO_MOTOR, motor, 0), "%s of motor %u, which does not exist", what, motor);
+    judge_complain(judge, judge_key(JUDGE_RULE_NO_MOTOR, motor, 0), "%s of motor %u, which does not exist", what,
+                   motor);
     return false;
 }
 
@@ -129,7 +130,8 @@ static void judge_too_close(struct judge *judge, unsigned number, uint64_t tick)
     const struct judge_limits *limits = &judge->limits;
     if (motor->has_pulse && (tick - motor->last_tick + limits->slack_ticks) * limits->speed < limits->tick_hz) {
         judge_complain(judge, judge_key(JUDGE_RULE_TOO_CLOSE, number, 0),
-                       "motor %u: pulses faster than %" PRIu32 " steps/s at tick %" PRIu64, number, limits->speed, tick);
+                       "motor %u: pulses faster than %" PRIu32 " steps/s at tick %" PRIu64, number, limits->speed,
+                       tick);
     }
 }
 
@@ -140,8 +142,8 @@ static void judge_pins(struct judge *judge, unsigned number, uint64_t tick, bool
         return;
     }
     if (motor->has_dir_edge && tick - motor->dir_tick < judge->limits.dir_setup_ticks) {
-        judge_complain(judge, judge_key(JUDGE_RULE_DIR, number, 0), "motor %u: DIR moves before the pulse at tick %" PRIu64,
-                       number, tick);
+        judge_complain(judge, judge_key(JUDGE_RULE_DIR, number, 0),
+                       "motor %u: DIR moves before the pulse at tick %" PRIu64, number, tick);
     }
     if (motor->dir != 0 && motor->dir != (backward ? -1 : 1)) {
         judge_complain(judge, judge_key(JUDGE_RULE_DIR_LEVEL, number, 0),
@@ -226,8 +228,8 @@ void judge_direction(struct judge *judge, uint64_t tick, unsigned number, bool b
     }
     struct judge_motor *motor = &judge->motor[number];
     if (!motor->hidden && motor->has_pulse && tick - motor->last_tick < judge->limits.dir_hold_ticks) {
-        judge_complain(judge, judge_key(JUDGE_RULE_DIR, number, 0), "motor %u: DIR moves behind a pulse at tick %" PRIu64,
-                       number, tick);
+        judge_complain(judge, judge_key(JUDGE_RULE_DIR, number, 0),
+                       "motor %u: DIR moves behind a pulse at tick %" PRIu64, number, tick);
     }
     motor->dir = backward ? -1 : 1;
     motor->dir_tick = tick;
@@ -268,7 +270,8 @@ void judge_interpreter(struct judge *judge, unsigned number, const struct interp
         good = interpreter->calls[i] <= memory->written;
     }
     if (!good) {
-        judge_complain(judge, judge_key(JUDGE_RULE_BOUNDS, number, 0), "motor %u: its program has left its bounds", number);
+        judge_complain(judge, judge_key(JUDGE_RULE_BOUNDS, number, 0), "motor %u: its program has left its bounds",
+                       number);
     }
 }
 
@@ -291,7 +294,8 @@ void judge_exchange(struct judge *judge, uint32_t requests, uint32_t answers)
 void judge_flash(struct judge *judge, uint32_t rewrites)
 {
     if (rewrites != 0) {
-        judge_complain(judge, JUDGE_RULE_FLASH, "%" PRIu32 " words of the flash were written when not erased", rewrites);
+        judge_complain(judge, JUDGE_RULE_FLASH, "%" PRIu32 " words of the flash were written when not erased",
+                       rewrites);
     }
 }
 

@@ -143,7 +143,8 @@ void judge_exchange(struct judge *judge, uint32_t requests, uint32_t answers);
 /* Words of the flash that were written when not erased. */
 void judge_flash(struct judge *judge, uint32_t rewrites);
 
-/* The unit is being switched off and on: what was begun is over, and edges of DIR mean nothing. Before the pins fall. */
+/* The unit is being switched off and on: what was begun is over, and edges of DIR mean nothing. Before the pins
+ * fall. */
 void judge_restart(struct judge *judge);
 
 /* The run is over at a tick; UINT64_MAX: not known, what is overdue is not told. */

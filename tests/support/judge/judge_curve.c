@@ -217,7 +217,10 @@ void judge_curve_stop(struct judge_curve *curve, uint64_t pulse)
     begin_legs(curve);
     /* The pulse itself is on the new curve, too. */
     add_leg(curve, (struct judge_leg){
-                       .from = (long double)at - 1.0L, .to = (long double)at, .anchor_w = (long double)(w > 0 ? w : 1)});
+                       .from = (long double)at - 1.0L,
+                       .to = (long double)at,
+                       .anchor_w = (long double)(w > 0 ? w : 1),
+                   });
     curve->legs[0].start = tick - ticks_between(&curve->legs[0], curve->legs[0].from, curve->legs[0].to);
     curve->last = pulse;
     for (unsigned i = 0; i < all.count && w > slow; i++) {

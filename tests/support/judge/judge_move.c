@@ -14,8 +14,8 @@ static void complain_steps(struct judge *judge, unsigned number, enum judge_rule
 {
     const struct judge_motor *motor = &judge->motor[number];
     judge_complain(judge, judge_key(rule, number, motor->moves),
-                   "motor %u: the move at tick %" PRIu64 " of %" PRId64 " steps %s: %" PRId64, number, motor->start_tick,
-                   motor->steps, what, made);
+                   "motor %u: the move at tick %" PRIu64 " of %" PRId64 " steps %s: %" PRId64, number,
+                   motor->start_tick, motor->steps, what, made);
 }
 
 static uint64_t magnitude(int64_t value)

@@ -3,8 +3,8 @@
  *
  * bench_init begins at a random epoch, so that no test relies on where the counter stands; RKM04_SEED repeats a run.
  * All ticks count from the start of the machine, motors from 1 as in messages. The judge (judge.h) sees everything
- * that happens, each move with its order; bench_check, called in tearDown, tells what it complains of. A build whose program
- * memory is too small for the programs of these tests passes them over.
+ * that happens, each move with its order; bench_check, called in tearDown, tells what it complains of. A build
+ * whose program memory is too small for the programs of these tests passes them over.
  */
 #ifndef BENCH_H
 #define BENCH_H
