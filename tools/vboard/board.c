@@ -96,6 +96,7 @@ void board_reset(struct board *board, enum reset_cause cause)
     timers_reset(board);
     usarts_reset(board);
     plain_reset(board);
+    exti_reset(board);
     gpio_reset(board);
     rcc_reset(board, cause);
     art_reset(&board->cpu.art);

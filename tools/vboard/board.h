@@ -13,6 +13,7 @@
 #include "cpu.h"
 #include "events.h"
 #include "exception.h"
+#include "exti.h"
 #include "faults.h"
 #include "flash.h"
 #include "gpio.h"
@@ -73,6 +74,7 @@ struct board {
     struct plain plain;
     struct flash flash;
     struct iwdg iwdg;
+    struct exti exti;
     struct port port[GPIO_PORTS];
     struct timer timer[TIMERS];
     struct usart usart[USARTS];

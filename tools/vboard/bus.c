@@ -37,6 +37,7 @@ static const struct block blocks[] = {
     {0x40007000, "PWR", pwr_read, pwr_write, 0, false, RCC_APB1ENR, 28},
     {0x40011000, "USART1", usart_read, usart_write, 0, false, RCC_APB2ENR, 4},
     {0x40013800, "SYSCFG", syscfg_read, syscfg_write, 0, true, RCC_APB2ENR, 14},
+    {0x40013C00, "EXTI", exti_read, exti_write, 0, false, 0, 0},
     {0x40020000, "GPIOA", gpio_read, gpio_write, 0, true, RCC_AHB1ENR, 0},
     {0x40020400, "GPIOB", gpio_read, gpio_write, 1, true, RCC_AHB1ENR, 1},
     {0x40020800, "GPIOC", gpio_read, gpio_write, 2, true, RCC_AHB1ENR, 2},

@@ -51,6 +51,7 @@ static void update(struct board *board, unsigned number, uint64_t cycle)
     uint16_t before = port->level;
     port->level = find_levels(port);
     uint16_t changed = before ^ port->level;
+    exti_follow(board, number);
     for (unsigned i = 0; changed >> i != 0; i++) {
         if ((changed >> i & 1) != 0) {
             struct pin pin = {.port = (uint8_t)number, .number = (uint8_t)i};

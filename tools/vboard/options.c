@@ -36,6 +36,7 @@ const char options_usage[] =
     "  --apb-wait N          cycles by which an access to a slow bus takes longer (3)\n"
     "  --art                 model the accelerator of the flash\n"
     "  --match-equal         a compare value written while the timer stands on it matches\n"
+    "  --exti-mask-first     an edge on a masked line of EXTI leaves nothing pending\n"
     "  --pwm-at-once         a channel that comes from a forced level shows the comparison at once\n"
     "faults:\n"
     "  --crystal MHZ         frequency of the crystal (8); --no-crystal: there is none\n"
@@ -100,6 +101,7 @@ static const struct row rows[] = {
     FLAG("--no-crystal", no_crystal),
     FLAG("--slow-flash", slow_flash),
     FLAG("--match-equal", match_equal),
+    FLAG("--exti-mask-first", exti_mask_first),
     FLAG("--pwm-at-once", pwm_at_once),
     FLAG("--power-back", power_back),
     {"--for", KIND_NUMBER, offsetof(struct options, for_ps), SECONDS_DECIMALS, 1000, 1, UINT64_C(1000000000000000)},

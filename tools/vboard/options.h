@@ -77,6 +77,7 @@ struct options {
     bool no_crystal;
     bool slow_flash;
     bool match_equal;
+    bool exti_mask_first;
     bool pwm_at_once;
     bool ticks_from_timer;
 };

@@ -6,7 +6,10 @@ enum {
     PWR_CR = 0x00,
     PWR_CSR = 0x04,
     SYSCFG_MEMRMP = 0x00,
+    SYSCFG_PMC = 0x04,
+    SYSCFG_EXTICR1 = 0x08,
     SYSCFG_EXTICR4 = 0x14,
+    EXTICR_BITS = 16,
 };
 
 #define PWR_CR_RESET UINT32_C(0x4000) /* VOS: scale 1 */
@@ -48,8 +51,23 @@ bool pwr_write(struct board *board, unsigned instance, uint32_t offset, uint32_t
 bool syscfg_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
 {
     (void)instance;
-    *value = offset > SYSCFG_MEMRMP && offset <= SYSCFG_EXTICR4 ? board->plain.syscfg[offset / 4U - 1U] : 0U;
+    *value = 0;
+    if (offset == SYSCFG_PMC) {
+        *value = board->plain.syscfg_pmc;
+    } else if (offset >= SYSCFG_EXTICR1 && offset <= SYSCFG_EXTICR4) {
+        *value = board->plain.exticr[(offset - SYSCFG_EXTICR1) / 4U];
+    }
     return offset <= SYSCFG_EXTICR4;
+}
+
+/* Sections 9.2.3 to 9.2.6: four lines a register. */
+static void route_lines(struct board *board)
+{
+    uint64_t ports = 0;
+    for (unsigned i = 0; i < PLAIN_EXTICRS; i++) {
+        ports |= (uint64_t)board->plain.exticr[i] << EXTICR_BITS * i;
+    }
+    exti_route(board, ports);
 }
 
 /* Another memory at address 0 is not modelled. */
@@ -62,7 +80,12 @@ bool syscfg_write(struct board *board, unsigned instance, uint32_t offset, uint3
     if (offset > SYSCFG_EXTICR4) {
         return false;
     }
-    uint32_t *word = &board->plain.syscfg[offset / 4U - 1U];
-    *word = (*word & ~mask) | (value & mask);
+    if (offset == SYSCFG_PMC) {
+        board->plain.syscfg_pmc = (board->plain.syscfg_pmc & ~mask) | (value & mask);
+        return true;
+    }
+    uint16_t *ports = &board->plain.exticr[(offset - SYSCFG_EXTICR1) / 4U];
+    *ports = (uint16_t)((*ports & ~mask) | (value & mask));
+    route_lines(board);
     return true;
 }

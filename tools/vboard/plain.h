@@ -1,6 +1,6 @@
 /*
  * Blocks that are little more than registers here: power control (RM0090 chapter 5), with its voltage detector, and
- * system configuration (chapter 9).
+ * system configuration (chapter 9), of which exti.c has the part that puts pins on lines.
  */
 #ifndef PLAIN_H
 #define PLAIN_H
@@ -10,10 +10,13 @@
 
 struct board;
 
+enum { PLAIN_EXTICRS = 4 };
+
 struct plain {
     uint32_t pwr_cr;
     uint32_t supply_mv; /* a reset leaves it */
-    uint32_t syscfg[5];
+    uint32_t syscfg_pmc;
+    uint16_t exticr[PLAIN_EXTICRS];
 };
 
 /* The supply voltage at power-on. */

@@ -40,6 +40,15 @@
 #define GPIO_AFRL(port) REG((port) + 0x20)
 #define GPIO_AFRH(port) REG((port) + 0x24)
 
+#define SYSCFG_EXTICR(n) REG(0x40013808u + 4 * (n))
+#define EXTI 0x40013C00u
+#define EXTI_IMR REG(EXTI + 0x00)
+#define EXTI_EMR REG(EXTI + 0x04)
+#define EXTI_RTSR REG(EXTI + 0x08)
+#define EXTI_FTSR REG(EXTI + 0x0C)
+#define EXTI_SWIER REG(EXTI + 0x10)
+#define EXTI_PR REG(EXTI + 0x14)
+
 #define TIM2 0x40000000u
 #define TIM3 0x40000400u
 #define TIM_CR1(tim) REG((tim) + 0x00)
@@ -90,7 +99,16 @@
 #define DWT_CTRL REG(0xE0001000)
 #define DWT_CYCCNT REG(0xE0001004)
 
-enum { IRQ_EXTI0 = 6, IRQ_EXTI1 = 7, IRQ_EXTI2 = 8, IRQ_TIM2 = 28, IRQ_USART1 = 37, IRQ_USART2 = 38 };
+enum {
+    IRQ_EXTI0 = 6,
+    IRQ_EXTI1 = 7,
+    IRQ_EXTI2 = 8,
+    IRQ_EXTI9_5 = 23,
+    IRQ_TIM2 = 28,
+    IRQ_USART1 = 37,
+    IRQ_USART2 = 38,
+    IRQ_EXTI15_10 = 40,
+};
 
 /* What a test looks at. */
 extern volatile uint32_t result[32];

@@ -34,6 +34,10 @@ WEAK(systick_handler);
 WEAK(exti0_handler);
 WEAK(exti1_handler);
 WEAK(exti2_handler);
+WEAK(exti3_handler);
+WEAK(exti4_handler);
+WEAK(exti9_5_handler);
+WEAK(exti15_10_handler);
 WEAK(tim2_handler);
 WEAK(usart1_handler);
 WEAK(usart2_handler);
@@ -57,12 +61,18 @@ __attribute__((section(".vectors"), used)) handler *const vectors[16 + 82] = {
     [22] = exti0_handler,
     [23] = exti1_handler,
     [24] = exti2_handler,
-    [25 ... 43] = unexpected,
+    exti3_handler,
+    exti4_handler,
+    [27 ... 38] = unexpected,
+    [39] = exti9_5_handler,
+    [40 ... 43] = unexpected,
     [44] = tim2_handler,
     [45 ... 52] = unexpected,
     [53] = usart1_handler,
     [54] = usart2_handler,
-    [55 ... 97] = unexpected,
+    [55] = unexpected,
+    [56] = exti15_10_handler,
+    [57 ... 97] = unexpected,
 };
 
 void start_counting_cycles(void)
