@@ -4,8 +4,9 @@
  *   priority 0  TIM2     stm32_step.c   masked only with all interrupts (PRIMASK), for less than 2 us
  *   priority 1  USART    stm32_line.c
  *   priority 2  SysTick  stm32_tick.c   held off by main through BASEPRI
+ *               EXTI     stm32_tick.c   likewise
  *
- * All three, what they call and what they read lie in RAM (stm32f405.ld): the flash does not answer while it is being
+ * All of them, what they call and what they read lie in RAM (stm32f405.ld): the flash does not answer while it is being
  * written or erased. So do the fault handlers.
  */
 #ifndef STM32_PRIVATE_H
@@ -69,9 +70,17 @@ void stm32_step_interrupt(void);
 /* stm32_tick.c. An event is what main has to look at; it ends a sleep. */
 void stm32_tick_start(const struct hal_client *client, uint32_t core_hz, bool crystal);
 void stm32_tick_interrupt(void);
+void stm32_edge_interrupt(void);
 extern volatile bool stm32_event;
 bool stm32_event_take(void);
 void stm32_event_sleep(void);
+
+/* stm32_edge.c: edges at the inputs. The interrupt of an input, from 0; the start; all edges held off until they are let
+ * through again. In the tick's and the edges' interrupts only. */
+uint32_t stm32_edge_irq(unsigned input);
+void stm32_edge_start(void);
+void stm32_edge_hold(void);
+void stm32_edge_let_through(void);
 
 /* stm32_line.c */
 void stm32_line_start(const struct stm32_clock *clock);

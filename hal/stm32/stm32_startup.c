@@ -75,6 +75,9 @@ static void start_vectors(void)
         set_vector(number, stm32_fault_entry);
     }
     set_vector(EXCEPTION_SYSTICK, stm32_tick_interrupt);
+    for (unsigned input = 0; input < UNIT_INPUTS; input++) {
+        set_vector(EXCEPTIONS + stm32_edge_irq(input), stm32_edge_interrupt);
+    }
     set_vector(EXCEPTIONS + TIM2_IRQ, stm32_step_interrupt);
     set_vector(EXCEPTIONS + STM32_LINE_IRQ, stm32_line_interrupt);
     SCB_VTOR = (uint32_t)(uintptr_t)stm32_vectors;

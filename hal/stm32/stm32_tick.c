@@ -8,11 +8,14 @@
 #include "stm32_private.h"
 #include "stm32f4.h"
 
-/* The inputs are looked at 20 times a millisecond, so that one acts within 50 us and what planning takes; the client
- * is called when one has changed, and every millisecond. */
+/*
+ * The clock comes every millisecond. An edge at an input has an interrupt of its own, at the same priority, so that it
+ * acts at once. Behind it edges are held off for 50 us; then the clock looks at the inputs and lets edges through again.
+ * So a contact that bounces, or noise, has two short interrupts in 50 us at most, and nothing is seen later than that.
+ */
 enum {
-    LOOKS_HZ = 20000,
-    LOOKS_PER_MS = LOOKS_HZ / 1000,
+    PERIODS_HZ = 1000,
+    HOLDS_HZ = 20000,
     BLINK_MS = 100,
     PRIORITY_SHIFT = 4, /* four bits of priority, at the top of a byte; PM0214 4.3.7 */
 };
@@ -21,9 +24,13 @@ static struct {
     struct hal_client client;
     uint64_t time; /* the unit's time at the last millisecond */
     bool crystal;
+    bool edges_held;
+    bool whole; /* the clock has a whole period */
     uint8_t inputs;
-    uint8_t looks;
     uint32_t milliseconds;
+    uint32_t period; /* cycles */
+    uint32_t hold;
+    uint32_t rest;   /* cycles of the millisecond that are left when the clock comes next */
 } tick;
 
 volatile bool stm32_event;
@@ -52,28 +59,78 @@ static void every_millisecond(void)
     }
 }
 
-void stm32_tick_interrupt(void)
+static void look_at_inputs(bool must_call)
 {
     uint8_t inputs = hal_io_read_inputs();
-    bool millisecond = ++tick.looks == LOOKS_PER_MS;
-    if (millisecond) {
-        tick.looks = 0;
-        every_millisecond();
-    }
-    if (millisecond || inputs != tick.inputs) {
+    if (must_call || inputs != tick.inputs) {
         tick.inputs = inputs;
         stm32_event = true;
         tick.client.tick_isr(tick.client.context);
     }
 }
 
+/* The clock comes after so many cycles. */
+static void restart_clock(uint32_t cycles)
+{
+    STK_LOAD = cycles - 1U;
+    STK_VAL = 0;
+    SCB_ICSR = SCB_ICSR_PENDSTCLR;
+}
+
+/* Cycles until the millisecond is over; none if the clock has come and its interrupt waits. */
+static uint32_t find_rest(void)
+{
+    uint32_t cycles = STK_VAL + tick.rest;
+    return (SCB_ICSR & SCB_ICSR_PENDSTSET) != 0 ? 0 : cycles;
+}
+
+/* Ends the hold. What is left of the millisecond comes next, unless it is so short that it is over now. */
+static bool let_edges_through(void)
+{
+    bool millisecond = tick.rest < tick.hold;
+    restart_clock(millisecond ? tick.period : tick.rest);
+    tick.rest = 0;
+    tick.edges_held = false;
+    stm32_edge_let_through();
+    return millisecond;
+}
+
+void stm32_tick_interrupt(void)
+{
+    bool millisecond = true;
+    if (tick.edges_held) {
+        millisecond = let_edges_through();
+        tick.whole = millisecond;
+    } else if (!tick.whole) {
+        restart_clock(tick.period);
+        tick.whole = true;
+    }
+    if (millisecond) {
+        every_millisecond();
+    }
+    look_at_inputs(millisecond);
+}
+
+void stm32_edge_interrupt(void)
+{
+    uint32_t rest = find_rest();
+    stm32_edge_hold();
+    restart_clock(tick.hold);
+    tick.rest = rest > tick.hold ? rest - tick.hold : 0;
+    tick.edges_held = true;
+    look_at_inputs(false);
+}
+
 void stm32_tick_start(const struct hal_client *client, uint32_t core_hz, bool crystal)
 {
     tick.client = *client;
     tick.crystal = crystal;
+    tick.period = core_hz / PERIODS_HZ;
+    tick.hold = core_hz / HOLDS_HZ;
+    tick.whole = true;
     SCB_SHPR3 = (uint32_t)STM32_PRIORITY_TICK << (24U + PRIORITY_SHIFT);
-    STK_LOAD = core_hz / LOOKS_HZ - 1U;
-    STK_VAL = 0;
+    stm32_edge_start();
+    restart_clock(tick.period);
     STK_CTRL = STK_CTRL_CLKSOURCE | STK_CTRL_TICKINT | STK_CTRL_ENABLE;
 }
 

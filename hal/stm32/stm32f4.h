@@ -40,6 +40,7 @@
 #define RCC_APB1ENR_USART3EN (1U << 18)
 #define RCC_APB1ENR_PWREN (1U << 28)
 #define RCC_APB2ENR_USART1EN (1U << 4)
+#define RCC_APB2ENR_SYSCFGEN (1U << 14)
 #define RCC_CSR_RMVF (1U << 24)
 #define RCC_CSR_BORRSTF (1U << 25)
 #define RCC_CSR_PORRSTF (1U << 27)
@@ -98,6 +99,15 @@
 #define GPIO_BSRR(port) GPIO_REGISTER(port, 0x18U)    /* 8.4.7 */
 #define GPIO_AFRL(port) GPIO_REGISTER(port, 0x20U)    /* 8.4.9 */
 #define GPIO_AFRH(port) GPIO_REGISTER(port, 0x24U)    /* 8.4.10 */
+
+/* Which port has the pin on a line, and the edges of the lines */
+#define SYSCFG_BASE 0x40013800U
+#define SYSCFG_EXTICR(n) STM32_REGISTER(SYSCFG_BASE + 0x08U + 4U * (n)) /* 9.2.3 to 9.2.6 */
+#define EXTI_BASE 0x40013C00U
+#define EXTI_IMR STM32_REGISTER(EXTI_BASE + 0x00U)  /* 12.3.1 */
+#define EXTI_RTSR STM32_REGISTER(EXTI_BASE + 0x08U) /* 12.3.3 */
+#define EXTI_FTSR STM32_REGISTER(EXTI_BASE + 0x0CU) /* 12.3.4 */
+#define EXTI_PR STM32_REGISTER(EXTI_BASE + 0x14U)   /* 12.3.6 */
 
 /* The step timer */
 #define TIM2_BASE 0x40000000U
@@ -162,12 +172,17 @@
 #define IWDG_SR_RVU (1U << 1)
 
 /* Interrupts: numbers, RM0090 12.1.3; controller, PM0214 4.3 */
+#define EXTI0_IRQ 6U
+#define EXTI4_IRQ 10U
+#define EXTI9_5_IRQ 23U
 #define TIM2_IRQ 28U
 #define USART1_IRQ 37U
 #define USART2_IRQ 38U
 #define USART3_IRQ 39U
+#define EXTI15_10_IRQ 40U
 #define NVIC_BASE 0xE000E000U
 #define NVIC_ISER(n) STM32_REGISTER(NVIC_BASE + 0x100U + 4U * (n)) /* 4.3.2 */
+#define NVIC_ICPR(n) STM32_REGISTER(NVIC_BASE + 0x280U + 4U * (n)) /* 4.3.5 */
 #define NVIC_IPR(n) STM32_REGISTER(NVIC_BASE + 0x400U + 4U * (n))  /* 4.3.7 */
 
 /* SysTick, PM0214 4.5 */
@@ -179,12 +194,15 @@
 #define STK_CTRL_CLKSOURCE (1U << 2)
 
 /* System control block, PM0214 4.4 */
+#define SCB_ICSR STM32_REGISTER(0xE000ED04U)
 #define SCB_VTOR STM32_REGISTER(0xE000ED08U)
 #define SCB_AIRCR STM32_REGISTER(0xE000ED0CU)
 #define SCB_SHPR3 STM32_REGISTER(0xE000ED20U)
 #define SCB_CFSR STM32_REGISTER(0xE000ED28U)
 #define SCB_HFSR STM32_REGISTER(0xE000ED2CU)
 #define SCB_BFAR STM32_REGISTER(0xE000ED38U)
+#define SCB_ICSR_PENDSTCLR (1U << 25)
+#define SCB_ICSR_PENDSTSET (1U << 26)
 #define SCB_AIRCR_RESET 0x05FA0004U
 
 #endif

@@ -43,6 +43,7 @@ def test_the_table_of_a_board_has_the_pins_of_its_header(name: str) -> None:
         ("X(STEP_1, A, 0, TIM2_CH1)", "X(STEP_1, A, 15, TIM2_CH1)", "STEP_1: PA15 is pulled up"),
         ("X(BI_1, C, 0, IN_UP)", "X(BI_1, C, 0, OUT)", "BI_1 cannot be OUT"),
         ("X(BI_1, C, 0, IN_UP)", "", "BI_1 has no pin"),
+        ("X(BI_1, C, 0, IN_UP)", "X(BI_1, B, 3, IN_UP)", "BI_1 and BI_4 share line 3 for edges"),
         ("X(BI_1, C, 0, IN_UP)", "X(BI_9, C, 0, IN_UP)", "BI_9 is not a signal"),
         ('"LQFP64"', '"LQFP65"', "BOARD_PACKAGE must be one of"),
     ],

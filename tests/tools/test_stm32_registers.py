@@ -1,7 +1,7 @@
 """Our register header says what the vendor's description of the family says.
 
 pyOCD's package carries the description of the STM32F429, whose timer, USART, GPIO, RCC, flash,
-watchdog and interrupt controller are those of the STM32F405 (both are in RM0090).
+watchdog, SYSCFG, EXTI and interrupt controller are those of the STM32F405 (both are in RM0090).
 """
 
 from __future__ import annotations
@@ -34,7 +34,9 @@ REGISTERS = {
     ("TIM2", "CCMR1"): "CCMR1_Output",
     ("TIM2", "CCMR2"): "CCMR2_Output",
     ("NVIC", "ISER"): "ISER0",
+    ("NVIC", "ICPR"): "ICPR0",
     ("NVIC", "IPR"): "IPR0",
+    ("SYSCFG", "EXTICR"): "EXTICR1",
 }
 FIELDS = {
     "IWDGRSTF": "WDGRSTF",

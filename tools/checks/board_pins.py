@@ -94,6 +94,16 @@ def use_errors(pin: Pin, line: str) -> Iterator[str]:
         yield f"{pin.signal} cannot be {pin.use}"
 
 
+def edge_errors(pins: list[Pin]) -> Iterator[str]:
+    """Pins with the same number on different ports share a line for edges (RM0090 section 12.2.5)."""
+    owners: dict[str, Pin] = {}
+    for pin in pins:
+        if pin.signal.startswith("BI_"):
+            owner = owners.setdefault(pin.pin[1:], pin)
+            if owner.pin != pin.pin:
+                yield f"{owner.signal} and {pin.signal} share line {pin.pin[1:]} for edges"
+
+
 def find_errors(text: str) -> Iterator[str]:
     board = read_board(text)
     package = board.values.get("BOARD_PACKAGE", "")
@@ -112,6 +122,7 @@ def find_errors(text: str) -> Iterator[str]:
         if occupant := board.taken.get(pin.pin) or DEBUG.get(pin.pin):
             yield f"{pin.signal}: P{pin.pin} belongs to {occupant}"
         yield from use_errors(pin, f"USART{board.values.get('BOARD_USART')}")
+    yield from edge_errors(board.pins)
 
 
 def main(arguments: list[str]) -> int:

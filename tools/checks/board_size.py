@@ -18,6 +18,8 @@ BUDGETS = Path(__file__).resolve().parents[2] / "hal/stm32/budgets.json"
 # Calls through a pointer, which the compiler does not see: who calls, and what.
 POINTER_CALLS = {
     "stm32_tick_interrupt": {"unit_tick_isr"},
+    "stm32_edge_interrupt": {"unit_tick_isr"},
+    "look_at_inputs": {"unit_tick_isr"},
 }
 # Folders of the build whose objects are not of the image.
 OTHERS = {"CompilerIdC", "rkm04_bench.dir"}
@@ -35,8 +37,14 @@ LIBRARY_FRAMES = {
     "__assert_func": 0,
 }
 
-# Main, then the interrupts from the lowest priority to the highest.
-ROOTS = ("main", "stm32_tick_interrupt", "stm32_line_interrupt", "stm32_step_interrupt")
+# Main, then the interrupts from the lowest priority to the highest; those of one priority come one
+# behind the other.
+LEVELS = (
+    ("main",),
+    ("stm32_tick_interrupt", "stm32_edge_interrupt"),
+    ("stm32_line_interrupt",),
+    ("stm32_step_interrupt",),
+)
 RESET_FRAME = 32  # of the code that calls main
 # Eight words and one to align them (PM0214 2.3.7); a fault pushes one more before its stack is new.
 EXCEPTION_FRAME = 36
@@ -89,7 +97,9 @@ def deepest(function: str, graph: Stage, path: tuple[str, ...] = ()) -> int:
 
 def stack_parts(graph: Stage) -> dict[str, int]:
     """What each priority needs, frames included."""
-    parts = {root: deepest(root, graph) + EXCEPTION_FRAME for root in ROOTS}
+    parts = {
+        level[0]: max(deepest(root, graph) for root in level) + EXCEPTION_FRAME for level in LEVELS
+    }
     parts["main"] += RESET_FRAME
     return parts
 
