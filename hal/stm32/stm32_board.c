@@ -52,6 +52,7 @@ void hal_run_start(const struct hal_client *client)
     stm32_step_set_client(client);
     enable_interrupt(TIM2_IRQ, STM32_PRIORITY_STEP);
     stm32_tick_start(client, stm32_board_clock.core_hz, stm32_board_clock.crystal);
+    stm32_edge_start();
     for (unsigned input = 0; input < UNIT_INPUTS; input++) {
         enable_interrupt(stm32_edge_irq(input), STM32_PRIORITY_TICK);
     }

@@ -129,7 +129,6 @@ void stm32_tick_start(const struct hal_client *client, uint32_t core_hz, bool cr
     tick.hold = core_hz / HOLDS_HZ;
     tick.whole = true;
     SCB_SHPR3 = (uint32_t)STM32_PRIORITY_TICK << (24U + PRIORITY_SHIFT);
-    stm32_edge_start();
     restart_clock(tick.period);
     STK_CTRL = STK_CTRL_CLKSOURCE | STK_CTRL_TICKINT | STK_CTRL_ENABLE;
 }
