@@ -64,6 +64,18 @@ static const char *exception_name(unsigned exception)
         return "FLASH";
     case NVIC_IRQ0 + NVIC_IRQ_RCC:
         return "RCC";
+    case NVIC_IRQ0 + NVIC_IRQ_EXTI0:
+        return "EXTI0";
+    case NVIC_IRQ0 + NVIC_IRQ_EXTI1:
+        return "EXTI1";
+    case NVIC_IRQ0 + NVIC_IRQ_EXTI2:
+        return "EXTI2";
+    case NVIC_IRQ0 + NVIC_IRQ_EXTI3:
+        return "EXTI3";
+    case NVIC_IRQ0 + NVIC_IRQ_EXTI4:
+        return "EXTI4";
+    case NVIC_IRQ0 + NVIC_IRQ_EXTI9_5:
+        return "EXTI9_5";
     case NVIC_IRQ0 + NVIC_IRQ_TIM2:
         return "TIM2";
     case NVIC_IRQ0 + NVIC_IRQ_TIM3:
@@ -78,6 +90,8 @@ static const char *exception_name(unsigned exception)
         return "USART2";
     case NVIC_IRQ0 + NVIC_IRQ_USART3:
         return "USART3";
+    case NVIC_IRQ0 + NVIC_IRQ_EXTI15_10:
+        return "EXTI15_10";
     default:
         return "";
     }
