@@ -20,12 +20,27 @@ static bool unit_step_isr(void *context, unsigned motor)
     return mover_pulse_isr(&unit->mover[motor]);
 }
 
-static void unit_sense(struct unit *unit)
+static void unit_brake(struct unit *unit)
 {
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         (void)mover_sense_isr(&unit->mover[motor], io_inputs(&unit->io));
     }
+}
+
+/* Planning a stop takes long: an input that changes meanwhile acts before the next one is planned. What it has stopped
+ * may have had its turn, so they all come again. */
+static void unit_sense(struct unit *unit)
+{
+    bool again = false;
+    unit_brake(unit);
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        mover_plan_stop_isr(&unit->mover[motor]);
+        if (io_sample_isr(&unit->io)) {
+            unit_brake(unit);
+            again = true;
+        }
+    }
+    for (unsigned motor = 0; again && motor < UNIT_MOTORS; motor++) {
         mover_plan_stop_isr(&unit->mover[motor]);
     }
 }

@@ -19,7 +19,7 @@ struct hal_client {
     /* What step_isr works on, for a backend that counts cycles: it calls step_channel_next_isr itself, inline. */
     struct step_channel *channel[UNIT_MOTORS];
 
-    /* Tick interrupt, 1 kHz or faster, or whenever an input changes: senses the inputs for guards and stops. */
+    /* Tick interrupt, every millisecond and whenever an input changes: senses the inputs for guards and stops. */
     void (*tick_isr)(void *context);
 };
 

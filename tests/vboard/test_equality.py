@@ -1,7 +1,7 @@
 """The image of the reference board makes the pulses that the simulator makes, tick for tick.
 
 Ticks are compared from the first pulse of a run. Where a program waits for an input, or a guard
-acts, the board may see the edge up to a tick of its clock (50 us) earlier or later; what is
+acts, the board may see the edge a little later, up to 50 us if it comes behind another; what is
 compared then is told by each test.
 """
 
@@ -34,7 +34,7 @@ SEED = 20261121
 RANDOM_PROGRAMS = 10
 SECONDS_MAX = 4.0
 SAMPLE_MS = 0.05
-"""How often the unit looks at its inputs."""
+"""How long the unit may hold an edge off."""
 
 
 def both(

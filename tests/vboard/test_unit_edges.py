@@ -109,3 +109,16 @@ def test_milliseconds_pass_while_edges_hold_the_clock_up(unit, pulse_ms):
 
     assert interrupts(modelled) > WATCHDOG_MS / HOLD_MS / 2
     assert modelled.summary["resets"]["watchdog"] == 0
+
+
+def test_an_edge_does_not_wait_until_all_stops_of_another_are_planned(unit, pulse_ms):
+    """Motors 1 to 3 stop at one input, and motor 4 at another a little later."""
+    line = programs(dict.fromkeys((1, 2, 3), PROGRAM) | {4: PROGRAM.replace(b"M03", b"M05")})
+    at = line.released_ms + CRUISE_MS
+    inputs = f"{at:.6f},{GUARD},1\n{at + 0.02:.6f},{OTHER},1\n"
+    edge = round((at + 0.02) * TICKS_PER_MS)
+
+    steps = unit.run(line.lines, at / 1000 + 0.01, inputs).steps
+
+    taken, _ = braking(steps.tick[steps.motor == 4], edge, INTERVAL)
+    assert taken <= 1000 * HOLD_MS + INTERVAL * 1000 / TICKS_PER_MS

@@ -35,6 +35,7 @@ MEASURES: Mapping[str, Callable[[Rig], Figures]] = {
     "cycles": target_figures.step_cycles,
     "rates": target_figures.rates,
     "language": target_figures.load_language,
+    "storm": target_figures.load_storm,
     "fast": target_figures.load_fast,
     "start": target_figures.start_up,
 }
@@ -71,6 +72,9 @@ FIGURES = [
     Goal("late_16000", "... late steps", "steps", 0),
     Goal("latency_16000", "... a step interrupt waited for at most", "cycles"),
     Goal("line_busy", "... the line was busy for", "%"),
+    Goal("load_storm", "load at 4 x 16 000 steps/s, inputs that change 100 000 times a second",
+         "%"),
+    Goal("late_storm", "... late steps", "steps", 0),
     Goal("load_200000_together", "load at 4 x 200 000 steps/s, ramps and line, due together", "%"),
     Goal("late_200000_together", "... late steps", "steps", 0),
     Goal("load_200000_apart", "... in every order", "%"),

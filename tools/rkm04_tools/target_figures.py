@@ -42,6 +42,12 @@ BUSY_SECONDS = 2.0
 BUSY_CRUISE_MS = (280.0, 950.0)
 """Of the first move, from the release on."""
 
+STORM = b"S500 V16000 A60000 M08 F16000 R"
+"""Input 8 would stop it; it stays quiet."""
+STORM_INPUTS, STORM_KHZ = 7, 100
+STORM_MS = (280.0, 880.0)
+"""The cruise, from the release on."""
+
 STARTED = b"S2000 V16000 A60000 F1000 R "
 FILLER = b"V16000 " * 690
 """With it the program is nearly as long as it may be, 700 commands."""
@@ -145,6 +151,20 @@ def load_language(rig: Rig) -> Figures:
         "line_busy": 100 * busy_ms / (end - begin),
         "stack_used": max(whole.stack_used, cruise.stack_used),
     }
+
+
+def load_storm(rig: Rig) -> Figures:
+    """Four motors at 16 000 steps/s in the cruise while inputs change 100 000 times a second."""
+    line = programs(dict.fromkeys(MOTORS, STORM))
+    first, last = (line.released_ms + ms for ms in STORM_MS)
+    level = [0] * (STORM_INPUTS + 1)
+    inputs = ""
+    for i in range(round((last - first) * STORM_KHZ)):
+        number = i % STORM_INPUTS + 1
+        level[number] ^= 1
+        inputs += f"{first + i / STORM_KHZ:.6f},{number},{level[number]}\n"
+    ran = rig.run(last / 1000, line.lines, inputs, "--measure-from", f"{first:.3f}")
+    return {"load_storm": ran.load, "late_storm": ran.late, "stack_used": ran.stack_used}
 
 
 def load_fast(rig: Rig) -> Figures:

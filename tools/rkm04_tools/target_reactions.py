@@ -3,7 +3,7 @@
 A stop takes effect at a pulse: up to it all pulses come as if nothing had been, behind it the ramp
 down begins. So two times belong to each edge: until the pulse at which the ramp begins (0 if that
 was before the edge), and until the first pulse that comes at another time. The edges come at random
-phases to the pulses and to the clock by which the unit looks at its inputs.
+phases to the pulses.
 """
 
 from __future__ import annotations
