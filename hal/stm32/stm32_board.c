@@ -83,7 +83,7 @@ void hal_board_idle(uint64_t wake_tick)
 {
     stm32_watchdog_main_lives();
     (void)hal_line_is_idle();
-    while (!stm32_event_take() && hal_time_now() < wake_tick) {
-        stm32_event_sleep();
+    while (stm32_event_sleep(wake_tick)) {
     }
+    (void)stm32_event_take();
 }

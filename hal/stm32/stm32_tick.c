@@ -9,13 +9,14 @@
 #include "stm32f4.h"
 
 /*
- * The clock comes every millisecond. An edge at an input has an interrupt of its own, at the same priority, so that it
+ * The clock comes every millisecond, and when main wants to be woken. An edge at an input has an interrupt of its own, at the same priority, so that it
  * acts at once. Behind it edges are held off for 50 us; then the clock looks at the inputs and lets edges through again.
  * So a contact that bounces, or noise, has two short interrupts in 50 us at most, and nothing is seen later than that.
  */
 enum {
     PERIODS_HZ = 1000,
     HOLDS_HZ = 20000,
+    ALARM_CYCLES_MIN = 100,
     BLINK_MS = 100,
     PRIORITY_SHIFT = 4, /* four bits of priority, at the top of a byte; PM0214 4.3.7 */
 };
@@ -25,11 +26,12 @@ static struct {
     uint64_t time; /* the unit's time at the last millisecond */
     bool crystal;
     bool edges_held;
-    bool whole; /* the clock has a whole period */
+    bool shortened; /* the clock comes before its millisecond is over, or did before that */
     uint8_t inputs;
     uint32_t milliseconds;
     uint32_t period; /* cycles */
     uint32_t hold;
+    uint32_t tick_cycles; /* of a tick */
     uint32_t rest;   /* cycles of the millisecond that are left when the clock comes next */
 } tick;
 
@@ -77,6 +79,14 @@ static void restart_clock(uint32_t cycles)
     SCB_ICSR = SCB_ICSR_PENDSTCLR;
 }
 
+/* The clock comes earlier than it would, and the millisecond goes on behind that. */
+static void shorten_clock(uint32_t until_millisecond, uint32_t cycles)
+{
+    tick.rest = until_millisecond > cycles ? until_millisecond - cycles : 0;
+    tick.shortened = true;
+    restart_clock(cycles);
+}
+
 /* Cycles until the millisecond is over; none if the clock has come and its interrupt waits. */
 static uint32_t find_rest(void)
 {
@@ -84,26 +94,23 @@ static uint32_t find_rest(void)
     return (SCB_ICSR & SCB_ICSR_PENDSTSET) != 0 ? 0 : cycles;
 }
 
-/* Ends the hold. What is left of the millisecond comes next, unless it is so short that it is over now. */
-static bool let_edges_through(void)
+/* Goes on behind a clock that was shortened. What is left of the millisecond comes next, unless it is so short that it
+ * is over now. */
+static bool lengthen_clock(void)
 {
     bool millisecond = tick.rest < tick.hold;
     restart_clock(millisecond ? tick.period : tick.rest);
     tick.rest = 0;
-    tick.edges_held = false;
-    stm32_edge_let_through();
+    tick.shortened = !millisecond;
     return millisecond;
 }
 
 void stm32_tick_interrupt(void)
 {
-    bool millisecond = true;
+    bool millisecond = !tick.shortened || lengthen_clock();
     if (tick.edges_held) {
-        millisecond = let_edges_through();
-        tick.whole = millisecond;
-    } else if (!tick.whole) {
-        restart_clock(tick.period);
-        tick.whole = true;
+        tick.edges_held = false;
+        stm32_edge_let_through();
     }
     if (millisecond) {
         every_millisecond();
@@ -115,8 +122,7 @@ void stm32_edge_interrupt(void)
 {
     uint32_t rest = find_rest();
     stm32_edge_hold();
-    restart_clock(tick.hold);
-    tick.rest = rest > tick.hold ? rest - tick.hold : 0;
+    shorten_clock(rest, tick.hold);
     tick.edges_held = true;
     look_at_inputs(false);
 }
@@ -127,7 +133,7 @@ void stm32_tick_start(const struct hal_client *client, uint32_t core_hz, bool cr
     tick.crystal = crystal;
     tick.period = core_hz / PERIODS_HZ;
     tick.hold = core_hz / HOLDS_HZ;
-    tick.whole = true;
+    tick.tick_cycles = core_hz > TICK_HZ ? core_hz / TICK_HZ : 1U;
     SCB_SHPR3 = (uint32_t)STM32_PRIORITY_TICK << (24U + PRIORITY_SHIFT);
     restart_clock(tick.period);
     STK_CTRL = STK_CTRL_CLKSOURCE | STK_CTRL_TICKINT | STK_CTRL_ENABLE;
@@ -153,12 +159,30 @@ bool stm32_event_take(void)
     return event;
 }
 
+/* The clock comes at that time, if it would not before; a hold ends soon enough. */
+static void set_alarm(uint64_t ticks)
+{
+    uint32_t rest = find_rest();
+    if (tick.edges_held || ticks >= rest / tick.tick_cycles) {
+        return;
+    }
+    uint32_t cycles = (uint32_t)ticks * tick.tick_cycles;
+    cycles = cycles < ALARM_CYCLES_MIN ? (uint32_t)ALARM_CYCLES_MIN : cycles;
+    if (cycles < STK_VAL) {
+        shorten_clock(rest, cycles);
+    }
+}
+
 /* An interrupt that comes between the look and the sleep ends the sleep, as it stays pending. */
-void stm32_event_sleep(void)
+bool stm32_event_sleep(uint64_t wake_tick)
 {
     uint32_t mask = stm32_mask();
-    if (!stm32_event) {
+    uint64_t now = extend_time();
+    bool sleeps = !stm32_event && now < wake_tick;
+    if (sleeps) {
+        set_alarm(wake_tick - now);
         __asm__ volatile("dsb\n\twfi" ::: "memory");
     }
     stm32_unmask(mask);
+    return sleeps;
 }

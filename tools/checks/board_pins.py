@@ -95,7 +95,7 @@ def use_errors(pin: Pin, line: str) -> Iterator[str]:
 
 
 def edge_errors(pins: list[Pin]) -> Iterator[str]:
-    """Pins with the same number on different ports share a line for edges (RM0090 section 12.2.5)."""
+    """Pins with the same number on different ports share a line (RM0090 section 12.2.5)."""
     owners: dict[str, Pin] = {}
     for pin in pins:
         if pin.signal.startswith("BI_"):
