@@ -1,5 +1,6 @@
 #include "hal_board.h"
 
+#include "base_tick.h"
 #include "hal_line.h"
 #include "hal_run.h"
 #include "hal_time.h"
@@ -83,7 +84,14 @@ void hal_board_idle(uint64_t wake_tick)
 {
     stm32_watchdog_main_lives();
     (void)hal_line_is_idle();
-    while (stm32_event_sleep(wake_tick)) {
+    while (!stm32_event_take()) {
+        uint64_t now = hal_time_now();
+        if (now >= wake_tick) {
+            break;
+        }
+        if (wake_tick - now < TICKS_PER_MS) {
+            stm32_event_alarm((uint32_t)(wake_tick - now));
+        }
+        stm32_event_sleep();
     }
-    (void)stm32_event_take();
 }

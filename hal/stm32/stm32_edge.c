@@ -3,7 +3,7 @@
 #include "stm32_private.h"
 #include "stm32f4.h"
 
-/* The line of a pin has the pin's number, whatever its port: tools/checks/board_pins.py refuses inputs that share one. */
+/* The line of a pin has its number, whatever the port: tools/checks/board_pins.py refuses inputs that share one. */
 enum { INPUT_PORT = STM32_PIN_BI_1 / 16, INPUT_FIRST = STM32_PIN_BI_1 % 16 };
 
 #define INPUT_LINES (((UINT32_C(1) << UNIT_INPUTS) - 1U) << INPUT_FIRST)

@@ -73,8 +73,9 @@ void stm32_tick_interrupt(void);
 void stm32_edge_interrupt(void);
 extern volatile bool stm32_event;
 bool stm32_event_take(void);
-/* Sleeps until any interrupt, or until then. False: there is an event, or that time has come. */
-bool stm32_event_sleep(uint64_t wake_tick);
+void stm32_event_sleep(void);
+/* An event comes in so many ticks, up to a millisecond. */
+void stm32_event_alarm(uint32_t ticks);
 
 /* stm32_edge.c: edges at the inputs. The interrupt of an input, from 0; the start; all edges held off until they are let
  * through again. In the tick's and the edges' interrupts only. */

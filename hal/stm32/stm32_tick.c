@@ -9,9 +9,10 @@
 #include "stm32f4.h"
 
 /*
- * The clock comes every millisecond, and when main wants to be woken. An edge at an input has an interrupt of its own, at the same priority, so that it
- * acts at once. Behind it edges are held off for 50 us; then the clock looks at the inputs and lets edges through again.
- * So a contact that bounces, or noise, has two short interrupts in 50 us at most, and nothing is seen later than that.
+ * The clock comes every millisecond, and when main wants to be woken. An edge at an input has an interrupt of its own,
+ * at the same priority, so that it acts at once. Behind it edges are held off for 50 us; then the clock looks at the
+ * inputs and lets edges through again. So a contact that bounces, or noise, has two short interrupts in 50 us at most,
+ * and nothing is seen later than that.
  */
 enum {
     PERIODS_HZ = 1000,
@@ -107,7 +108,11 @@ static bool lengthen_clock(void)
 
 void stm32_tick_interrupt(void)
 {
-    bool millisecond = !tick.shortened || lengthen_clock();
+    bool millisecond = true;
+    if (tick.shortened) {
+        millisecond = lengthen_clock();
+        stm32_event = true;
+    }
     if (tick.edges_held) {
         tick.edges_held = false;
         stm32_edge_let_through();
@@ -159,30 +164,25 @@ bool stm32_event_take(void)
     return event;
 }
 
-/* The clock comes at that time, if it would not before; a hold ends soon enough. */
-static void set_alarm(uint64_t ticks)
+/* A hold ends soon enough. */
+void stm32_event_alarm(uint32_t ticks)
 {
+    hal_run_hold_tick();
     uint32_t rest = find_rest();
-    if (tick.edges_held || ticks >= rest / tick.tick_cycles) {
-        return;
-    }
-    uint32_t cycles = (uint32_t)ticks * tick.tick_cycles;
+    uint32_t cycles = ticks * tick.tick_cycles;
     cycles = cycles < ALARM_CYCLES_MIN ? (uint32_t)ALARM_CYCLES_MIN : cycles;
-    if (cycles < STK_VAL) {
+    if (!tick.edges_held && rest > tick.rest && cycles < rest - tick.rest) {
         shorten_clock(rest, cycles);
     }
+    hal_run_release_tick();
 }
 
 /* An interrupt that comes between the look and the sleep ends the sleep, as it stays pending. */
-bool stm32_event_sleep(uint64_t wake_tick)
+void stm32_event_sleep(void)
 {
     uint32_t mask = stm32_mask();
-    uint64_t now = extend_time();
-    bool sleeps = !stm32_event && now < wake_tick;
-    if (sleeps) {
-        set_alarm(wake_tick - now);
+    if (!stm32_event) {
         __asm__ volatile("dsb\n\twfi" ::: "memory");
     }
     stm32_unmask(mask);
-    return sleeps;
 }
