@@ -77,8 +77,8 @@ void stm32_event_sleep(void);
 /* An event comes in so many ticks, up to a millisecond. */
 void stm32_event_alarm(uint32_t ticks);
 
-/* stm32_edge.c: edges at the inputs. The interrupt of an input, from 0; the start; all edges held off until they are let
- * through again. In the tick's and the edges' interrupts only. */
+/* stm32_edge.c: edges at the inputs. The interrupt of an input, from 0; the start; all edges held off until they are
+ * let through again, in the interrupts of the tick and of edges only. */
 uint32_t stm32_edge_irq(unsigned input);
 void stm32_edge_start(void);
 void stm32_edge_hold(void);
