@@ -1,0 +1,165 @@
+/*
+ * Many runs of a whole unit in one process, each from power-on: what the model of the language is compared with.
+ *
+ * Comes in on standard input, line by line; numbers are decimal, ticks count from power-on, lines of a kind come in the
+ * order of their ticks:
+ *   epoch E             the unit's time at power-on
+ *   in T INPUT LEVEL    an input changes
+ *   send T HEX          a request, bytes in hexadecimal
+ *   run T               runs all of the above up to T, and answers
+ * Goes out, for each run:
+ *   pulses MOTOR T ...  of each motor that made any; a minus: backward
+ *   event T MOTOR NUMBER VALUE, answer T HEX   as they happen
+ *   end LATE POSITION POSITION POSITION POSITION
+ * Exit status 2: the input is no such thing, or too long.
+ */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "host_machine.h"
+#include "mover.h"
+#include "unit.h"
+
+enum { PULSES_MAX = 400000, INPUTS_MAX = 1000, LINE_BYTES_MAX = 2 * PROTOCOL_REQUEST_BYTES_MAX + 64 };
+
+struct probe {
+    struct host_machine machine;
+    struct unit unit;
+    int64_t pulse[UNIT_MOTORS][PULSES_MAX];
+    uint32_t pulse_count[UNIT_MOTORS];
+    struct host_input input[INPUTS_MAX];
+    uint32_t input_count;
+    bool running;
+};
+
+static _Noreturn void complain(const char *what)
+{
+    (void)fprintf(stderr, "program-probe: %s\n", what);
+    exit(2);
+}
+
+static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
+{
+    struct probe *probe = context;
+    if (probe->pulse_count[motor] == PULSES_MAX) {
+        complain("too many pulses");
+    }
+    probe->pulse[motor][probe->pulse_count[motor]++] = backward ? -(int64_t)tick : (int64_t)tick;
+}
+
+static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
+{
+    (void)context;
+    (void)printf("event %" PRIu64 " %u %u %" PRId64 "\n", tick, motor, (unsigned)event, value);
+}
+
+static uint64_t main_pass(void *context)
+{
+    struct probe *probe = context;
+    return unit_poll(&probe->unit);
+}
+
+static void begin(struct probe *probe, uint64_t epoch)
+{
+    host_machine_init(&probe->machine, epoch);
+    host_machine_select(&probe->machine);
+    probe->machine.listener = (struct host_listener){.context = probe, .step = on_step, .trace = on_trace};
+    memset(probe->pulse_count, 0, sizeof probe->pulse_count);
+    probe->input_count = 0;
+    probe->running = false;
+}
+
+/* The unit starts when all inputs are known. */
+static void run_until(struct probe *probe, uint64_t tick)
+{
+    if (!probe->running) {
+        host_machine_set_script(&probe->machine, probe->input, probe->input_count);
+        unit_init(&probe->unit);
+        unit_start(&probe->unit);
+        probe->running = true;
+    }
+    if (tick > probe->machine.now) {
+        host_machine_run(&probe->machine, tick, main_pass, NULL, probe);
+    }
+}
+
+static void add_input(struct probe *probe, const char *text)
+{
+    uint64_t tick;
+    unsigned input;
+    unsigned level;
+    if (probe->running || probe->input_count == INPUTS_MAX
+        || sscanf(text, "%" SCNu64 " %u %u", &tick, &input, &level) != 3) {
+        complain("no such input");
+    }
+    probe->input[probe->input_count++] =
+        (struct host_input){.tick = tick, .input = (uint8_t)input, .level = level != 0};
+}
+
+static void send_request(struct probe *probe, const char *text)
+{
+    static uint8_t request[PROTOCOL_REQUEST_BYTES_MAX];
+    static uint8_t answer[PROTOCOL_ANSWER_BYTES_MAX];
+    char *end;
+    uint64_t tick = strtoull(text, &end, 10);
+    uint32_t length = 0;
+    unsigned byte;
+    for (end++; sscanf(end, "%2x", &byte) == 1; end += 2) {
+        request[length++] = (uint8_t)byte;
+    }
+    run_until(probe, tick);
+    length = unit_message(&probe->unit, request, length, answer);
+    (void)printf("answer %" PRIu64 " ", tick);
+    for (uint32_t i = 0; i < length; i++) {
+        (void)printf("%02x", answer[i]);
+    }
+    (void)printf("\n");
+}
+
+static void report(const struct probe *probe)
+{
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        if (probe->pulse_count[motor] > 0) {
+            (void)printf("pulses %u", motor + 1U);
+            for (uint32_t i = 0; i < probe->pulse_count[motor]; i++) {
+                (void)printf(" %" PRId64, probe->pulse[motor][i]);
+            }
+            (void)printf("\n");
+        }
+    }
+    (void)printf("end %" PRIu64, probe->machine.late_steps);
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        (void)printf(" %" PRId64, mover_position_steps(&probe->unit.mover[motor]));
+    }
+    (void)printf("\n");
+    (void)fflush(stdout);
+}
+
+static void obey(struct probe *probe, const char *line)
+{
+    if (strncmp(line, "epoch ", 6) == 0) {
+        begin(probe, strtoull(line + 6, NULL, 10));
+    } else if (strncmp(line, "in ", 3) == 0) {
+        add_input(probe, line + 3);
+    } else if (strncmp(line, "send ", 5) == 0) {
+        send_request(probe, line + 5);
+    } else if (strncmp(line, "run ", 4) == 0) {
+        run_until(probe, strtoull(line + 4, NULL, 10));
+        report(probe);
+    } else {
+        complain("no such line");
+    }
+}
+
+int main(void)
+{
+    static struct probe probe;
+    static char line[LINE_BYTES_MAX];
+    while (fgets(line, (int)sizeof line, stdin) != NULL) {
+        line[strcspn(line, "\n")] = '\0';
+        obey(&probe, line);
+    }
+    return 0;
+}
