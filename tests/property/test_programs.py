@@ -1,0 +1,52 @@
+"""Random programs, and random messages at random times, against the model of the language.
+
+`RKM04_PROGRAMS=10000` compares that many scripts instead of a few hundred; RKM04_SEED=... repeats
+a run.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Iterator
+
+import pytest
+from hypothesis import HealthCheck, given, seed, settings
+from language_model import compare
+from language_signals import Unsure
+from program_probe import Probe, Script
+from program_strategies import scripts
+
+PROGRAMS = int(os.environ.get("RKM04_PROGRAMS", "400"))
+SEED = int(os.environ.get("RKM04_SEED", "2009"))
+UNSURE_SHARE_MAX = 0.35
+
+
+@pytest.fixture(scope="module")
+def probe() -> Iterator[Probe]:
+    with Probe() as running:
+        yield running
+
+
+def test_any_program_does_what_the_language_says(probe: Probe) -> None:
+    count: Counter[str] = Counter()
+
+    @seed(SEED)
+    @settings(
+        max_examples=PROGRAMS, deadline=None, suppress_health_check=list(HealthCheck), database=None
+    )
+    @given(scripts())
+    def check(script: Script) -> None:
+        record = probe.run(script)
+        try:
+            compare(script, record)
+        except Unsure:
+            count["unsure"] += 1
+            return
+        count["compared"] += 1
+        count["pulses"] += sum(map(len, record.pulses.values()))
+        count["events"] += len(record.events)
+
+    check()
+    print(f"programs compared with the model: {dict(count)}, RKM04_SEED={SEED}")
+    assert count["unsure"] < UNSURE_SHARE_MAX * PROGRAMS

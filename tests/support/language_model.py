@@ -1,0 +1,107 @@
+"""The model of a whole unit: compares a run of the firmware with what the language says.
+
+`compare(script, record)` raises `Difference` where they differ and `Unsure` where the contract
+leaves the order of two things open.
+"""
+
+from __future__ import annotations
+
+from language_motor import Motor, Phase, World
+from language_signals import Difference, Signal, Unsure, Variables, Watch
+from language_text import Command, Refused, parse
+from program_probe import MOTORS, Record, Request, Script
+
+SET_COMMAND, GET_POSITION, GET_COMMAND, GET_PROGRESS = 2, 4, 5, 7
+SEVERITY = (0, 3, 1, 2)
+FULL = 3
+
+
+def compare(script: Script, record: Record) -> None:
+    """Compare all motors, from power-on to the end of the script."""
+    if record.late:
+        raise Difference(f"{record.late} pulses were late")
+    motors = _motors(script, record)
+    for request, answer in zip(script.requests, record.answers, strict=True):
+        _compare_answer(motors, request, answer)
+    for number, motor in motors.items():
+        motor.advance(script.end)
+        position = motor.position_at(script.end)
+        if position != record.positions[number - 1]:
+            raise Difference(f"motor {number} is at {record.positions[number - 1]}, not {position}")
+        motor.expect_no_more(script.end)
+
+
+def _motors(script: Script, record: Record) -> dict[int, Motor]:
+    inputs = {
+        n: Signal((edge.tick, edge.level) for edge in script.edges if edge.number == n)
+        for n in range(1, 9)
+    }
+    variables = Variables(record.events)
+    return {
+        n: Motor(n, World(inputs, variables, Watch(n, record.events), record.pulses[n]))
+        for n in MOTORS
+    }
+
+
+def _compare_answer(motors: dict[int, Motor], request: Request, answer: bytes) -> None:
+    kind, number = request.data[0], request.data[1] - ord("0")
+    addressed = [motor for n, motor in motors.items() if number in (0, n)]
+    for motor in addressed:
+        motor.advance(request.tick)
+        if motor.phase is Phase.RUNNING:
+            raise Unsure("a message comes while commands run")
+    if kind == SET_COMMAND:
+        expected = _set_command(addressed, request)
+    elif kind == GET_POSITION:
+        expected = _positions(addressed, request)
+    elif kind == GET_COMMAND:
+        expected = request.data[:2] + addressed[0].memory.text
+    elif kind == GET_PROGRESS:
+        steps, place = addressed[0].progress(request.tick)
+        expected = request.data[:2] + f"{steps:6};{place:2}".encode()
+    else:
+        raise ValueError(f"the model does not know message {kind}")
+    if answer != expected:
+        raise Difference(f"at {request.tick}: {request.data!r}: {answer!r}, not {expected!r}")
+
+
+def _positions(addressed: list[Motor], request: Request) -> bytes:
+    texts = [b"%10d" % motor.position_at(request.tick) for motor in addressed]
+    return request.data[:2] + b"".join(bytes([len(text)]) + text for text in texts)
+
+
+def _set_command(addressed: list[Motor], request: Request) -> bytes:
+    head = request.data[:2]
+    try:
+        commands = parse(request.data[2:])
+    except Refused as refused:
+        return head + bytes([refused.flag, refused.char])
+    flags = [_take(motor, commands, request.tick) for motor in addressed]
+    return head + bytes([max(flags, key=SEVERITY.index), 0])
+
+
+def _take(motor: Motor, commands: list[Command], tick: int) -> int:
+    """Give the commands of a good text to a motor; returns the flag."""
+    if len(commands) == 1 and _is_immediate(motor, commands[0], tick):
+        return 0
+    letters = [command.letter for command in commands]
+    if "\\" in letters:
+        motor.reset(tick)
+        commands = commands[len(letters) - letters[::-1].index("\\") :]
+    stored = [c for c in commands if c.letter != "K" and c != Command("C", 75)]
+    had_room = [motor.memory.write(command, motor.locked) for command in stored]
+    motor.wake(tick)
+    return 0 if all(had_room) else FULL
+
+
+def _is_immediate(motor: Motor, command: Command, tick: int) -> bool:
+    """Do a command that has a meaning of its own when it stands alone."""
+    if command.letter == "K":
+        motor.halt(tick)
+    elif command == Command("C", 75):
+        motor.resume(tick)
+    elif command.letter == "V":
+        return motor.change_speed(tick, command.number)
+    else:
+        return False
+    return True

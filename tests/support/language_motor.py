@@ -1,0 +1,566 @@
+"""One motor in the model of the language: its program, from message to message.
+
+Written from the language's description, independently of the firmware. The motor is led along
+what the firmware did: it says what must happen, and between which ticks, and takes the exact tick
+from the record where the contract leaves room. What the record cannot be is a `Difference`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum, auto
+
+from language_memory import Memory
+from language_pulses import Follower
+from language_setup import ERRORS, Failed, Order, Setup
+from language_signals import (
+    COMMAND_TICKS,
+    MS,
+    SEEN_TICKS,
+    US,
+    Difference,
+    Moment,
+    Signal,
+    Unsure,
+    Variables,
+    Watch,
+)
+from language_text import Command
+
+BEHIND_TICKS = 300 * US
+LOOPS_MAX = 8
+CALLS_MAX = 6
+BURST_MAX = 3000
+"""Commands without a wait; a program with more may be one that never waits."""
+
+STOPS = {"K": 1, "M": 2, "N": 3, "X": 4, "\\": 5, "limit": 6}
+
+
+class Phase(Enum):
+    """What a motor does; `ENDED` is by X or an error."""
+
+    RUNNING = auto()
+    IDLE = auto()
+    HELD = auto()
+    MOVING = auto()
+    WAITING = auto()
+    LOOKING = auto()
+    STOPPED = auto()
+    ENDED = auto()
+
+
+@dataclass
+class World:
+    """What surrounds a motor: inputs by number, the variables as they were, its own record."""
+
+    inputs: dict[int, Signal]
+    variables: Variables
+    watch: Watch
+    pulses: list[int]
+
+
+class Motor:
+    """One motor from power-on; `advance` and the messages come in the order of their ticks."""
+
+    def __init__(self, number: int, world: World) -> None:
+        self.number = number
+        self.position = 0
+        self.phase = Phase.IDLE
+        self._world = world
+        self._watch = world.watch
+        self._ticks = [abs(tick) for tick in world.pulses]
+        self._pulses_taken = 0
+        self._own_writes = world.variables.own_writes(number)
+        self._writes_made = 0
+        self._clock = 0
+        self._now = Moment(0, 0)
+        self.memory = Memory()
+        self._start_over()
+
+    def _start_over(self) -> None:
+        self._setup = Setup()
+        self._next = 1
+        self._loops: list[tuple[int, int]] = []
+        self._calls: list[int] = []
+        self._guards = {"M": 0, "N": 0}
+        self._totals: set[int] = set()
+        self._cause = ""
+        self._resume_wanted = False
+        self._order: Order | None = None
+        self._due = 0
+        self._paused = Phase.IDLE
+        self.place = 0
+
+    # What comes by messages
+
+    def reset(self, tick: int) -> None:
+        r"""Take a `\`; the motor has been advanced to the tick."""
+        moving = self.phase is Phase.MOVING
+        if moving:
+            self._stop("\\", tick)
+        order, cause = self._order, self._cause
+        self.memory = Memory()
+        self._start_over()
+        if moving:
+            self._order, self._cause = order, cause
+        else:
+            self._watch.allow("stop", STOPS["\\"], tick, tick + MS)
+            self.phase, self._clock, self._now = Phase.IDLE, tick, Moment(tick, tick + SEEN_TICKS)
+
+    def wake(self, tick: int) -> None:
+        """Look at what a message has stored."""
+        idle = self.phase is Phase.IDLE and self._next < self.memory.end
+        if idle or (self.phase is Phase.HELD and self.memory.is_released(self._next)):
+            self._run_from(tick, tick)
+
+    def halt(self, tick: int) -> None:
+        """Take a `K` that stands alone."""
+        if self.phase is Phase.ENDED or self._cause in ("X", "\\"):
+            return
+        if self.phase is Phase.MOVING:
+            self._resume_wanted = False
+            if self._cause in ("M", "N"):
+                self._order = None
+            if self._cause != "K":
+                self._stop("K", tick)
+        elif self.phase is not Phase.STOPPED:
+            self._watch.expect("stop", STOPS["K"], tick, tick + MS)
+            self._paused, self._due = self.phase, self._due - tick
+            self.phase = Phase.STOPPED
+
+    def resume(self, tick: int) -> None:
+        """Take a `C75` that stands alone."""
+        if self.phase is Phase.MOVING and self._cause == "K":
+            self._resume_wanted = True
+        elif self.phase is Phase.STOPPED:
+            self._resume(tick, Moment(tick, tick + SEEN_TICKS))
+
+    def change_speed(self, tick: int, speed: int) -> bool:
+        """Take a `V` that stands alone; whether it was one for the move in progress."""
+        if self.phase is not Phase.MOVING or self._cause in ("X", "\\"):
+            return False
+        if self._order and not self._order.limit and not self._cause:
+            self._watch.expect("speed", speed, tick, tick + MS)
+            self._follower.change(tick, lambda curve, k: curve.speed_changed_at(k, speed))
+        return True
+
+    def progress(self, tick: int) -> tuple[int, int]:
+        """Steps made so far in the move in progress, and the place in the program."""
+        if self.phase is not Phase.MOVING:
+            return 0, self.place
+        self._follower.follow(tick)
+        return self._follower.made, self.place
+
+    def position_at(self, tick: int) -> int:
+        """The position counter."""
+        if self.phase is not Phase.MOVING:
+            return self.position
+        assert self._moving
+        self._follower.follow(tick)
+        return self.position + self._moving.heading * self._follower.made
+
+    def expect_no_more(self, end: int) -> None:
+        """Compare the pulses of a move that has not ended, and that nothing else has happened."""
+        made = self._pulses_taken
+        if self.phase is Phase.MOVING:
+            self._follower.follow(end)
+            made += self._follower.made
+        if made != len(self._ticks):
+            raise Difference(f"motor {self.number}: {len(self._ticks)} pulses, not {made}")
+        self._watch.expect_no_more()
+
+    # Time
+
+    def advance(self, until: int) -> None:
+        """Live up to a tick at which something comes, which is not part of it."""
+        steps = {
+            Phase.RUNNING: self._run,
+            Phase.MOVING: self._move,
+            Phase.WAITING: self._wait,
+            Phase.LOOKING: self._look,
+        }
+        while steps.get(self.phase, self._rest)(until):
+            pass
+
+    def _rest(self, until: int) -> bool:
+        """Idle, held, stopped or ended: only a total stop comes by itself."""
+        if self.phase is Phase.ENDED:
+            return False
+        found = self._total_stop(self._now.low, until)
+        if found is None:
+            return False
+        self._end_by_x(found)
+        return True
+
+    def _run_from(self, clock: int, seen: int) -> None:
+        self._clock = clock
+        self._now = Moment(seen, seen + SEEN_TICKS)
+        self._clock_is_loose = False
+        self._burst = 0
+        self.phase = Phase.RUNNING
+
+    def _run(self, until: int) -> bool:
+        """Run one command."""
+        if self._now.high >= until:
+            raise Unsure("something comes while commands run")
+        if any(self._world.inputs[n].during(self._now) for n in self._totals):
+            self._end_by_x(self._now.low)
+            return True
+        if self._next >= self.memory.end:
+            self._watch.expect("end", 0, self._clock, self._now.high)
+            self.phase = Phase.IDLE
+            return True
+        self._next = max(self._next, self.memory.oldest)
+        command = self.memory.read(self._next)
+        self.place = self._next
+        self._next += 1
+        self._burst += 1
+        if self._burst > BURST_MAX:
+            raise Unsure("the program runs on and on without a wait")
+        self._now.high += COMMAND_TICKS
+        try:
+            self._obey(command)
+        except Failed as error:
+            self._fail(str(error))
+        return True
+
+    def _fail(self, error: str) -> None:
+        self._watch.expect("error", ERRORS.index(error), self._now.low, self._now.high)
+        self.phase = Phase.ENDED
+
+    def _wait(self, until: int) -> bool:
+        limit = min(self._due, until)
+        found = self._total_stop(self._now.low, limit)
+        if found is not None:
+            if self._due - found < SEEN_TICKS:
+                raise Unsure("a total stop at the end of a wait")
+            self._end_by_x(found)
+            return True
+        if self._due > until:
+            return False
+        if self._due == until:
+            raise Unsure("something comes when a wait ends")
+        self._run_from(self._due, self._due)
+        return True
+
+    def _look(self, until: int) -> bool:
+        """Wait for a level."""
+        signal, level = self._sought
+        seen = signal.first_lasting(level, self._now.low)
+        limit = until if seen is None else min(seen, until)
+        found = self._total_stop(self._now.low, limit)
+        if found is not None:
+            if seen is not None and seen - found < SEEN_TICKS:
+                raise Unsure("a total stop at the end of a wait")
+            self._end_by_x(found)
+            return True
+        if seen is None or seen >= until:
+            if seen == until:
+                raise Unsure("something comes when a wait ends")
+            return False
+        seen = max(seen, self._now.low)
+        self._run_from(seen, seen)
+        self._clock_is_loose = True
+        return True
+
+    # Commands
+
+    def _obey(self, command: Command) -> None:
+        if self._setup.obey(command):
+            return
+        n = command.number
+        match command.letter:
+            case "T" | "C":
+                self._switch(command.letter, n)
+            case "=":
+                self.position = n
+            case "R":
+                self._begin(self._setup.order())
+            case "G":
+                self._begin(self._setup.way(n - self.position))
+            case "H":
+                self._begin(self._setup.way(-self.position))
+            case "G+" | ")":
+                self._begin(self._setup.run(1, n))
+            case "G-" | "(":
+                self._begin(self._setup.run(-1, n))
+            case "M" | "N":
+                self._guards[command.letter] = n
+            case "U":
+                self._guards = {"M": 0, "N": 0}
+            case "X":
+                self._totals.add(n)
+            case "W":
+                self._begin_wait(n)
+            case "O" | "Z":
+                self._begin_look(n, int(command.letter == "O"))
+            case "[":
+                self._hold()
+            case _:
+                self._flow(command)
+
+    def _flow(self, command: Command) -> None:
+        match command.letter:
+            case "J":
+                self._jump(command.number)
+            case "IH" | "IL":
+                if self._level(command.number) == int(command.letter == "IH"):
+                    self._jump(command.label)
+            case "L":
+                if len(self._loops) == LOOPS_MAX:
+                    raise Failed("more than 8 nested loops")
+                self._loops.append((self._next, command.number))
+            case "E":
+                self._end_loop()
+            case "'":
+                self._call(command.number)
+            case ".":
+                if not self._calls:
+                    raise Failed(". without a call")
+                self._next = self._calls.pop()
+
+    def _call(self, label: int) -> None:
+        back = self._next
+        target = self.memory.find_label(label)
+        if target is None:
+            raise Failed("label not found")
+        if len(self._calls) == CALLS_MAX:
+            raise Failed("more than 6 nested calls")
+        self._calls.append(back)
+        self._next = target
+
+    def _jump(self, label: int) -> None:
+        target = self.memory.find_label(label)
+        if target is None:
+            raise Failed("label not found")
+        self._next = target
+
+    def _end_loop(self) -> None:
+        if not self._loops:
+            raise Failed("E without L")
+        begin, left = self._loops.pop()
+        if left > 1:
+            self._loops.append((begin, left - 1))
+            self._next = begin
+
+    def _switch(self, letter: str, n: int) -> None:
+        value = n if letter == "T" else -n
+        if n <= 8:
+            self._now.pin(self._watch.expect("out", value, self._now.low, self._now.high))
+        elif n >= 80 and n != 100:
+            self._now.pin(self._watch.expect("var", value, self._now.low, self._now.high))
+            self._writes_made += 1
+        elif n == 100:
+            self.position = 0
+        elif n == 40:
+            self.locked = letter == "T"
+
+    locked = False
+    """Whether function 40 is on."""
+
+    def _level(self, n: int) -> int:
+        if n <= 8:
+            return self._world.inputs[n].during(self._now)
+        made = self._writes_made
+        place = self._own_writes[made - 1] if made else -1
+        next_own = self._own_writes[made] if made < len(self._own_writes) else None
+        return self._world.variables.level(n, place, next_own, self._now)
+
+    def _begin_look(self, n: int, level: int) -> None:
+        if self._level(n) == level:
+            return
+        self._watch.expect("wait", 0, self._now.low, self._now.high)
+        inputs, variables = self._world.inputs, self._world.variables
+        self._sought = (inputs[n] if n <= 8 else variables.signal(n), level)
+        self.phase = Phase.LOOKING
+
+    def _hold(self) -> None:
+        if self.memory.is_released(self.place):
+            return
+        self._watch.expect("wait", 0, self._now.low, self._now.high)
+        self._next = self.place
+        self.phase = Phase.HELD
+
+    def _begin_wait(self, ms: int) -> None:
+        start = self._start("wait", ms)
+        self._due = start + ms * MS
+        self.phase = Phase.WAITING
+
+    def _start(self, name: str, value: int) -> int:
+        """When a move or a wait starts: at the clock, or now if that is too far behind."""
+        event = self._watch.next(name)
+        on_time = self._now.low - self._clock <= BEHIND_TICKS
+        late = self._now.high - self._clock > BEHIND_TICKS
+        if self._clock_is_loose:
+            self._clock = self._watch.expect(name, value, self._clock, self._now.high)
+            self._clock_is_loose = False
+            return self._clock
+        if event is not None and event.tick == self._clock and on_time:
+            self._watch.expect(name, value, self._clock, self._clock)
+            return self._clock
+        if not late:
+            self._watch.expect(name, value, self._clock, self._clock)
+        self._clock = self._watch.expect(name, value, self._now.low, self._now.high)
+        self._now.pin(self._clock)
+        return self._clock
+
+    # Moves
+
+    def _begin(self, order: Order | None) -> None:
+        if order is None:
+            return
+        start = self._start("move", order.value)
+        self._order = self._moving = order
+        self._cause = ""
+        self.phase = Phase.MOVING
+        looked = Moment(min(start, self._now.low), self._now.high)
+        for guard, level in (("M", 1), ("N", 0)):
+            n = self._guards[guard]
+            if n and self._world.inputs[n].during(looked) == level:
+                self._begin_nothing(guard, start, looked)
+                return
+        if order.limit and self._world.inputs[order.limit].during(looked):
+            self._begin_nothing("limit", start, looked)
+            return
+        self._follower = Follower(start, order.curve, self._ticks, self._pulses_taken)
+        self._cared = start
+        if order.last_begins == 0:
+            self._mark(start, self._now.high)
+
+    def _begin_nothing(self, cause: str, start: int, looked: Moment) -> None:
+        """A guard has its level already: the move makes no step."""
+        self._watch.expect("stop", STOPS[cause], looked.low, looked.high)
+        self._watch.expect("done", 0, start, start)
+        if cause != "limit":
+            self._guards[cause] = 0
+        self.phase = Phase.RUNNING
+
+    def _mark(self, low: int, high: int) -> None:
+        assert self._moving
+        for output in self._moving.marks:
+            self._watch.expect("out", output, low, high)
+
+    def _move(self, until: int) -> bool:
+        end = self._follower.end
+        limit = until if end is None else min(until, end + 1)
+        found = self._next_cause(self._cared, limit)
+        if found is not None:
+            tick, cause = found
+            self._cared = tick
+            if end is not None and end - tick < US:
+                raise Unsure("a guard acts when a move ends")
+            self._stop(cause, tick)
+            return True
+        if end is None or end > until + 2:
+            return False
+        self._follower.follow(end + 2)
+        done = self._follower.tick_of(self._follower.made)
+        if done + SEEN_TICKS >= until:
+            raise Unsure("something comes when a move ends")
+        self._end_move(done, done)
+        return True
+
+    def _next_cause(self, after: int, until: int) -> tuple[int, str] | None:
+        """The first guard that acts from a tick on: its tick and what it is."""
+        if self._cause in ("X", "\\"):
+            return None
+        wanted = [("X", n, 1) for n in sorted(self._totals)]
+        if not self._cause:
+            wanted += [("M", self._guards["M"], 1), ("N", self._guards["N"], 0)]
+            wanted += [("limit", self._order.limit, 1)] if self._order else []
+        first: tuple[int, str] | None = None
+        for cause, n, level in wanted:
+            tick = self._world.inputs[n].first(level, after) if n else None
+            if tick is not None and tick < until and (first is None or tick < first[0]):
+                first = (tick, cause)
+        return first
+
+    def _stop(self, cause: str, tick: int) -> None:
+        if cause == "limit":
+            self._end_limit_run(tick)
+            return
+        if self._cause in ("", "M", "N"):
+            if self._cause:
+                self._watch.allow("stop", STOPS[cause], tick, tick + MS)
+            else:
+                self._watch.expect("stop", STOPS[cause], tick, tick + MS)
+                self._follower.change(tick, lambda curve, k: curve.stopped_at(k))
+        else:
+            self._watch.allow("stop", STOPS[cause], tick, tick + MS)
+        if cause in self._guards:
+            self._guards[cause] = 0
+        self._cause = cause
+
+    def _end_limit_run(self, tick: int) -> None:
+        self._watch.expect("stop", STOPS["limit"], tick, tick + MS)
+        self._follower.follow(tick + 1)
+        last = self._follower.made
+        self._cause = "limit"
+        self._end_move(self._follower.tick_of(last), tick)
+
+    def _end_move(self, done: int, seen: int) -> None:
+        """The move has made its last pulse; main has something to do at `seen`."""
+        assert self._moving
+        made = self._follower.made
+        steps = self._moving.heading * made
+        self._watch.expect("done", steps, done, done)
+        taken = self._world.pulses[self._pulses_taken : self._pulses_taken + made]
+        if any((tick > 0) != (self._moving.heading > 0) for tick in taken):
+            raise Difference(f"motor {self.number}: a pulse the wrong way")
+        self._pulses_taken += made
+        self.position += steps
+        self._mark_passed(made)
+        self._run_from(done, seen)
+        self._finish(made, seen)
+
+    def _mark_passed(self, made: int) -> None:
+        assert self._moving
+        border = self._moving.last_begins
+        if 0 < border < made:
+            tick = self._follower.tick_of(border)
+            self._mark(tick, tick + SEEN_TICKS)
+        elif 0 < border == made:
+            tick = self._follower.tick_of(border)
+            for output in self._moving.marks:
+                self._watch.allow("out", output, tick, tick + SEEN_TICKS)
+
+    def _finish(self, made: int, seen: int) -> None:
+        """Go on behind a move as what has stopped it wants."""
+        cause, self._cause = self._cause, ""
+        if cause == "X":
+            self._watch.allow("end", 0, self._clock, self._now.high)
+            self.phase = Phase.ENDED
+        elif cause == "K":
+            self._order = self._order.rest(made) if self._order else None
+            self._paused = Phase.MOVING if self._order else Phase.RUNNING
+            self.phase = Phase.STOPPED
+            if self._resume_wanted:
+                self._resume_wanted = False
+                self._resume(seen, self._now)
+
+    def _resume(self, tick: int, now: Moment) -> None:
+        self._run_from(tick, tick)
+        self._now = replace(now)
+        if self._paused is Phase.MOVING:
+            self._begin(self._order)
+        elif self._paused is Phase.WAITING:
+            self._due += tick
+            self._watch.allow("wait", -1, tick, tick)
+            self.phase = Phase.WAITING
+        elif self._paused is Phase.LOOKING:
+            self.phase = Phase.LOOKING
+        elif self._paused is Phase.HELD and not self.memory.is_released(self._next):
+            self.phase = Phase.HELD
+        elif self._paused is Phase.IDLE and self._next >= self.memory.end:
+            self.phase = Phase.IDLE
+
+    def _total_stop(self, low: int, until: int) -> int | None:
+        """The first tick at which an input of X is 1, before another tick."""
+        firsts = [self._world.inputs[n].first(1, low) for n in self._totals]
+        return min((tick for tick in firsts if tick is not None and tick < until), default=None)
+
+    def _end_by_x(self, tick: int) -> None:
+        high = max(tick + MS, self._now.high)
+        self._watch.expect("stop", STOPS["X"], tick, high)
+        self._watch.allow("end", 0, tick, high)
+        self.phase = Phase.ENDED
