@@ -104,7 +104,7 @@ class Motor:
         if moving:
             self._order, self._cause = order, cause
         else:
-            self._watch.allow("stop", STOPS["\\"], tick, tick + MS)
+            self._watch.allow("stop", STOPS["\\"], tick, tick)
             self.phase, self._clock, self._now = Phase.IDLE, tick, Moment(tick, tick + SEEN_TICKS)
 
     def wake(self, tick: int) -> None:
@@ -140,6 +140,11 @@ class Motor:
         if self.phase is not Phase.MOVING or self._cause in ("X", "\\"):
             return False
         if self._order and not self._order.limit and not self._cause:
+            self._follower.follow(tick)
+            last = self._follower.curve.last
+            event = self._watch.next("speed")
+            if last == self._follower.made + 1 and (event is None or event.tick > tick + MS):
+                return True
             self._watch.expect("speed", speed, tick, tick + MS)
             self._follower.change(tick, lambda curve, k: curve.speed_changed_at(k, speed))
         return True
@@ -165,6 +170,7 @@ class Motor:
         if self.phase is Phase.MOVING:
             self._follower.follow(end)
             made += self._follower.made
+            self._mark_passed(self._follower.made)
         if made != len(self._ticks):
             raise Difference(f"motor {self.number}: {len(self._ticks)} pulses, not {made}")
         self._watch.expect_no_more()
@@ -207,7 +213,8 @@ class Motor:
             self._end_by_x(self._now.low)
             return True
         if self._next >= self.memory.end:
-            self._watch.expect("end", 0, self._clock, self._now.high)
+            if self.place:
+                self._watch.expect("end", 0, self._clock, self._now.high)
             self.phase = Phase.IDLE
             return True
         self._next = max(self._next, self.memory.oldest)
@@ -441,6 +448,8 @@ class Motor:
             self._watch.expect("out", output, low, high)
 
     def _move(self, until: int) -> bool:
+        if self._cause and (done := self._watch.next("done")):
+            self._follower.settle(abs(done.value))
         end = self._follower.end
         limit = until if end is None else min(until, end + 1)
         found = self._next_cause(self._cared, limit)
@@ -454,10 +463,10 @@ class Motor:
         if end is None or end > until + 2:
             return False
         self._follower.follow(end + 2)
-        done = self._follower.tick_of(self._follower.made)
-        if done + SEEN_TICKS >= until:
+        last = self._follower.tick_of(self._follower.made)
+        if last + SEEN_TICKS >= until:
             raise Unsure("something comes when a move ends")
-        self._end_move(done, done)
+        self._end_move(last, last)
         return True
 
     def _next_cause(self, after: int, until: int) -> tuple[int, str] | None:
@@ -535,12 +544,13 @@ class Motor:
             self._paused = Phase.MOVING if self._order else Phase.RUNNING
             self.phase = Phase.STOPPED
             if self._resume_wanted:
-                self._resume_wanted = False
                 self._resume(seen, self._now)
 
     def _resume(self, tick: int, now: Moment) -> None:
         self._run_from(tick, tick)
         self._now = replace(now)
+        self._clock_is_loose = self._resume_wanted
+        self._resume_wanted = False
         if self._paused is Phase.MOVING:
             self._begin(self._order)
         elif self._paused is Phase.WAITING:

@@ -41,6 +41,10 @@ class Follower:
         last = self.curve.last
         return None if last is None else self.start + self.curve.nearest_ticks([last])[0]
 
+    def settle(self, made: int) -> None:
+        """The move was made with so many pulses: prefer curves that have them."""
+        self._curves.sort(key=lambda curve: curve.last != made)
+
     def tick_of(self, pulse: int) -> int:
         """The tick at which a pulse of the move was made; 0 is the start."""
         return self._pulses[self._first + pulse - 1] if pulse else self.start

@@ -91,6 +91,7 @@ class Setup:
     table_heading: int = 1
     table_marks: tuple[int, ...] = ()
     table_has_run: bool = False
+    table_is_turned: bool = False
 
     def obey(self, command: Command) -> bool:
         """Take a command that only sets something up; whether it was one."""
@@ -105,8 +106,7 @@ class Setup:
                 self._set_steps(command)
             case "D":
                 self.heading = -self.heading
-                if self.table_has_run:
-                    self.table_heading = -self.table_heading
+                self.table_is_turned = not self.table_is_turned
             case "Y":
                 self._append()
             case "T" if 51 <= command.number <= 58:
@@ -121,9 +121,8 @@ class Setup:
         """The move that `R` makes; None: there is none."""
         if self.table:
             self.table_has_run = True
-            return Order(
-                tuple(self.table), self.start_speed, self.table_heading, 0, self.table_marks
-            )
+            heading = -self.table_heading if self.table_is_turned else self.table_heading
+            return Order(tuple(self.table), self.start_speed, heading, 0, self.table_marks)
         return self.way(self.heading * self.steps)
 
     def way(self, steps: int) -> Order | None:
@@ -150,9 +149,9 @@ class Setup:
         if self.steps == 0:
             raise Failed("Y without F or B")
         if not self.table:
-            self.table_heading = self.heading
+            self.table_heading, self.table_is_turned = self.heading, False
             self.table_marks = tuple(sorted(self.functions))
-        elif self.table_heading != self.heading:
+        elif self.table_is_turned or self.table_heading != self.heading:
             raise Failed("change of direction inside a compound move")
         if len(self.table) == SECTIONS_MAX:
             raise Failed("more than 10 sections")

@@ -139,24 +139,24 @@ def _command(reader: _Reader) -> Command:
     if letter == "G" and reader.peek() in ("+", "-"):
         reader.at += 1
         return Command(letter + chr(reader.text[reader.at - 1]))
-    return Command(letter, _value(reader, letter, RANGES[letter]))
+    return Command(letter, _value(reader, letter, RANGES[letter], byte))
 
 
 def _condition(reader: _Reader) -> Command:
-    source = _value(reader, "I", CONDITION)
+    source = _value(reader, "I", CONDITION, ord("I"))
     level = reader.peek()
     if level not in ("H", "L"):
         raise Refused(WRONG_VALUE, ord("I"))
     reader.at += 1
-    return Command("I" + level, source, _value(reader, "I", LABEL))
+    return Command("I" + level, source, _value(reader, "I", LABEL, ord("I")))
 
 
-def _value(reader: _Reader, letter: str, ranges: tuple[tuple[int, int], ...]) -> int:
+def _value(reader: _Reader, letter: str, ranges: tuple[tuple[int, int], ...], told: int) -> int:
     sign = 1
     if letter == "=" and reader.peek() == "-":
         sign = -1
         reader.at += 1
     number = reader.number()
     if number is None or not any(low <= sign * number <= high for low, high in ranges):
-        raise Refused(WRONG_VALUE, ord(letter))
+        raise Refused(WRONG_VALUE, told)
     return sign * number

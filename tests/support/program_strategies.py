@@ -12,7 +12,7 @@ from language_signals import MS
 from program_probe import Edge, Request, Script
 
 EPOCH_BITS = 62
-TAIL_MS = 3000
+TAIL_MS = 1500
 """How long a script goes on behind its last message."""
 
 Text = st.SearchStrategy[str]
