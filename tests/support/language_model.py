@@ -6,9 +6,10 @@ leaves the order of two things open.
 
 from __future__ import annotations
 
-from language_motor import Motor, Phase, World
+from language_motor import Motor
 from language_signals import Difference, Signal, Unsure, Variables, Watch
 from language_text import Command, Refused, parse
+from language_world import Phase, World
 from program_probe import MOTORS, Record, Request, Script
 
 SET_COMMAND, GET_POSITION, GET_COMMAND, GET_PROGRESS = 2, 4, 5, 7

@@ -7,9 +7,9 @@ from the record where the contract leaves room. What the record cannot be is a `
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from enum import Enum, auto
+from dataclasses import replace
 
+from language_flow import Flow
 from language_memory import Memory
 from language_pulses import Follower
 from language_setup import ERRORS, Failed, Order, Setup
@@ -20,43 +20,14 @@ from language_signals import (
     US,
     Difference,
     Moment,
-    Signal,
     Unsure,
-    Variables,
-    Watch,
 )
 from language_text import Command
+from language_world import STOPS, Phase, World
 
 BEHIND_TICKS = 300 * US
-LOOPS_MAX = 8
-CALLS_MAX = 6
 BURST_MAX = 3000
 """Commands without a wait; a program with more may be one that never waits."""
-
-STOPS = {"K": 1, "M": 2, "N": 3, "X": 4, "\\": 5, "limit": 6}
-
-
-class Phase(Enum):
-    """What a motor does; `ENDED` is by X or an error."""
-
-    RUNNING = auto()
-    IDLE = auto()
-    HELD = auto()
-    MOVING = auto()
-    WAITING = auto()
-    LOOKING = auto()
-    STOPPED = auto()
-    ENDED = auto()
-
-
-@dataclass
-class World:
-    """What surrounds a motor: inputs by number, the variables as they were, its own record."""
-
-    inputs: dict[int, Signal]
-    variables: Variables
-    watch: Watch
-    pulses: list[int]
 
 
 class Motor:
@@ -74,14 +45,12 @@ class Motor:
         self._writes_made = 0
         self._clock = 0
         self._now = Moment(0, 0)
-        self.memory = Memory()
         self._start_over()
 
     def _start_over(self) -> None:
         self._setup = Setup()
-        self._next = 1
-        self._loops: list[tuple[int, int]] = []
-        self._calls: list[int] = []
+        self.memory = Memory()
+        self._flow = Flow(self.memory)
         self._guards = {"M": 0, "N": 0}
         self._totals: set[int] = set()
         self._cause = ""
@@ -89,7 +58,6 @@ class Motor:
         self._order: Order | None = None
         self._due = 0
         self._paused = Phase.IDLE
-        self.place = 0
 
     # What comes by messages
 
@@ -99,7 +67,6 @@ class Motor:
         if moving:
             self._stop("\\", tick)
         order, cause = self._order, self._cause
-        self.memory = Memory()
         self._start_over()
         if moving:
             self._order, self._cause = order, cause
@@ -109,8 +76,8 @@ class Motor:
 
     def wake(self, tick: int) -> None:
         """Look at what a message has stored."""
-        idle = self.phase is Phase.IDLE and self._next < self.memory.end
-        if idle or (self.phase is Phase.HELD and self.memory.is_released(self._next)):
+        idle = self.phase is Phase.IDLE and self._flow.next < self.memory.end
+        if idle or (self.phase is Phase.HELD and self.memory.is_released(self._flow.next)):
             self._run_from(tick, tick)
 
     def halt(self, tick: int) -> None:
@@ -152,9 +119,9 @@ class Motor:
     def progress(self, tick: int) -> tuple[int, int]:
         """Steps made so far in the move in progress, and the place in the program."""
         if self.phase is not Phase.MOVING:
-            return 0, self.place
+            return 0, self._flow.place
         self._follower.follow(tick)
-        return self._follower.made, self.place
+        return self._follower.made, self._flow.place
 
     def position_at(self, tick: int) -> int:
         """The position counter."""
@@ -212,15 +179,12 @@ class Motor:
         if any(self._world.inputs[n].during(self._now) for n in self._totals):
             self._end_by_x(self._now.low)
             return True
-        if self._next >= self.memory.end:
-            if self.place:
+        if self._flow.next >= self.memory.end:
+            if self._flow.place:
                 self._watch.expect("end", 0, self._clock, self._now.high)
             self.phase = Phase.IDLE
             return True
-        self._next = max(self._next, self.memory.oldest)
-        command = self.memory.read(self._next)
-        self.place = self._next
-        self._next += 1
+        command = self._flow.fetch()
         self._burst += 1
         if self._burst > BURST_MAX:
             raise Unsure("the program runs on and on without a wait")
@@ -304,51 +268,7 @@ class Motor:
             case "[":
                 self._hold()
             case _:
-                self._flow(command)
-
-    def _flow(self, command: Command) -> None:
-        match command.letter:
-            case "J":
-                self._jump(command.number)
-            case "IH" | "IL":
-                if self._level(command.number) == int(command.letter == "IH"):
-                    self._jump(command.label)
-            case "L":
-                if len(self._loops) == LOOPS_MAX:
-                    raise Failed("more than 8 nested loops")
-                self._loops.append((self._next, command.number))
-            case "E":
-                self._end_loop()
-            case "'":
-                self._call(command.number)
-            case ".":
-                if not self._calls:
-                    raise Failed(". without a call")
-                self._next = self._calls.pop()
-
-    def _call(self, label: int) -> None:
-        back = self._next
-        target = self.memory.find_label(label)
-        if target is None:
-            raise Failed("label not found")
-        if len(self._calls) == CALLS_MAX:
-            raise Failed("more than 6 nested calls")
-        self._calls.append(back)
-        self._next = target
-
-    def _jump(self, label: int) -> None:
-        target = self.memory.find_label(label)
-        if target is None:
-            raise Failed("label not found")
-        self._next = target
-
-    def _end_loop(self) -> None:
-        if not self._loops:
-            raise Failed("E without L")
-        begin, left = self._loops.pop()
-        if left > 1:
-            self._loops.append((begin, left - 1))
-            self._next = begin
+                self._flow.obey(command, self._level)
 
     def _switch(self, letter: str, n: int) -> None:
         value = n if letter == "T" else -n
@@ -382,10 +302,10 @@ class Motor:
         self.phase = Phase.LOOKING
 
     def _hold(self) -> None:
-        if self.memory.is_released(self.place):
+        if self.memory.is_released(self._flow.place):
             return
         self._watch.expect("wait", 0, self._now.low, self._now.high)
-        self._next = self.place
+        self._flow.next = self._flow.place
         self.phase = Phase.HELD
 
     def _begin_wait(self, ms: int) -> None:
@@ -559,9 +479,9 @@ class Motor:
             self.phase = Phase.WAITING
         elif self._paused is Phase.LOOKING:
             self.phase = Phase.LOOKING
-        elif self._paused is Phase.HELD and not self.memory.is_released(self._next):
+        elif self._paused is Phase.HELD and not self.memory.is_released(self._flow.next):
             self.phase = Phase.HELD
-        elif self._paused is Phase.IDLE and self._next >= self.memory.end:
+        elif self._paused is Phase.IDLE and self._flow.next >= self.memory.end:
             self.phase = Phase.IDLE
 
     def _total_stop(self, low: int, until: int) -> int | None:

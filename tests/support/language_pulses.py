@@ -65,12 +65,12 @@ class Follower:
     def change(self, tick: int, new: Callable[[Curve, int], Curve]) -> None:
         """Something comes at a tick, behind a pulse of that tick: `new` makes curves of it."""
         self.follow(tick)
-        curves = {}
+        curves: dict[Curve, None] = {}
         for curve in self._curves:
             last = curve.pulses_before(tick - self.start + MS) + 1
             last = last if curve.last is None else min(last, curve.last)
             for pulse in range(self.made + 1, last + 1):
-                curves.setdefault(new(curve, pulse))
+                curves.setdefault(new(curve, pulse), None)
         self._curves = list(curves) or self._curves
 
     def _compare(self, curve: Curve, made: int, until: int) -> str:

@@ -92,8 +92,10 @@ SECTION = _joined(
     st.just("Y"),
 )
 COMPOUND = _joined(
-    st.sampled_from(["", "T51", "T52 T58"]), _several(SECTION, 11), st.sampled_from(["R", "D R", "R D R"])
-)  # fmt: skip
+    st.sampled_from(["", "T51", "T52 T58"]),
+    _several(SECTION, 11),
+    st.sampled_from(["R", "D R", "R D R"]),
+)
 SHORT_MOVE = _joined(st.sampled_from("FB"), st.just("")).flatmap(
     lambda letter: _numbered(letter.strip(), _from(1, 3, 60, 300)).map(lambda f: f"{f} R")
 )

@@ -2,8 +2,8 @@
  * Every frame of a corpus of requests with every truncation, every lost byte, every single and every double bit error:
  * more than a million damaged frames, of which none may be executed.
  *
- * The corpus is what masters send: all messages, programs of the manual, numbers that are flags and escapes. A frame whose flags or escapes are hit is checked by its FCS alone, at a place where that was not meant to end; the
- * few damaged frames that pass it (1 in 65 536 of those) would be found here, and this corpus has none.
+ * The corpus is what masters send: all messages, programs of the manual, numbers that are flags and escapes. Where an
+ * error hits a flag or an escape, one damaged frame in 65 536 has the right FCS by chance; this corpus has none.
  */
 #include "unity.h"
 
