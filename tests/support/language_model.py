@@ -7,9 +7,9 @@ leaves the order of two things open.
 from __future__ import annotations
 
 from language_motor import Motor
-from language_signals import Difference, Signal, Unsure, Variables, Watch
+from language_signals import Difference, Signal, Variables, Watch
 from language_text import Command, Refused, parse
-from language_world import Phase, World
+from language_world import World
 from program_probe import MOTORS, Record, Request, Script
 
 SET_COMMAND, GET_POSITION, GET_COMMAND, GET_PROGRESS = 2, 4, 5, 7
@@ -38,8 +38,9 @@ def _motors(script: Script, record: Record) -> dict[int, Motor]:
         for n in range(1, 9)
     }
     variables = Variables(record.events)
+    functions: set[int] = set()
     return {
-        n: Motor(n, World(inputs, variables, Watch(n, record.events), record.pulses[n]))
+        n: Motor(n, World(inputs, variables, Watch(n, record.events), record.pulses[n], functions))
         for n in MOTORS
     }
 
@@ -47,10 +48,8 @@ def _motors(script: Script, record: Record) -> dict[int, Motor]:
 def _compare_answer(motors: dict[int, Motor], request: Request, answer: bytes) -> None:
     kind, number = request.data[0], request.data[1] - ord("0")
     addressed = [motor for n, motor in motors.items() if number in (0, n)]
-    for motor in addressed:
-        motor.advance(request.tick)
-        if motor.phase is Phase.RUNNING:
-            raise Unsure("a message comes while commands run")
+    for motor in motors.values():
+        motor.advance(request.tick, motor in addressed)
     if kind == SET_COMMAND:
         expected = _set_command(addressed, request)
     elif kind == GET_POSITION:
@@ -90,7 +89,7 @@ def _take(motor: Motor, commands: list[Command], tick: int) -> int:
         motor.reset(tick)
         commands = commands[len(letters) - letters[::-1].index("\\") :]
     stored = [c for c in commands if c.letter != "K" and c != Command("C", 75)]
-    had_room = [motor.memory.write(command, motor.locked) for command in stored]
+    had_room = [motor.memory.write(command, motor.is_locked) for command in stored]
     motor.wake(tick)
     return 0 if all(had_room) else FULL
 

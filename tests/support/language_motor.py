@@ -26,6 +26,7 @@ from language_text import Command
 from language_world import STOPS, Phase, World
 
 BEHIND_TICKS = 300 * US
+LOCK = 40
 BURST_MAX = 3000
 """Commands without a wait; a program with more may be one that never waits."""
 
@@ -116,6 +117,11 @@ class Motor:
             self._follower.change(tick, lambda curve, k: curve.speed_changed_at(k, speed))
         return True
 
+    @property
+    def is_locked(self) -> bool:
+        """Whether function 40 keeps what is stored from being overwritten."""
+        return LOCK in self._world.functions
+
     def progress(self, tick: int) -> tuple[int, int]:
         """Steps made so far in the move in progress, and the place in the program."""
         if self.phase is not Phase.MOVING:
@@ -144,8 +150,12 @@ class Motor:
 
     # Time
 
-    def advance(self, until: int) -> None:
-        """Live up to a tick at which something comes, which is not part of it."""
+    def advance(self, until: int, for_this: bool = True) -> None:
+        """Live up to a tick at which something comes, which is not part of it.
+
+        If it comes for others, it does not matter what this motor does at that tick.
+        """
+        self._for_this = for_this
         steps = {
             Phase.RUNNING: self._run,
             Phase.MOVING: self._move,
@@ -154,6 +164,11 @@ class Motor:
         }
         while steps.get(self.phase, self._rest)(until):
             pass
+
+    def _collide(self, what: str) -> bool:
+        if self._for_this:
+            raise Unsure(what)
+        return False
 
     def _rest(self, until: int) -> bool:
         """Idle, held, stopped or ended: only a total stop comes by itself."""
@@ -175,7 +190,7 @@ class Motor:
     def _run(self, until: int) -> bool:
         """Run one command."""
         if self._now.high >= until:
-            raise Unsure("something comes while commands run")
+            return self._collide("something comes while commands run")
         if any(self._world.inputs[n].during(self._now) for n in self._totals):
             self._end_by_x(self._now.low)
             return True
@@ -210,7 +225,7 @@ class Motor:
         if self._due > until:
             return False
         if self._due == until:
-            raise Unsure("something comes when a wait ends")
+            return self._collide("something comes when a wait ends")
         self._run_from(self._due, self._due)
         return True
 
@@ -226,9 +241,7 @@ class Motor:
             self._end_by_x(found)
             return True
         if seen is None or seen >= until:
-            if seen == until:
-                raise Unsure("something comes when a wait ends")
-            return False
+            return seen == until and self._collide("something comes when a wait ends")
         seen = max(seen, self._now.low)
         self._run_from(seen, seen)
         self._clock_is_loose = True
@@ -279,11 +292,10 @@ class Motor:
             self._writes_made += 1
         elif n == 100:
             self.position = 0
-        elif n == 40:
-            self.locked = letter == "T"
-
-    locked = False
-    """Whether function 40 is on."""
+        elif letter == "T":
+            self._world.functions.add(n)
+        else:
+            self._world.functions.discard(n)
 
     def _level(self, n: int) -> int:
         if n <= 8:
@@ -382,10 +394,10 @@ class Motor:
             return True
         if end is None or end > until + 2:
             return False
+        if end + SEEN_TICKS >= until:
+            return self._collide("something comes when a move ends")
         self._follower.follow(end + 2)
         last = self._follower.tick_of(self._follower.made)
-        if last + SEEN_TICKS >= until:
-            raise Unsure("something comes when a move ends")
         self._end_move(last, last)
         return True
 

@@ -25,9 +25,13 @@ class Phase(Enum):
 
 @dataclass
 class World:
-    """What surrounds a motor: inputs by number, the variables as they were, its own record."""
+    """What surrounds a motor: inputs by number, the variables as they were, its own record.
+
+    `functions` are those of the whole unit that are on, the same set for all motors.
+    """
 
     inputs: dict[int, Signal]
     variables: Variables
     watch: Watch
     pulses: list[int]
+    functions: set[int]

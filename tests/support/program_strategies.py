@@ -15,6 +15,9 @@ EPOCH_BITS = 62
 TAIL_MS = 1500
 """How long a script goes on behind its last message."""
 
+LONG_TEXT = 1000
+"""Of so many characters and more a program goes without notes, so that it fits a message."""
+
 Text = st.SearchStrategy[str]
 
 
@@ -140,20 +143,30 @@ DEEP = st.sampled_from(
         "[ T1 W5 ] [ T2",
     ]
 )
+FILLER = st.builds(
+    lambda part, commands, tail: f"{part} " * (commands // len(part.split())) + tail,
+    st.sampled_from(["D D @3", "S9 W1 S8", "@7", "'9 J8 @9 . @8", "T1 C1 A9", "L2 E", "D"]),
+    st.one_of(st.integers(300, 1050), st.integers(690, 710)),
+    st.sampled_from(["", "J3", "T2", "'7", "E", "]"]),
+)
+"""Enough of a program to fill the memory, or to come near it."""
+
 LATER = st.one_of(
+    st.sampled_from(["T40", "C40"]),
     st.sampled_from(["K", "C75", "K", "C75", "\\", "]", "R"]),
     _numbered("V", SPEEDS),
     _numbered("V", SPEEDS),
     _several(ANYTHING, 3),
     _joined(st.just("\\"), PROGRAM),
 )
+LATER = st.one_of(*[LATER] * 15, FILLER, FILLER)
 
 
 @st.composite
 def _dressed(draw: st.DrawFn, program: str) -> bytes:
     """Write a program down in one of the ways in which it can be written."""
     gaps = draw(st.sampled_from([" ", "", "\r\n", "\t{ note }", "{}"]))
-    text = program.replace(" ", gaps).encode("ascii")
+    text = program.replace(" ", gaps if len(program) < LONG_TEXT else "").encode("ascii")
     call = draw(st.sampled_from([b"'", b'"', b"`", b"\xb4"]))
     return text.replace(b"'", call)
 
@@ -191,6 +204,7 @@ def scripts(draw: st.DrawFn) -> Script:
     tick = draw(st.sampled_from([0, 1, MS]))
     motors = draw(st.sampled_from([(1,), (1,), (1, 2), (1, 2, 3)]))
     main = st.one_of(PROGRAM, PROGRAM, PROGRAM, _several(ANYTHING, 9), _joined(START, DEEP))
+    main = st.one_of(*[main] * 7, _joined(START, st.sampled_from(["W90", "[", "O1"]), FILLER))
     requests = [Request(tick, _set(motor, draw(_texts(main)))) for motor in motors]
     for _ in range(draw(st.integers(0, 6))):
         tick += draw(GAP_TICKS)
