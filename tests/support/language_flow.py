@@ -54,9 +54,9 @@ class Flow:
         return target
 
     def _call(self, label: int) -> None:
-        target = self._find(label)
         if len(self._calls) == CALLS_MAX:
             raise Failed("more than 6 nested calls")
+        target = self._find(label)
         self._calls.append(self.next)
         self.next = target
 

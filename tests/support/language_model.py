@@ -57,8 +57,9 @@ def _compare_answer(motors: dict[int, Motor], request: Request, answer: bytes) -
     elif kind == GET_COMMAND:
         expected = request.data[:2] + addressed[0].memory.text
     elif kind == GET_PROGRESS:
-        steps, place = addressed[0].progress(request.tick)
-        expected = request.data[:2] + f"{steps:6};{place:2}".encode()
+        motor = addressed[0]
+        place = f"{motor.made_at(request.tick):6};{motor.place:2}"
+        expected = request.data[:2] + place.encode()
     else:
         raise ValueError(f"the model does not know message {kind}")
     if answer != expected:

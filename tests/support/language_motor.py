@@ -23,12 +23,7 @@ from language_signals import (
     Unsure,
 )
 from language_text import Command
-from language_world import STOPS, Phase, World
-
-BEHIND_TICKS = 300 * US
-LOCK = 40
-BURST_MAX = 3000
-"""Commands without a wait; a program with more may be one that never waits."""
+from language_world import BEHIND_TICKS, BURST_MAX, LOCK, STOPS, Phase, World
 
 
 class Motor:
@@ -42,6 +37,7 @@ class Motor:
         self._watch = world.watch
         self._ticks = [abs(tick) for tick in world.pulses]
         self._pulses_taken = 0
+        self._moving: Order | None = None
         self._own_writes = world.variables.own_writes(number)
         self._writes_made = 0
         self._clock = 0
@@ -122,28 +118,29 @@ class Motor:
         """Whether function 40 keeps what is stored from being overwritten."""
         return LOCK in self._world.functions
 
-    def progress(self, tick: int) -> tuple[int, int]:
-        """Steps made so far in the move in progress, and the place in the program."""
+    def made_at(self, tick: int) -> int:
+        """Steps made so far in the move in progress."""
         if self.phase is not Phase.MOVING:
-            return 0, self._flow.place
+            return 0
         self._follower.follow(tick)
-        return self._follower.made, self._flow.place
+        return self._follower.made
 
     def position_at(self, tick: int) -> int:
         """The position counter."""
-        if self.phase is not Phase.MOVING:
-            return self.position
-        assert self._moving
-        self._follower.follow(tick)
-        return self.position + self._moving.heading * self._follower.made
+        made = self.made_at(tick)
+        return self.position + self._moving.heading * made if self._moving else self.position
+
+    @property
+    def place(self) -> int:
+        """The ordinal of the command that runs or has run last."""
+        return self._flow.place
 
     def expect_no_more(self, end: int) -> None:
         """Compare the pulses of a move that has not ended, and that nothing else has happened."""
-        made = self._pulses_taken
+        last = self.made_at(end)
         if self.phase is Phase.MOVING:
-            self._follower.follow(end)
-            made += self._follower.made
-            self._mark_passed(self._follower.made)
+            self._mark_passed(last)
+        made = self._pulses_taken + last
         if made != len(self._ticks):
             raise Difference(f"motor {self.number}: {len(self._ticks)} pulses, not {made}")
         self._watch.expect_no_more()

@@ -5,7 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum, auto
 
-from language_signals import Signal, Variables, Watch
+from language_signals import US, Signal, Variables, Watch
+
+BEHIND_TICKS = 300 * US
+"""By so much a move or a wait may be late and still count from the program clock."""
+
+LOCK = 40
+"""The function that keeps a full memory from being overwritten."""
+
+BURST_MAX = 3000
+"""Commands without a wait; a program with more may be one that never waits."""
 
 STOPS = {"K": 1, "M": 2, "N": 3, "X": 4, "\\": 5, "limit": 6}
 
