@@ -406,25 +406,19 @@ class Motor:
         if not self._cause:
             wanted += [("M", self._guards["M"], 1), ("N", self._guards["N"], 0)]
             wanted += [("limit", self._order.limit, 1)] if self._order else []
-        first: tuple[int, str] | None = None
-        for cause, n, level in wanted:
-            tick = self._world.inputs[n].first(level, after) if n else None
-            if tick is not None and tick < until and (first is None or tick < first[0]):
-                first = (tick, cause)
-        return first
+        firsts = [(self._world.inputs[n].first(level, after), c) for c, n, level in wanted if n]
+        due = [(tick, cause) for tick, cause in firsts if tick is not None and tick < until]
+        return min(due, key=lambda first: first[0], default=None)
 
     def _stop(self, cause: str, tick: int) -> None:
         if cause == "limit":
             self._end_limit_run(tick)
             return
-        if self._cause in ("", "M", "N"):
-            if self._cause:
-                self._watch.allow("stop", STOPS[cause], tick, tick + MS)
-            else:
-                self._watch.expect("stop", STOPS[cause], tick, tick + MS)
-                self._follower.change(tick, lambda curve, k: curve.stopped_at(k))
-        else:
+        if self._cause:
             self._watch.allow("stop", STOPS[cause], tick, tick + MS)
+        else:
+            self._watch.expect("stop", STOPS[cause], tick, tick + MS)
+            self._follower.change(tick, lambda curve, k: curve.stopped_at(k))
         if cause in self._guards:
             self._guards[cause] = 0
         self._cause = cause
@@ -454,11 +448,10 @@ class Motor:
     def _mark_passed(self, made: int) -> None:
         assert self._moving
         border = self._moving.last_begins
+        tick = self._follower.tick_of(min(border, made))
         if 0 < border < made:
-            tick = self._follower.tick_of(border)
             self._mark(tick, tick + SEEN_TICKS)
         elif 0 < border == made:
-            tick = self._follower.tick_of(border)
             for output in self._moving.marks:
                 self._watch.allow("out", output, tick, tick + SEEN_TICKS)
 
