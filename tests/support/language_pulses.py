@@ -5,13 +5,16 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
 
-from language_signals import MS, Difference
+from language_signals import Difference
 from reference import FRACTION_BITS, Curve
 
 ALL_PULSES = 400
 """Of a longer stretch not every pulse is compared, but its ends and some between."""
 
 NEAR_ENDS = 60
+REACTION_TICKS = 2
+"""On the simulator a stop or a change acts at the very next pulse, give or take their rounding."""
+
 TICK = 1 << FRACTION_BITS
 
 
@@ -19,8 +22,8 @@ class Follower:
     """One move: its start, its curve, and the pulses that were really made.
 
     `pulses` are the ticks of all pulses of the motor, `first` is the index of the move's first.
-    A stop or a change acts at the next pulse or within 1 ms; so there may be several curves, and
-    those that the pulses contradict are dropped.
+    Where it is open at which pulse a stop or a change acts there are several curves, and those that
+    the pulses contradict are dropped.
     """
 
     def __init__(self, start: int, curve: Curve, pulses: Sequence[int], first: int) -> None:
@@ -67,7 +70,7 @@ class Follower:
         self.follow(tick)
         curves: dict[Curve, None] = {}
         for curve in self._curves:
-            last = curve.pulses_before(tick - self.start + MS) + 1
+            last = curve.pulses_before(tick - self.start + REACTION_TICKS) + 1
             last = last if curve.last is None else min(last, curve.last)
             for pulse in range(self.made + 1, last + 1):
                 curves.setdefault(new(curve, pulse), None)

@@ -107,9 +107,13 @@ GUARDED = _joined(
     st.one_of(SHORT_MOVE, MOVE),
     st.sampled_from(["U", ""]),
 )
+AGAIN = st.sampled_from(["D R", "R D R", "D R D R", "L3 R D E", "D Y R", "R V90 R", "H"])
+"""What was set up before is run again, turned round, or with other settings."""
+
 SIMPLE = st.one_of(
+    AGAIN, AGAIN,
     SETTING, SETTING, WAIT, OUTPUT, OUTPUT, GUARD, MOVE, SHORT_MOVE, SHORT_MOVE, GUARDED, COMPOUND
-)
+)  # fmt: skip
 
 
 def _nested(inner: Text) -> Text:
