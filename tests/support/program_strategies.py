@@ -7,6 +7,8 @@ compound moves; now and then a command anywhere, which may well be an error.
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 from hypothesis import strategies as st
 from language_signals import MS
 from program_probe import Edge, Request, Script
@@ -19,6 +21,15 @@ LONG_TEXT = 1000
 """Of so many characters and more a program goes without notes, so that it fits a message."""
 
 Text = st.SearchStrategy[str]
+
+
+T = TypeVar("T")
+
+
+def _weighted(*choices: tuple[int, st.SearchStrategy[T]]) -> st.SearchStrategy[T]:
+    """Draw from strategies in proportion to their weights; st.one_of drops doubles."""
+    drawn = [i for i, (weight, _) in enumerate(choices) for _ in range(weight)]
+    return st.sampled_from(drawn).flatmap(lambda i: choices[i][1])
 
 
 def _numbered(letter: str, *numbers: st.SearchStrategy[int]) -> Text:
@@ -43,10 +54,10 @@ SETTING = st.one_of(
     _numbered("B", _from(1, 5, 60, 400)),
     st.just("D"),
 )
-WAIT = st.one_of(
-    _numbered("W", _from(1, 3, 60, 400)),
-    _numbered("O", SOURCES),
-    _numbered("Z", SOURCES),
+WAIT = _weighted(
+    (6, _numbered("W", _from(1, 3, 60, 400))),
+    (1, _numbered("O", SOURCES)),
+    (2, _numbered("Z", SOURCES)),
 )
 OUTPUT = st.one_of(
     _numbered("T", st.integers(1, 8), VARIABLES),
@@ -64,14 +75,13 @@ JUMP = st.one_of(
     _numbered("J", LABELS),
     _numbered("'", LABELS),
 )
-MOVE = st.one_of(
-    st.just("R"),
-    st.just("R"),
-    _numbered("G", st.integers(1, 300)),
-    st.just("H"),
-    st.sampled_from(["G+", "G-"]),
-    _numbered(")", INPUTS),
-    _numbered("(", INPUTS),
+MOVE = _weighted(
+    (6, st.just("R")),
+    (3, _numbered("G", st.integers(1, 300))),
+    (3, st.just("H")),
+    (1, st.sampled_from(["G+", "G-"])),
+    (1, _numbered(")", INPUTS)),
+    (1, _numbered("(", INPUTS)),
 )
 ANYTHING = st.one_of(
     SETTING, WAIT, OUTPUT, GUARD, JUMP, MOVE,
@@ -110,10 +120,17 @@ GUARDED = _joined(
 AGAIN = st.sampled_from(["D R", "R D R", "D R D R", "L3 R D E", "D Y R", "R V90 R", "H"])
 """What was set up before is run again, turned round, or with other settings."""
 
-SIMPLE = st.one_of(
-    AGAIN, AGAIN,
-    SETTING, SETTING, WAIT, OUTPUT, OUTPUT, GUARD, MOVE, SHORT_MOVE, SHORT_MOVE, GUARDED, COMPOUND
-)  # fmt: skip
+SIMPLE = _weighted(
+    (4, SETTING),
+    (2, WAIT),
+    (3, OUTPUT),
+    (2, GUARD),
+    (4, MOVE),
+    (6, SHORT_MOVE),
+    (6, AGAIN),
+    (4, GUARDED),
+    (4, COMPOUND),
+)
 
 
 def _nested(inner: Text) -> Text:
@@ -126,7 +143,7 @@ def _nested(inner: Text) -> Text:
         lambda t: f"'{t[0]} J{t[1]} @{t[0]} {t[2]} . @{t[1]}"
     )
     again = st.tuples(st.integers(1, 4), body, WAIT).map(lambda t: f"@{t[0]} {t[1]} {t[2]} J{t[0]}")
-    return st.one_of(loop, loop, skip, call, again)
+    return _weighted((3, loop), (1, skip), (1, call), (1, again))
 
 
 STATEMENT = st.recursive(SIMPLE, _nested, max_leaves=12)
@@ -137,7 +154,7 @@ START = _joined(
     _numbered("A", _from(500, 9000, 60_000)),
     _numbered("F", _from(1, 60, 400)),
 )
-PROGRAM = _joined(START, _several(STATEMENT, 8))
+PROGRAM = _joined(START, st.lists(STATEMENT, min_size=2, max_size=10).map(" ".join))
 DEEP = st.sampled_from(
     [
         "L2 " * 8 + "T1 " + "E " * 8,
@@ -155,15 +172,14 @@ FILLER = st.builds(
 )
 """Enough of a program to fill the memory, or to come near it."""
 
-LATER = st.one_of(
-    st.sampled_from(["T40", "C40"]),
-    st.sampled_from(["K", "C75", "K", "C75", "\\", "]", "R"]),
-    _numbered("V", SPEEDS),
-    _numbered("V", SPEEDS),
-    _several(ANYTHING, 3),
-    _joined(st.just("\\"), PROGRAM),
+LATER = _weighted(
+    (8, st.sampled_from(["K", "C75", "K", "C75", "\\", "]", "R"])),
+    (6, _numbered("V", SPEEDS)),
+    (3, _several(ANYTHING, 3)),
+    (3, _joined(st.just("\\"), PROGRAM)),
+    (1, st.sampled_from(["T40", "C40"])),
+    (1, FILLER),
 )
-LATER = st.one_of(*[LATER] * 15, FILLER, FILLER)
 
 
 @st.composite
@@ -185,7 +201,7 @@ def _spoilt(draw: st.DrawFn, program: str) -> bytes:
 
 
 def _texts(program: Text) -> st.SearchStrategy[bytes]:
-    return program.flatmap(lambda p: st.one_of(*[_dressed(p)] * 7, _spoilt(p)))
+    return program.flatmap(lambda p: _weighted((11, _dressed(p)), (1, _spoilt(p))))
 
 
 def _set(motor: int, text: bytes) -> bytes:
@@ -193,12 +209,20 @@ def _set(motor: int, text: bytes) -> bytes:
 
 
 MOTOR = st.sampled_from([1, 1, 1, 1, 2, 0])
-MESSAGE = st.one_of(
-    *[st.builds(_set, MOTOR, _texts(LATER))] * 5,
-    st.sampled_from([b"\x041", b"\x040", b"\x051", b"\x071"]),
+MESSAGE = _weighted(
+    (5, st.builds(_set, MOTOR, _texts(LATER))),
+    (1, st.sampled_from([b"\x041", b"\x040", b"\x051", b"\x071"])),
 )
 GAP_TICKS = st.one_of(
     st.integers(MS, 20 * MS), st.integers(MS, 300 * MS), st.integers(MS, 1500 * MS)
+)
+
+
+MAIN = _weighted(
+    (16, PROGRAM),
+    (4, _several(ANYTHING, 9)),
+    (1, _joined(START, DEEP)),
+    (1, _joined(START, st.sampled_from(["W90", "[", "O1"]), FILLER)),
 )
 
 
@@ -207,16 +231,16 @@ def scripts(draw: st.DrawFn) -> Script:
     """Draw a whole script: one to three motors with programs, then messages and inputs."""
     tick = draw(st.sampled_from([0, 1, MS]))
     motors = draw(st.sampled_from([(1,), (1,), (1, 2), (1, 2, 3)]))
-    main = st.one_of(PROGRAM, PROGRAM, PROGRAM, _several(ANYTHING, 9), _joined(START, DEEP))
-    main = st.one_of(*[main] * 7, _joined(START, st.sampled_from(["W90", "[", "O1"]), FILLER))
-    requests = [Request(tick, _set(motor, draw(_texts(main)))) for motor in motors]
+    requests = [Request(tick, _set(motor, draw(_texts(MAIN)))) for motor in motors]
     for _ in range(draw(st.integers(0, 6))):
         tick += draw(GAP_TICKS)
         requests.append(Request(tick, draw(MESSAGE)))
     end = tick + TAIL_MS * MS
-    edges, at = [], 0
-    for _ in range(draw(st.integers(0, 8))):
+    edges, at, levels = [], 0, dict.fromkeys(range(1, 9), 0)
+    for _ in range(draw(st.integers(0, 12))):
         at += draw(GAP_TICKS)
+        number = draw(INPUTS)
+        levels[number] = 1 - levels[number]
         if at < end:
-            edges.append(Edge(at, draw(INPUTS), draw(st.integers(0, 1))))
+            edges.append(Edge(at, number, levels[number]))
     return Script(tuple(requests), tuple(edges), end, draw(st.integers(0, (1 << EPOCH_BITS) - 1)))
