@@ -55,7 +55,8 @@ class Memory:
 
     def find_label(self, number: int) -> int | None:
         """The ordinal of the youngest label with a number."""
-        for ordinal in range(self.end - 1, self.oldest - 1, -1):
-            if self.read(ordinal) == Command("@", number):
-                return ordinal
+        wanted = Command("@", number)
+        for back, command in enumerate(reversed(self._commands)):
+            if command == wanted:
+                return self._written - back
         return None
