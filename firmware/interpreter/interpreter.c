@@ -175,12 +175,18 @@ static bool interpreter_advance(struct interpreter *interpreter, uint64_t now_ti
     return false;
 }
 
+/* A rest that the end of a move has begun, and whose guard had its level already: nothing else brings main back. */
+static bool has_ended_move(const struct interpreter *interpreter)
+{
+    return interpreter->under_way && !mover_is_moving(interpreter->mover);
+}
+
 uint64_t interpreter_poll(struct interpreter *interpreter, uint64_t now_ticks)
 {
     for (unsigned i = 0; i < INTERPRETER_SLICE_COMMANDS; i++) {
         interpreter_watch_move(interpreter, now_ticks);
         watch_total_stop(interpreter, now_ticks);
-        if (!interpreter_advance(interpreter, now_ticks)) {
+        if (!interpreter_advance(interpreter, now_ticks) && !has_ended_move(interpreter)) {
             return interpreter->state == INTERPRETER_WAIT_TIME ? interpreter->clock : TICK_NEVER;
         }
     }

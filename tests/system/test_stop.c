@@ -116,6 +116,20 @@ void test_k_takes_back_a_c75_that_waits_for_the_motor_to_stand(void)
     TEST_ASSERT_EQUAL_INT64(948, bench_position(&bench, 1));
 }
 
+TEST_CASE("S100 V1000 A2000 M03 F2000 R T01", 700)
+TEST_CASE("S100 V1000 A2000 )03 T01", 5)
+void test_c75_while_the_motor_brakes_passes_over_a_rest_that_an_input_forbids(const char *text, unsigned pulses)
+{
+    bench_send(&bench, 1, text);
+    bench_run_pulses(&bench, 1, pulses);
+    bench_send(&bench, 1, "K");
+    bench_set_input(&bench, 3, true);
+    bench_do(&bench, 1, "C75");
+    TEST_ASSERT_EQUAL_UINT32(2, bench_count(&bench, 1, HAL_TRACE_DONE));
+    TEST_ASSERT_EQUAL_INT64(0, bench_event(&bench, 1, HAL_TRACE_DONE, 1)->value);
+    TEST_ASSERT_TRUE(bench_output(&bench, 1));
+}
+
 void test_nothing_is_left_of_a_move_that_k_finds_on_its_last_ramp(void)
 {
     bench_send(&bench, 1, "S100 V1000 A2000 F2000 R T01");
