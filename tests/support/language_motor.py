@@ -452,8 +452,11 @@ class Motor:
         if 0 < border < made:
             self._mark(tick, tick + SEEN_TICKS)
         elif 0 < border == made:
-            for output in self._moving.marks:
-                self._watch.allow("out", output, tick, tick + SEEN_TICKS)
+            said = [
+                self._watch.allow("out", n, tick, tick + SEEN_TICKS) for n in self._moving.marks
+            ]
+            if self._order and any(said):
+                self._order = replace(self._order, marks=())
 
     def _finish(self, made: int, seen: int) -> None:
         """Go on behind a move as what has stopped it wants."""

@@ -65,7 +65,10 @@ class Order:
         return sum(section.steps for section in self.sections[:-1])
 
     def rest(self, made: int) -> Order | None:
-        """What is left when so many steps have been made; None: nothing."""
+        """What is left when so many steps have been made; None: nothing.
+
+        A last section that has begun does not set its outputs again.
+        """
         if self.is_endless:
             return self
         ends = accumulate(section.steps for section in self.sections)
@@ -74,7 +77,8 @@ class Order:
             for section, end in zip(self.sections, ends, strict=True)
             if end > made
         ]
-        return replace(self, sections=tuple(left)) if left else None
+        marks = self.marks if made <= self.last_begins else ()
+        return replace(self, sections=tuple(left), marks=marks) if left else None
 
 
 @dataclass

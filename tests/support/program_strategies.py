@@ -221,7 +221,7 @@ GAP_TICKS = st.one_of(
 MAIN = _weighted(
     (16, PROGRAM),
     (4, _several(ANYTHING, 9)),
-    (1, _joined(START, DEEP)),
+    (3, _joined(START, DEEP)),
     (1, _joined(START, st.sampled_from(["W90", "[", "O1"]), FILLER)),
 )
 
