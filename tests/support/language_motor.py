@@ -63,10 +63,10 @@ class Motor:
         moving = self.phase is Phase.MOVING
         if moving:
             self._stop("\\", tick)
-        order, cause = self._order, self._cause
+        order = self._order
         self._start_over()
         if moving:
-            self._order, self._cause = order, cause
+            self._order, self._cause = order, "\\"
         else:
             self._watch.allow("stop", STOPS["\\"], tick, tick)
             self.phase, self._clock, self._now = Phase.IDLE, tick, Moment(tick, tick + SEEN_TICKS)
@@ -172,10 +172,9 @@ class Motor:
         if self.phase is Phase.ENDED:
             return False
         found = self._total_stop(self._now.low, until)
-        if found is None:
-            return False
-        self._end_by_x(found)
-        return True
+        if found is not None:
+            self._end_by_x(found)
+        return found is not None
 
     def _run_from(self, clock: int, seen: int) -> None:
         self._clock = clock
@@ -403,9 +402,9 @@ class Motor:
         if self._cause in ("X", "\\"):
             return None
         wanted = [("X", n, 1) for n in sorted(self._totals)]
-        if not self._cause:
+        if not self._cause and self._order:
             wanted += [("M", self._guards["M"], 1), ("N", self._guards["N"], 0)]
-            wanted += [("limit", self._order.limit, 1)] if self._order else []
+            wanted += [("limit", self._order.limit, 1)]
         firsts = [(self._world.inputs[n].first(level, after), c) for c, n, level in wanted if n]
         due = [(tick, cause) for tick, cause in firsts if tick is not None and tick < until]
         return min(due, key=lambda first: first[0], default=None)
