@@ -92,9 +92,10 @@ void tearDown(void)
 void test_the_corpus_itself_is_heard(void)
 {
     for (unsigned i = 0; i < REQUESTS; i++) {
+        bool fits = strlen(requests[i]) <= LINK_REQUEST_BYTES_MAX;
         make_frame(i);
-        TEST_ASSERT_EQUAL_UINT_MESSAGE(1, take(frame, length), requests[i]);
-        TEST_ASSERT_EQUAL_UINT32(strlen(requests[i]), receiver.length);
+        TEST_ASSERT_EQUAL_UINT_MESSAGE(fits ? 1 : 0, take(frame, length), requests[i]);
+        TEST_ASSERT_TRUE(!fits || receiver.length == strlen(requests[i]));
     }
 }
 
