@@ -379,7 +379,7 @@ class Motor:
         if self._cause and (done := self._watch.next("done")):
             self._follower.settle(abs(done.value))
         end = self._follower.end
-        limit = until if end is None else min(until, end + 1)
+        limit = until if end is None else min(until, end + SEEN_TICKS)
         found = self._next_cause(self._cared, limit)
         if found is not None:
             tick, cause = found
