@@ -79,14 +79,15 @@ static void restart_with_kept_flash(void)
     restart();
 }
 
-/* A motor runs its own program and shows nothing, or it is damaged, shows it and does nothing. Returns whether it is. */
+/* A motor runs its own program and shows nothing; or it is damaged, shows it and does nothing. Tells whether it is. */
 static bool is_damaged(unsigned motor)
 {
     bool damaged = bench_count(&bench, motor, HAL_TRACE_ERROR) != 0;
     TEST_ASSERT_EQUAL_UINT(damaged ? 0 : 1, bench_output(&bench, motor));
     TEST_ASSERT_EQUAL_STRING(damaged ? "" : old_texts[motor], bench_ask(&bench, PROTOCOL_GET_COMMAND, motor));
     if (damaged) {
-        TEST_ASSERT_EQUAL_INT64(INTERPRETER_ERROR_STORED_PROGRAM, bench_event(&bench, motor, HAL_TRACE_ERROR, 0)->value);
+        const struct bench_event *error = bench_event(&bench, motor, HAL_TRACE_ERROR, 0);
+        TEST_ASSERT_EQUAL_INT64(INTERPRETER_ERROR_STORED_PROGRAM, error->value);
     }
     return damaged;
 }
