@@ -26,7 +26,7 @@ enum {
 
 /* How far the program clock may fall behind and still be the start of a move or a wait: a start this far in the past is
  * as exact as one to come, since the first pulse of a move follows its start by 496 us at least (S2000 A60000). */
-#define INTERPRETER_CLOCK_SLACK_TICKS (UINT64_C(300) * TICKS_PER_US)
+#define INTERPRETER_CLOCK_SLACK_TICKS (UINT64_C(200) * TICKS_PER_US)
 
 /* Why a program has ended with an error. X(NAME, text) */
 #define INTERPRETER_ERRORS(X)                                                                                          \

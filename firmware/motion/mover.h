@@ -39,7 +39,7 @@ struct mover {
 /* Stands at position 0. */
 void mover_init(struct mover *mover, unsigned motor);
 
-/* Begins a move at `start_tick`, the unit's time, which may be up to 300 us past: the first pulse comes a whole step
+/* Begins a move at `start_tick`, the unit's time, which may be up to 200 us past: the first pulse comes a whole step
  * later. Where an input of a guard has the guarded level already, no step is made and the cause is set. */
 void mover_start(struct mover *mover, const struct motion_order *order, bool backward, uint64_t start_tick,
                  const struct mover_guards *guards, uint8_t inputs);

@@ -138,10 +138,10 @@ void test_a_motor_that_reaches_the_hold_at_the_release_starts_with_the_others(vo
     TEST_ASSERT_EQUAL_UINT64(after_ms(released, 1), bench_pulse_tick(&bench, 2, 2));
 }
 
-/* 15 passes of main, 20 us each, are within the slack of the clock: the start is exact. */
+/* 10 passes of main, 20 us each, are within the slack of the clock: the start is exact. */
 void test_a_short_calculation_does_not_shift_the_next_move(void)
 {
-    bench_do(&bench, 1, "S1000 F1 R L60 T80 C80 E R");
+    bench_do(&bench, 1, "S1000 F1 R L38 T80 C80 E R");
     TEST_ASSERT_EQUAL_UINT64(TICKS_PER_MS, bench_pulse_tick(&bench, 1, 2) - bench_pulse_tick(&bench, 1, 1));
 }
 

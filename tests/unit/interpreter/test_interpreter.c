@@ -147,10 +147,10 @@ void test_a_command_is_not_run_before_it_came(void)
     TEST_ASSERT_EQUAL_HEX8(1, io.outputs);
 }
 
-/* A start lies up to 300 us back at the program clock, and one tick later it is now. */
+/* A start lies up to 200 us back at the program clock, and one tick later it is now. */
 TEST_CASE(0, 0)
-TEST_CASE(25200, 0)
-TEST_CASE(25201, 25201)
+TEST_CASE(16800, 0)
+TEST_CASE(16801, 16801)
 void test_a_move_begins_at_the_clock_unless_that_has_fallen_behind(unsigned behind, unsigned start)
 {
     uint64_t came = now();
