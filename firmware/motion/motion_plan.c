@@ -190,14 +190,13 @@ static bool is_same_place(struct motion_place a, struct motion_place b)
 /* Whether the leg has no length. */
 static bool is_leg_empty(const struct motion_progress *progress)
 {
-    switch (progress->leg) {
-    case 0:
-        return is_same_place(progress->place, progress->profile.corner_a);
-    case 1:
-        return is_same_place(progress->place, progress->profile.corner_b);
-    default:
-        return is_same_place(progress->place, (struct motion_place){.step = progress->profile.end});
+    struct motion_place end = {.step = progress->profile.end};
+    if (progress->leg == 0) {
+        end = progress->profile.corner_a;
+    } else if (progress->leg == 1U) {
+        end = progress->profile.corner_b;
     }
+    return is_same_place(progress->place, end);
 }
 
 static void next_leg(struct motion_plan *plan)

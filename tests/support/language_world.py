@@ -7,7 +7,7 @@ from enum import Enum, auto
 
 from language_signals import US, Signal, Variables, Watch
 
-BEHIND_TICKS = 300 * US
+BEHIND_TICKS = 200 * US
 """By so much a move or a wait may be late and still count from the program clock."""
 
 LOCK = 40
