@@ -1,0 +1,211 @@
+"""Plants the bugs of tests/planted one at a time in a copy of the tree: is each one caught?
+
+A patch begins with a line that says what is wrong, and one that names the smallest test that must
+fail: `Caught by: ctest NAME` or `Caught by: pytest NODE`. A bug that does not compile is not
+caught, as no test saw it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import filecmp
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = ROOT / "tests" / "planted"
+COPY = ROOT / "build" / "planted" / "tree"
+PARTS = (
+    "CMakeLists.txt",
+    "CMakePresets.json",
+    "LICENSE",
+    "README.md",
+    "firmware",
+    "hal",
+    "tests",
+    "tools",
+)
+TEST_SECONDS_MAX = 120  # a loop without end is caught by then
+CAUGHT_BY = re.compile(r"Caught by: (ctest|pytest) (\S+)")
+STATUS_SOME_FAILED = 1  # of pytest; others mean that no test ran
+
+
+@dataclass(frozen=True)
+class Bug:
+    """A patch, what it says of itself, and the test that it names."""
+
+    patch: Path
+    what: str
+    runner: str
+    test: str
+
+    def __str__(self) -> str:
+        return f"{self.patch.stem}: {self.what}"
+
+
+class BadPatch(Exception):
+    """A patch that does not say what it has to."""
+
+
+def read(patch: Path) -> Bug:
+    """The bug of a patch."""
+    lines = patch.read_text().splitlines()
+    match = CAUGHT_BY.fullmatch(lines[1]) if len(lines) > 1 else None
+    if not lines or not lines[0].endswith(".") or match is None:
+        raise BadPatch(f"{patch.name}: the head must say what is wrong, and what it is caught by")
+    return Bug(patch, lines[0], match[1], match[2])
+
+
+def bugs(names: list[str] | None = None) -> list[Bug]:
+    """All bugs, or those that are named."""
+    patches = sorted(FOLDER.glob("*.patch"))
+    return [read(patch) for patch in patches if not names or patch.stem in names]
+
+
+def apply(bug: Bug, folder: Path, *options: str) -> str:
+    """Apply a patch in a folder; what git complains of."""
+    # Inside of a repository git would take the paths of a patch for those of the repository.
+    environment = {**os.environ, "GIT_CEILING_DIRECTORIES": str(folder.parent)}
+    done = subprocess.run(
+        ["git", "apply", "--verbose", *options, bug.patch], cwd=folder, env=environment,
+        capture_output=True, text=True,
+    )  # fmt: skip
+    return "" if done.returncode == 0 else done.stderr.strip()
+
+
+def environment() -> dict[str, str]:
+    """What the copy's builds and tests are run with: nothing of the tree that was copied."""
+    return {
+        **os.environ,
+        "RKM04_BUILD": str(COPY / "build" / "host"),
+        "PYTHONPATH": str(COPY / "tools"),
+        "CCACHE_BASEDIR": str(COPY),
+        "HYPOTHESIS_STORAGE_DIRECTORY": str(COPY / "build" / "cache" / "hypothesis"),
+    }
+
+
+def call(*command: str | Path) -> subprocess.CompletedProcess[str]:
+    """Run a command in the copy."""
+    return subprocess.run(
+        list(map(str, command)), cwd=COPY, env=environment(), stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
+        timeout=TEST_SECONDS_MAX,
+    )  # fmt: skip
+
+
+def copy_changed(source: str, target: str) -> None:
+    """Copy a file that has changed; others keep their time, and so what was built of them."""
+    if not (Path(target).exists() and filecmp.cmp(source, target, shallow=False)):
+        shutil.copy(source, target)
+
+
+def copy_tree() -> None:
+    """Bring the copy up to date."""
+    for part in PARTS:
+        if (ROOT / part).is_file():
+            COPY.mkdir(parents=True, exist_ok=True)
+            copy_changed(str(ROOT / part), str(COPY / part))
+            continue
+        ignored = shutil.ignore_patterns("__pycache__")
+        shutil.copytree(
+            ROOT / part, COPY / part, ignore=ignored, copy_function=copy_changed, dirs_exist_ok=True
+        )
+        for path in (COPY / part).rglob("*"):
+            if path.is_file() and not (ROOT / path.relative_to(COPY)).exists():
+                path.unlink()
+
+
+def build(targets: set[str]) -> str:
+    """Build targets for the host; what the build complains of."""
+    command = ["cmake", "--build", str(COPY / "build/host"), "--target", *sorted(targets)]
+    done = subprocess.run(
+        command,
+        cwd=COPY,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    return "" if done.returncode == 0 else done.stdout
+
+
+def target(bug: Bug) -> str:
+    """What must be built for the test of a bug."""
+    return bug.test if bug.runner == "ctest" else "rkm04-programs"
+
+
+def test_fails(bug: Bug) -> bool | None:
+    """Whether the test of a bug fails; None where it has not been run."""
+    try:
+        if bug.runner == "ctest":
+            stage = bug.test.partition(".")[0]
+            return call(COPY / "build" / "host" / "tests" / stage / bug.test).returncode != 0
+        status = call(
+            sys.executable, "-P", "-m", "pytest", "-q", "-x", "-c", "tools/pyproject.toml",
+            "--rootdir", COPY, bug.test,
+        ).returncode  # fmt: skip
+    except subprocess.TimeoutExpired:
+        return True
+    return status == STATUS_SOME_FAILED if status in (0, STATUS_SOME_FAILED) else None
+
+
+def plant(bug: Bug) -> str:
+    """Plant a bug, try its test and take the bug out again; what is wrong if it was not caught."""
+    if complaint := apply(bug, COPY):
+        return f"the patch no longer applies: {complaint}"
+    try:
+        if complaint := build({target(bug)}):
+            return f"it does not compile: {complaint[-2000:]}"
+        fails = test_fails(bug)
+        if fails is None:
+            return f"{bug.test} was not run"
+        return "" if fails else f"{bug.test} does not see it"
+    finally:
+        if complaint := apply(bug, COPY, "--reverse"):
+            raise BadPatch(f"{bug}: cannot be taken out again: {complaint}")
+
+
+def prepare(chosen: list[Bug]) -> list[str]:
+    """Copy and build the tree as it is, and run the tests: without a bug all must pass."""
+    copy_tree()
+    if not (COPY / "build" / "host" / "build.ninja").exists():
+        done = call("cmake", "--preset", "host")
+        if done.returncode != 0:
+            return [done.stdout]
+    if complaint := build({target(bug) for bug in chosen}):
+        return [complaint]
+    tests = {bug.test: bug for bug in chosen}
+    return [
+        f"{test} does not pass without a bug"
+        for test, bug in tests.items()
+        if test_fails(bug) is not False
+    ]
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(
+        description="Plants bugs and looks whether the tests catch them."
+    )
+    parser.add_argument("names", nargs="*", metavar="NAME", help="of a patch (all)")
+    chosen = bugs(parser.parse_args().names)
+    if complaints := prepare(chosen):
+        print("\n".join(complaints))
+        return 1
+    caught = 0
+    for bug in chosen:
+        started = time.monotonic()
+        complaint = plant(bug)
+        caught += not complaint
+        print(f"{complaint or 'caught'} ({time.monotonic() - started:.1f} s): {bug}", flush=True)
+    print(f"{caught} of {len(chosen)} planted bugs caught")
+    return 0 if caught == len(chosen) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
