@@ -212,6 +212,17 @@ def steps(quick: bool, fuzz_seconds: int = FUZZ_SECONDS) -> dict[str, Callable[[
     return chosen
 
 
+def long_steps() -> dict[str, Callable[[], Count]]:
+    def shown(module: str) -> Count:
+        good = succeeds(*PYTHON, module, show=True)
+        return Count(passed=1) if good else Count(failed=1)
+
+    return {
+        "Planted bugs (host, stm32)": lambda: shown("checks.planted"),
+        "Mutation (host)": lambda: shown("checks.mutation"),
+    }
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(prog="tools/test", description="Runs every test and check.")
     parser.add_argument(
@@ -219,12 +230,13 @@ def main() -> int:
     )
     parser.add_argument(
         "--long", type=int, nargs="?", const=LONG_MINUTES, metavar="MINUTES",
-        help=f"each fuzzer explores for so long ({LONG_MINUTES})",
+        help=f"plants bugs, mutates, and each fuzzer explores for so long ({LONG_MINUTES})",
     )  # fmt: skip
     options = parser.parse_args()
     total = Count()
     fuzz_seconds = options.long * 60 if options.long else FUZZ_SECONDS
-    for title, step in steps(options.quick, fuzz_seconds).items():
+    more = long_steps() if options.long and not options.quick else {}
+    for title, step in (steps(options.quick, fuzz_seconds) | more).items():
         print(f"== {title}", flush=True)
         started = time.monotonic()
         count = step()
