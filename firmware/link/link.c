@@ -7,8 +7,6 @@ void link_init(struct link *link, uint8_t node, const uint8_t *answer)
     link_receiver_init(&link->receiver, node, link->message);
     link_sender_init(&link->sender);
     link->answer = answer;
-    link->ready_tick = TICK_NEVER;
-    link->answer_number = LINK_NUMBER_NONE;
     link_forget(link);
 }
 
@@ -75,8 +73,6 @@ void link_forget(struct link *link)
 {
     link->waiting = false;
     link->answered_number = LINK_NUMBER_NONE;
-    link->answered_length = 0;
-    link->answer_length = 0;
 }
 
 uint64_t link_poll(struct link *link, uint64_t now_ticks)

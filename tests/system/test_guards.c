@@ -115,6 +115,19 @@ void test_guards_act_on_every_kind_of_move(const char *move)
     TEST_ASSERT_TRUE(bench_output(&bench, 1));
 }
 
+TEST_CASE(1)
+TEST_CASE(2)
+TEST_CASE(3)
+TEST_CASE(4)
+void test_guards_act_on_every_motor(unsigned motor)
+{
+    bench_send(&bench, motor, "M03 S1000 F90 R");
+    bench_run_pulses(&bench, motor, 20);
+    bench_set_input(&bench, 3, true);
+    bench_run_idle(&bench);
+    TEST_ASSERT_UINT32_WITHIN(1, 20, bench_pulses(&bench, motor));
+}
+
 void test_a_short_pulse_of_a_guard_stops_the_move(void)
 {
     bench_send(&bench, 1, "M03 S100 V1000 A2000 F2000 R T01");

@@ -180,7 +180,7 @@ class Bench:
 
 def digest(objects: dict[Path, Path]) -> bytes:
     """What tells objects from others."""
-    return hashlib.sha256(b"".join(path.read_bytes() for path in objects.values())).digest()
+    return hashlib.sha256(b"".join(path.read_bytes() for path in sorted(objects.values()))).digest()
 
 
 @dataclass

@@ -31,7 +31,8 @@ PARTS = (
     "tests",
     "tools",
 )
-TEST_SECONDS_MAX = 120  # a loop without end is caught by then
+C_SECONDS_MAX = 30  # that a test may take; a loop without end is caught by then
+PYTHON_SECONDS_MAX = 300
 CAUGHT_BY = re.compile(r"Caught by: (ctest|pytest) (\S+)")
 STATUS_SOME_FAILED = 1  # of pytest; others mean that no test ran
 
@@ -90,12 +91,12 @@ def environment() -> dict[str, str]:
     }
 
 
-def call(*command: str | Path) -> subprocess.CompletedProcess[str]:
-    """Run a command in the copy."""
+def call(seconds: float, *command: str | Path) -> subprocess.CompletedProcess[str]:
+    """Run a command in the copy, for so long at most."""
     return subprocess.run(
         list(map(str, command)), cwd=COPY, env=environment(), stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
-        timeout=TEST_SECONDS_MAX,
+        timeout=seconds,
     )  # fmt: skip
 
 
@@ -145,9 +146,10 @@ def test_fails(bug: Bug) -> bool | None:
     try:
         if bug.runner == "ctest":
             stage = bug.test.partition(".")[0]
-            return call(COPY / "build" / "host" / "tests" / stage / bug.test).returncode != 0
+            program = COPY / "build" / "host" / "tests" / stage / bug.test
+            return call(C_SECONDS_MAX, program).returncode != 0
         status = call(
-            sys.executable, "-P", "-m", "pytest", "-q", "-x", "-c", "tools/pyproject.toml",
+            PYTHON_SECONDS_MAX, sys.executable, "-P", "-m", "pytest", "-q", "-x", "-c", "tools/pyproject.toml",
             "--rootdir", COPY, bug.test,
         ).returncode  # fmt: skip
     except subprocess.TimeoutExpired:
@@ -175,7 +177,7 @@ def prepare(chosen: list[Bug]) -> list[str]:
     """Copy and build the tree as it is, and run the tests: without a bug all must pass."""
     copy_tree()
     if not (COPY / "build" / "host" / "build.ninja").exists():
-        done = call("cmake", "--preset", "host")
+        done = call(PYTHON_SECONDS_MAX, "cmake", "--preset", "host")
         if done.returncode != 0:
             return [done.stdout]
     if complaint := build({target(bug) for bug in chosen}):

@@ -130,6 +130,38 @@ void test_later_than_that_it_is_given_up(void)
     TEST_ASSERT_EQUAL_UINT32(1, link.receiver.counts[LINK_COUNT_UNSENT]);
 }
 
+void test_each_answer_has_its_own_time(void)
+{
+    ask(1, "a", "A");
+    TEST_ASSERT_EQUAL_STRING("A", hear(1));
+    tick += 1000 * (uint64_t)TICKS_PER_MS;
+    ask(2, "b", "B");
+    TEST_ASSERT_EQUAL_STRING("B", hear(2));
+}
+
+void test_the_limits_are_those_of_the_line(void)
+{
+    TEST_ASSERT_EQUAL(16, LINK_NODE_MAX);
+    TEST_ASSERT_EQUAL(8402, LINK_ANSWER_BYTES_MAX);
+#ifdef RKM04_TINY_LIMITS
+    TEST_ASSERT_EQUAL(40, LINK_REQUEST_BYTES_MAX);
+#else
+    TEST_ASSERT_EQUAL(8192, LINK_REQUEST_BYTES_MAX);
+#endif
+}
+
+void test_every_node_answers_with_its_own_address(void)
+{
+    for (unsigned node = 1; node <= LINK_NODE_MAX; node++) {
+        link_init(&link, (uint8_t)node, answer);
+        take(frame, frame_write(frame, (uint8_t)node, 1, "a", 1));
+        link_answer(&link, 1);
+        (void)link_poll(&link, tick + TICKS_PER_MS);
+        link_advance(&link);
+        TEST_ASSERT_EQUAL_HEX8(0x80U + node, link_byte(&link));
+    }
+}
+
 void test_a_request_that_took_long_is_answered_when_it_is_done(void)
 {
     ask(1, "a", "A");

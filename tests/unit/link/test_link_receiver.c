@@ -141,6 +141,14 @@ void test_a_unit_hears_only_its_own_address_and_the_broadcast(void)
     }
 }
 
+void test_frames_for_this_unit_are_counted(void)
+{
+    take(frame, make_frame(NODE, 5, 1));
+    take(frame, make_frame(LINK_NODE_BROADCAST, 5, 1));
+    take(frame, make_frame(NODE + 1, 5, 1));
+    TEST_ASSERT_EQUAL_UINT32(2, receiver.counts[LINK_COUNT_FRAMES]);
+}
+
 void test_flags_may_be_shared(void)
 {
     uint32_t length = make_frame(NODE, 3, 1);
