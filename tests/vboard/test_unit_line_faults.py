@@ -19,6 +19,7 @@ COUNTS = ("FRAMES", "FOREIGN", "STRAY", "BROKEN", "FCS", "ABORT", "ESCAPE", "SHO
 READY_MS = 30.0
 BETWEEN_MS = 2.0
 USART1 = 53
+USART1_BRR = 0x4001_1008
 SEED = 20261121
 
 
@@ -94,3 +95,15 @@ def test_random_bytes_on_the_line_are_never_executed(unit):
     assert [answer.message for answer in heard(unit.folder)] == [TOLD_VERSION]
     assert counts(unit, modelled)["FRAMES"] == 1
     assert counts(unit, modelled)["BROKEN"] > 100
+
+
+def test_a_transmitter_that_is_stuck_lets_the_line_go(unit):
+    request = frame(1, 0, VERSION)
+    stuck_ms = READY_MS + len(request) * BYTE_MS + 4  # in the middle of the answer
+    fault = f"{stuck_ms:.3f}:word={USART1_BRR:x}:ffff"  # 38 ms a bit
+
+    modelled = unit.run(f"{READY_MS} {request.hex()}\n", 0.1, "", "--fault", fault)
+
+    ms, level = modelled.edges("de")[-1]
+    assert level == 0
+    assert stuck_ms + 9 <= ms <= stuck_ms + 12

@@ -149,8 +149,8 @@ def test_fails(bug: Bug) -> bool | None:
             program = COPY / "build" / "host" / "tests" / stage / bug.test
             return call(C_SECONDS_MAX, program).returncode != 0
         status = call(
-            PYTHON_SECONDS_MAX, sys.executable, "-P", "-m", "pytest", "-q", "-x", "-c", "tools/pyproject.toml",
-            "--rootdir", COPY, bug.test,
+            PYTHON_SECONDS_MAX, sys.executable, "-P", "-m", "pytest", "-q", "-x",
+            "-c", "tools/pyproject.toml", "--rootdir", COPY, bug.test,
         ).returncode  # fmt: skip
     except subprocess.TimeoutExpired:
         return True
