@@ -99,6 +99,14 @@ void test_a_pulse_backward_takes_a_step_off(void)
     TEST_ASSERT_EQUAL_UINT64(3, step_channel_pulses(&channel));
 }
 
+void test_the_position_may_be_set_again_and_again(void)
+{
+    step_channel_set_position(&channel, 100);
+    step_channel_set_position(&channel, -7);
+
+    TEST_ASSERT_EQUAL_INT64(-7, step_channel_position(&channel));
+}
+
 void test_the_position_goes_on_in_the_next_move_and_the_count_of_pulses_begins_anew(void)
 {
     begin_move(5);
