@@ -18,6 +18,9 @@ function(rkm04_add_mock header)
     target_link_libraries(mock_${header} PUBLIC cmock rkm04_hal)
 endfunction()
 
+# All test programs, for a preset that needs nothing else.
+add_custom_target(rkm04-tests)
+
 # rkm04_add_test(<group> <library> <source>): a test program with a generated runner.
 #
 # It runs on the host backend, unless it includes a mock_hal_*.h: then those mocks are its backend.
@@ -54,6 +57,7 @@ function(rkm04_add_test group library source)
     endif()
 
     add_test(NAME ${name} COMMAND ${name})
+    add_dependencies(rkm04-tests ${name})
 endfunction()
 
 # rkm04_add_tests(<group> <library> <folder>): every test_*.c of a folder.

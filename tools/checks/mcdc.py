@@ -1,0 +1,224 @@
+"""Branch and MC/DC coverage of the stages that decide what moves.
+
+Runs the tests of the preset `mcdc`, which must have been built, and prints a line a folder. It
+fails when a branch that can be reached was not, or when fewer conditions than MCDC_PERCENT were
+shown to decide on their own. What cannot be reached is in unreachable.txt beside this file, with
+its reason; assertions count nowhere.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = ROOT / "build/mcdc"
+PROFILES = BUILD / "profiles"
+LIST = Path(__file__).with_name("unreachable.txt")
+FOLDERS = ("motion", "step", "link", "program", "interpreter", "store")
+MCDC_PERCENT = 95.0
+VERSION = 19  # of clang and llvm
+
+Place = tuple[str, int, int]  # file below firmware/, line, column
+
+
+@dataclass
+class Branch:
+    taken: int = 0
+    passed: int = 0
+
+
+@dataclass
+class Folder:
+    branches: dict[Place, Branch] = field(default_factory=dict)
+    decisions: dict[Place, list[bool]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Excuse:
+    """A side of a branch that no run can take."""
+
+    file: str
+    text: str
+    side: str
+    reason: str
+
+
+def read_excuses(text: str) -> list[Excuse]:
+    """Lines `file | source text | true or false | reason`."""
+    excuses = []
+    for line in text.splitlines():
+        if line and not line.startswith("#"):
+            file, source, side, reason = (part.strip() for part in line.split(" | "))
+            excuses.append(Excuse(file, source, side, reason))
+    return excuses
+
+
+def assertion_lines(source: str) -> set[int]:
+    """The lines of all assertions, those of several lines included; from 1."""
+    lines: set[int] = set()
+    for start in re.finditer(r"\b(?:static_)?assert\(", source):
+        depth, end = 1, start.end()
+        while depth:
+            depth += {"(": 1, ")": -1}.get(source[end], 0)
+            end += 1
+        first = source.count("\n", 0, start.start()) + 1
+        lines.update(range(first, source.count("\n", 0, end) + 2))
+    return lines
+
+
+def run(*command: str | Path) -> str:
+    return subprocess.run(
+        list(map(str, command)), check=True, stdout=subprocess.PIPE, text=True
+    ).stdout
+
+
+def programs() -> list[Path]:
+    return sorted(p for p in (BUILD / "tests").rglob("*") if p.is_file() and os.access(p, os.X_OK))
+
+
+def merge_profiles() -> Path:
+    merged = BUILD / "merged.profdata"
+    profiles = sorted(PROFILES.glob("*.profraw"))
+    run(f"llvm-profdata-{VERSION}", "merge", "--sparse", "-o", merged, *profiles)
+    return merged
+
+
+def read_files(merged: Path) -> list[dict[str, Any]]:
+    """What llvm-cov knows of each source, over all programs."""
+    objects = [f"--object={program}" for program in programs()]
+    text = run(
+        f"llvm-cov-{VERSION}", "export", "--format=text", "--skip-expansions", "--skip-functions",
+        f"--instr-profile={merged}", *objects,
+    )  # fmt: skip
+    files: list[dict[str, Any]] = json.loads(text)["data"][0]["files"]
+    return files
+
+
+def collect(files: Iterable[dict[str, Any]], sources: dict[str, str]) -> dict[str, Folder]:
+    """The branches and decisions of our folders, without assertions; copies of a line are one."""
+    folders = {name: Folder() for name in FOLDERS}
+    for file in files:
+        name = os.path.relpath(file["filename"], ROOT / "firmware")
+        if name not in sources:
+            continue
+        folder = folders[name.split("/")[0]]
+        asserted = assertion_lines(sources[name])
+        for line, column, _, _, taken, passed, *_ in file.get("branches", []):
+            if line not in asserted:
+                branch = folder.branches.setdefault((name, line, column), Branch())
+                branch.taken += taken
+                branch.passed += passed
+        for line, column, *_, shown in file.get("mcdc_records", []):
+            if line not in asserted:
+                merge_decision(folder.decisions, (name, line, column), shown)
+    return folders
+
+
+def merge_decision(decisions: dict[Place, list[bool]], place: Place, shown: list[bool]) -> None:
+    known = decisions.setdefault(place, [False] * len(shown))
+    decisions[place] = [a or b for a, b in zip(known, shown, strict=True)]
+
+
+def missing_branches(folder: Folder) -> list[tuple[Place, str]]:
+    return [
+        (place, side)
+        for place, branch in sorted(folder.branches.items())
+        for side, count in (("true", branch.taken), ("false", branch.passed))
+        if count == 0
+    ]
+
+
+def missing_conditions(folder: Folder) -> list[tuple[Place, int]]:
+    return [
+        (place, index + 1)
+        for place, shown in sorted(folder.decisions.items())
+        for index, good in enumerate(shown)
+        if not good
+    ]
+
+
+def line_of(place: Place, sources: dict[str, str]) -> str:
+    return sources[place[0]].splitlines()[place[1] - 1].strip()
+
+
+def read_sources() -> dict[str, str]:
+    firmware = ROOT / "firmware"
+    return {
+        str(path.relative_to(firmware)): path.read_text()
+        for folder in FOLDERS
+        for path in sorted((firmware / folder).glob("*.[ch]"))
+    }
+
+
+def report(folders: dict[str, Folder], sources: dict[str, str], excuses: list[Excuse]) -> bool:
+    """Prints a line a folder and what is missing. Whether it is enough."""
+    good = True
+    used: set[Excuse] = set()
+    print(f"{'folder':12} {'branches':>8} {'reached':>8} {'excused':>8}   conditions  shown")
+    for name, folder in folders.items():
+        unexcused = []
+        missing = missing_branches(folder)
+        for place, side in missing:
+            excuse = find_excuse(excuses, place[0], line_of(place, sources), side)
+            if excuse is None:
+                unexcused.append((place, side))
+            else:
+                used.add(excuse)
+        branches = 2 * len(folder.branches)
+        conditions = sum(map(len, folder.decisions.values()))
+        hidden = missing_conditions(folder)
+        percent = 100.0 * (conditions - len(hidden)) / conditions if conditions else 100.0
+        print(
+            f"{name:12} {branches:8} {branches - len(missing):8} {len(missing) - len(unexcused):8}"
+            f"   {conditions:10} {conditions - len(hidden):6} = {percent:.1f} %"
+        )
+        for place, side in unexcused:
+            print(f"  never {side}: {place[0]}:{place[1]}:{place[2]}  {line_of(place, sources)}")
+        for place, index in hidden:
+            print(f"  condition {index} of {place[0]}:{place[1]}  {line_of(place, sources)}")
+        good = good and not unexcused and percent >= MCDC_PERCENT
+    for excuse in set(excuses) - used:
+        print(f"excused but reached, or not there: {excuse.file} | {excuse.text} | {excuse.side}")
+        good = False
+    return good
+
+
+def find_excuse(excuses: list[Excuse], file: str, text: str, side: str) -> Excuse | None:
+    for excuse in excuses:
+        if (excuse.file, excuse.text, excuse.side) == (file, text, side):
+            return excuse
+    return None
+
+
+def run_tests() -> bool:
+    """Every test program once, each with a profile of its own. Whether all passed."""
+    shutil.rmtree(PROFILES, ignore_errors=True)
+    environment = {**os.environ, "LLVM_PROFILE_FILE": str(PROFILES / "%p-%m.profraw")}
+    done = subprocess.run(
+        ["ctest", "--preset", "mcdc"], cwd=ROOT, env=environment, stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
+    )  # fmt: skip
+    if done.returncode != 0:
+        print(done.stdout)
+    return done.returncode == 0
+
+
+def main() -> int:
+    if not run_tests():
+        return 1
+    sources = read_sources()
+    folders = collect(read_files(merge_profiles()), sources)
+    return 0 if report(folders, sources, read_excuses(LIST.read_text())) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
