@@ -5,8 +5,8 @@
  *
  * Four motors run programs that never end while a master talks, repeats, disturbs and turns inputs; all by chance, from
  * the seed. At the end the judge must be silent, the unit's counters and positions must be what was sent and seen, the
- * canaries around the unit must live, and the process must not have grown. `--twice` does it again from another epoch of
- * the timer and wants the same pulses, events and bytes at the same times. Prints what was done. Exit status 0: all
+ * canaries around the unit must live, and the process must not have grown. `--twice` does it again from another epoch
+ * of the timer and wants the same pulses, events and bytes at the same times. Prints what was done. Exit status 0: all
  * that holds, 1: not, 2: the call is wrong.
  */
 #include <errno.h>
@@ -80,7 +80,8 @@ static void print_done(const struct call *call, long grown_kb)
     for (unsigned i = 0; i < UNIT_MOTORS; i++) {
         pulses += soak.pulses[i];
     }
-    printf("seed %" PRIu64 ", %" PRIu64 " min of unit time, epoch %" PRIu64 "\n", call->seed, call->minutes, call->epoch);
+    printf("seed %" PRIu64 ", %" PRIu64 " min of unit time, epoch %" PRIu64 "\n", call->seed, call->minutes,
+           call->epoch);
     printf("pulses %" PRIu64 ", moves %" PRIu64 ", run-time errors %" PRIu64 ", passes of main %" PRIu64 "\n", pulses,
            soak.moves, soak.errors, soak.passes);
     printf("requests %" PRIu64 ", answers %" PRIu64 ", repeats %" PRIu64 ", broadcasts %" PRIu64 ", programs %" PRIu64
@@ -89,8 +90,8 @@ static void print_done(const struct call *call, long grown_kb)
     printf("foreign frames %" PRIu64 ", damaged frames %" PRIu64 ", bursts of noise %" PRIu64 ", broken bytes %" PRIu64
            "\n",
            tally->foreign, tally->damaged, tally->noise, tally->broken);
-    printf("flash operations %" PRIu32 ", process grown by %ld kB, digest %016" PRIx64 "\n", soak.machine.flash_operations,
-           grown_kb, soak_unit_digest(&soak));
+    printf("flash operations %" PRIu32 ", process grown by %ld kB, digest %016" PRIx64 "\n",
+           soak.machine.flash_operations, grown_kb, soak_unit_digest(&soak));
 }
 
 static bool complain(void)
@@ -122,7 +123,7 @@ static bool run(const struct call *call)
     judge_finish(&soak.judge, soak.machine.now);
     long grown_kb = resident_kb() - resident;
     soak_require(&master, soak.machine.late_steps == 0, "no step is late");
-    soak_require(&master, soak_unit_is_whole(&soak), "what is around the unit, and what never changes in it, is as it was");
+    soak_require(&master, soak_unit_is_whole(&soak), "what is around the unit and what never changes is as it was");
     soak_require(&master, grown_kb <= GROWTH_KB_MAX, "the process does not grow");
     print_done(call, grown_kb);
     return complain();

@@ -11,8 +11,8 @@ enum { SOAK_NODE = 1 };
 /* A promise is broken unless the condition holds. */
 void soak_require(struct soak_master *master, bool good, const char *promise);
 
-/* Says bytes at the rate of the line, `broken_mask` choosing those of every 64 with a framing error, and waits until the
- * unit has said what it has to say. */
+/* Says bytes at the rate of the line, `broken_mask` choosing those of every 64 with a framing error, and waits until
+ * the unit has said what it has to say. */
 void soak_hear(struct soak_master *master, const uint8_t *bytes, uint32_t length, uint64_t broken_mask);
 
 /* A new request, and its answer: content[2] is its first byte. */

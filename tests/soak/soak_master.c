@@ -50,14 +50,17 @@ static void send_program(struct soak_master *master, unsigned motor, unsigned se
     master->tally.programs++;
 }
 
-/* A set of programs for the three motors, and a new beginning of the fourth's stream. */
+/* A set of programs for the three motors; now and then a new beginning of the fourth's stream, whose memory is full
+ * long before. */
 static void do_programs(struct soak_master *master)
 {
     unsigned set = chance_below(&master->chance, SETS);
     for (unsigned motor = 1; motor <= PROGRAMMED; motor++) {
         soak_send(master, motor, programs[set][motor - 1U], FLAG_GOOD);
     }
-    soak_send(master, MOTOR_STREAMED, "\\S100V2000A4000", FLAG_GOOD);
+    if (coin(master, 20)) {
+        soak_send(master, MOTOR_STREAMED, "\\S100V2000A4000", FLAG_GOOD);
+    }
     soak_send(master, 0, "]", FLAG_GOOD);
     master->tally.programs += PROGRAMMED;
 }
@@ -219,9 +222,9 @@ static const struct {
     uint32_t share;
     void (*act)(struct soak_master *master);
 } acts[] = {
-    {210, do_question}, {270, do_edge},  {90, do_stream}, {90, do_damaged},  {60, do_noise},  {60, do_look}, {50, do_repeat},
-    {50, do_order},     {40, do_foreign}, {30, do_wrong_text}, {30, do_broadcast}, {15, do_listing}, {4, do_programs},
-    {1, do_store},
+    {210, do_question}, {270, do_edge},   {90, do_stream},     {90, do_damaged},   {60, do_noise},
+    {60, do_look},      {50, do_repeat},  {50, do_order},      {40, do_foreign},   {30, do_wrong_text},
+    {30, do_broadcast}, {15, do_listing}, {4, do_programs},    {1, do_store},
 };
 
 void soak_master_begin(struct soak_master *master, struct soak_unit *soak, uint64_t seed)

@@ -22,6 +22,7 @@ BUILD = ROOT / "build"
 BRANCHES_PERCENT = 95  # of firmware/, that the C tests must reach
 FUZZ_SECONDS = 15  # of exploration, each fuzzer
 LONG_MINUTES = 8  # the same with --long
+SOAK_MINUTES = 24 * 60  # of unit time, with --long
 # What no test can reach: the other side of an assertion.
 UNREACHABLE = r".*\b(static_)?assert\(.*"
 
@@ -168,6 +169,19 @@ def fuzzers(seconds: int) -> Count:
     return Count(passed=1) if good else Count(failed=1)
 
 
+def mcdc() -> Count:
+    """A check: it runs the C tests again, from a third compiler, and reads what they reached."""
+    if not build("mcdc"):
+        return Count(failed=1)
+    good = succeeds(sys.executable, "-P", "tools/checks/mcdc.py", show=True)
+    return Count(passed=1) if good else Count(failed=1)
+
+
+def soak(minutes: int) -> Count:
+    command = [str(BUILD / "host/bin/rkm04-soak"), "--minutes", str(minutes), "--twice"]
+    return Count(passed=1) if succeeds(*command, show=True) else Count(failed=1)
+
+
 def python_style() -> Count:
     folders = ["tools", "tests"]
     return (
@@ -208,6 +222,9 @@ def steps(quick: bool, fuzz_seconds: int = FUZZ_SECONDS) -> dict[str, Callable[[
         chosen["C tests with tiny limits (tiny)"] = lambda: c_tests_again("tiny")
     chosen["Proofs"] = lambda: proofs("prove.py") + proofs("line_model.py")
     chosen["Coverage of firmware/ (coverage)"] = coverage
+    chosen["Branches and decisions (mcdc)"] = mcdc
+    if fuzz_seconds > FUZZ_SECONDS:
+        chosen["A day of a unit"] = lambda: soak(SOAK_MINUTES)
     chosen["Fuzzers (fuzz)"] = lambda: fuzzers(fuzz_seconds)
     return chosen
 
