@@ -85,8 +85,9 @@ static void print_done(const struct call *call, long grown_kb)
     printf("pulses %" PRIu64 ", moves %" PRIu64 ", run-time errors %" PRIu64 ", passes of main %" PRIu64 "\n", pulses,
            soak.moves, soak.errors, soak.passes);
     printf("requests %" PRIu64 ", answers %" PRIu64 ", repeats %" PRIu64 ", broadcasts %" PRIu64 ", programs %" PRIu64
-           ", input edges %" PRIu64 "\n",
-           tally->requests, tally->answers, tally->repeats, tally->broadcasts, tally->programs, tally->edges);
+           ", full memory %" PRIu64 ", input edges %" PRIu64 "\n",
+           tally->requests, tally->answers, tally->repeats, tally->broadcasts, tally->programs, tally->full,
+           tally->edges);
     printf("foreign frames %" PRIu64 ", damaged frames %" PRIu64 ", bursts of noise %" PRIu64 ", broken bytes %" PRIu64
            "\n",
            tally->foreign, tally->damaged, tally->noise, tally->broken);

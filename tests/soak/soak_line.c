@@ -89,6 +89,7 @@ void soak_send(struct soak_master *master, unsigned motor, const char *text, uns
     memcpy(message + 2, text, length);
     soak_request(master, message, (uint32_t)length + 2U);
     uint8_t flag = master->content[4];
+    master->tally.full += flag == 3 ? 1U : 0U;
     soak_require(master, master->content_length == 6 && flag < 4 && (flag_mask >> flag & 1U) != 0,
                  "Set Command has the flag that its text calls for");
 }

@@ -29,6 +29,7 @@ struct soak_tally {
     uint64_t broken;   /* bytes with a framing error */
     uint64_t edges;    /* at inputs */
     uint64_t programs; /* sent, besides the parts of the stream */
+    uint64_t full;     /* answers that warned of a full memory */
 };
 
 struct soak_master {
