@@ -13,9 +13,10 @@ import subprocess
 import sys
 import time
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
@@ -23,6 +24,7 @@ BRANCHES_PERCENT = 95  # of firmware/, that the C tests must reach
 FUZZ_SECONDS = 15  # of exploration, each fuzzer
 LONG_MINUTES = 8  # the same with --long
 SOAK_MINUTES = 24 * 60  # of unit time, with --long
+SWEEPS = {"RKM04_LONG": "1", "RKM04_PROGRAMS": "10000"}  # every place, with --long
 # What no test can reach: the other side of an assertion.
 UNREACHABLE = r".*\b(static_)?assert\(.*"
 
@@ -52,10 +54,12 @@ class Count:
         return f"{self.passed} passed, {self.failed} failed, {self.skipped} skipped"
 
 
-def succeeds(*command: str | Path, show: bool = False) -> bool:
+def succeeds(
+    *command: str | Path, show: bool = False, more: Mapping[str, str] = MappingProxyType({})
+) -> bool:
     """Runs a command; shows what it printed only if it fails, or if asked to."""
     done = subprocess.run(
-        list(map(str, command)), cwd=ROOT, env=ENVIRONMENT, stdin=subprocess.DEVNULL,
+        list(map(str, command)), cwd=ROOT, env={**ENVIRONMENT, **more}, stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
     )  # fmt: skip
     if done.stdout.strip() and (show or done.returncode != 0):
@@ -177,6 +181,17 @@ def mcdc() -> Count:
     return Count(passed=1) if good else Count(failed=1)
 
 
+def sweeps() -> Count:
+    """The tests that a run of some minutes does at some places only, at all of them."""
+    stored = ["ctest", "--preset", "host", "-V", "-R", "power_cut|store_sweep|line_splits"]
+    random = [*PYTHON, "pytest", "-q", "-s", "-c", CONFIG, "--rootdir", str(ROOT)]
+    count = Count()
+    for command in (stored, [*random, "tests/property"]):
+        good = succeeds(*command, show=True, more=SWEEPS)
+        count += Count(passed=1) if good else Count(failed=1)
+    return count
+
+
 def soak(minutes: int) -> Count:
     command = [str(BUILD / "host/bin/rkm04-soak"), "--minutes", str(minutes), "--twice"]
     return Count(passed=1) if succeeds(*command, show=True) else Count(failed=1)
@@ -224,6 +239,7 @@ def steps(quick: bool, fuzz_seconds: int = FUZZ_SECONDS) -> dict[str, Callable[[
     chosen["Coverage of firmware/ (coverage)"] = coverage
     chosen["Branches and decisions (mcdc)"] = mcdc
     if fuzz_seconds > FUZZ_SECONDS:
+        chosen["Sweeps at every place"] = sweeps
         chosen["A day of a unit"] = lambda: soak(SOAK_MINUTES)
     chosen["Fuzzers (fuzz)"] = lambda: fuzzers(fuzz_seconds)
     return chosen
