@@ -13,8 +13,9 @@ from service_page import PATIENCE_SECONDS, Service, ServicePage, shown
 CHROMIUM = Path("/usr/bin/chromium")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
+    """Not for the session: its event loop would be in the way of the tests behind these."""
     if not CHROMIUM.exists():
         pytest.skip(f"{CHROMIUM} is not there: install Debian's package chromium")
     expect.set_options(timeout=PATIENCE_SECONDS * 1000)

@@ -54,6 +54,15 @@ static void print_motor(const struct run *run, const struct feed *feed, unsigned
                  feed->overflow[motor] ? "true" : "false");
 }
 
+/* What ended it: the programs, the limit of real time, or that of unit time. */
+static const char *end_of(const struct run *run)
+{
+    if (run->idle) {
+        return "idle";
+    }
+    return run->cut ? "real" : "time";
+}
+
 void summary_print(const struct run *run, const struct feed *feed)
 {
     (void)putchar('{');
@@ -62,8 +71,7 @@ void summary_print(const struct run *run, const struct feed *feed)
     print_seconds("real_seconds", run->real_ns);
     (void)printf("\"ratio\":");
     json_print_fixed(summary_milli_ratio(run), MILLI_DECIMALS);
-    (void)printf(",\"ended\":\"%s\",\"late_steps\":%" PRIu64 ",\n\"motors\":[",
-                 run->idle ? "idle" : run->cut ? "real" : "time", run->machine.late_steps);
+    (void)printf(",\"ended\":\"%s\",\"late_steps\":%" PRIu64 ",\n\"motors\":[", end_of(run), run->machine.late_steps);
     for (unsigned i = 0; i < UNIT_MOTORS; i++) {
         (void)fputs(i == 0 ? "\n" : ",\n", stdout);
         print_motor(run, feed, i);
