@@ -155,7 +155,10 @@ static bool was_executed(const struct board *board, uint32_t offset, uint32_t by
 
 static uint8_t after(const struct flash *flash, uint32_t index, uint8_t before)
 {
-    return flash->operation == FLASH_ERASE ? 0xFF : before & (uint8_t)(flash->value >> 8U * index);
+    if (flash->operation == FLASH_ERASE) {
+        return UINT8_MAX;
+    }
+    return (uint8_t)(before & (uint32_t)(flash->value >> 8U * index) & UINT8_MAX);
 }
 
 static void change(struct board *board, uint32_t bytes)
