@@ -242,7 +242,9 @@ static struct program_instruction take_instruction(struct fuzz_stream *stream)
 
 static void take_message(void)
 {
-    (void)interpreter_take(&bench.interpreter, bench.text, bench.text_length, bench.now);
+    const struct program_summary summary = program_check(bench.text, bench.text_length);
+    FUZZ_REQUIRE(summary.status == PROGRAM_OK);
+    (void)interpreter_take(&bench.interpreter, bench.text, bench.text_length, &summary, bench.now);
     require_bounds(&bench.interpreter);
 }
 

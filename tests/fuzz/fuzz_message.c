@@ -13,8 +13,10 @@
 #include "fuzz_stream.h"
 #include "fuzz_unit_bench.h"
 #include "program_parser.h"
+#include "protocol_status.h"
 
-enum { MESSAGES_MAX = 24, FLAG_NONE = 0, FLAG_VALUE = 1, FLAG_UNKNOWN = 2, FLAG_OVERFLOW = 3, VERSION_BYTES = 16 };
+enum { MESSAGES_MAX = 24, FLAG_NONE = 0, FLAG_VALUE = 1, FLAG_UNKNOWN = 2, FLAG_OVERFLOW = 3 };
+enum { VERSION_BYTES = 16, STATUS_BYTES = 98 };
 
 struct reply {
     const uint8_t *request;
@@ -91,6 +93,8 @@ static void check_answer(const struct fuzz_unit *fuzz, const struct reply *reply
     bool named = reply->length >= 2 && reply->request[1] >= '0' && reply->request[1] <= '4';
     if (number == PROTOCOL_VERSION) {
         FUZZ_REQUIRE(reply->bytes_length == 2 + VERSION_BYTES && starts_with(reply, number, VERSION_BYTES));
+    } else if (number == PROTOCOL_GET_STATUS) {
+        FUZZ_REQUIRE(reply->bytes_length == STATUS_BYTES && starts_with(reply, number, PROTOCOL_STATUS_LAYOUT));
     } else if (number > PROTOCOL_GET_PROGRESS || (!named && number != PROTOCOL_SET_COMMAND)) {
         FUZZ_REQUIRE(reply->bytes_length == 4 && starts_with(reply, PROTOCOL_UNKNOWN, number));
     } else if (!named) {

@@ -80,12 +80,12 @@ static void check_answer(struct talk *t)
 static void do_frame(struct talk *t, bool repeated)
 {
     const struct link *link = &t->fuzz->unit.link;
-    uint32_t repeats = link->repeats;
+    uint32_t repeats = link->receiver.counts[LINK_COUNT_REPEATS];
     bool known = repeated && t->answered && !t->broadcast;
     hear(t, t->frame, t->frame_length);
     if (wait_for_silence(t)) {
         check_answer(t);
-        FUZZ_REQUIRE(link->repeats - repeats == (known ? 1U : 0U) || !known);
+        FUZZ_REQUIRE(link->receiver.counts[LINK_COUNT_REPEATS] - repeats == (known ? 1U : 0U) || !known);
         t->answered = !t->broadcast;
     }
 }
