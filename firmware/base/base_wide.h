@@ -32,12 +32,6 @@ static inline uint64_t wide_from_signed(int64_t value)
     return (uint64_t)value;
 }
 
-/* a * b / 2^32, rounded down. May be used in the step interrupt. */
-static inline int32_t wide_multiply_high(int32_t a, int32_t b)
-{
-    return wide_to_signed_32((uint32_t)(wide_from_signed((int64_t)a * b) >> 32U));
-}
-
 /* The number of bits of value up to its highest 1; 0 for 0. Both compilers have the processor's instruction for it. May
  * be used in the step interrupt. */
 static inline unsigned wide_bits(uint32_t value)

@@ -120,8 +120,8 @@ static inline uint32_t step_generator_cruise(struct step_generator *generator)
     return step_generator_accept(generator, residual, generator->slope, interval);
 }
 
-/* Moves on to the next pulse of a segment and returns its tick. There must be one: the position must
- * reach the next step, within STEP_INTERVAL_TICKS_MAX. */
+/* Moves on to the next pulse of a segment and returns its tick. There must be one: the position must reach the next
+ * step, within STEP_INTERVAL_TICKS_MAX. */
 static inline uint32_t step_generator_next(struct step_generator *generator)
 {
     return generator->accel != 0 ? step_generator_ramp(generator) : step_generator_cruise(generator);

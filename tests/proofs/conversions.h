@@ -22,9 +22,6 @@ static inline int32_t wide_to_signed_32(uint32_t value);
 */
 static inline uint64_t wide_from_signed(int64_t value);
 
-/*@ assigns \nothing; */
-static inline int32_t wide_multiply_high(int32_t a, int32_t b);
-
 /*@ assigns \nothing;
     ensures value == 0 ==> \result == 0;
     ensures value != 0 ==> 1 <= \result <= 32 && (1 << (\result - 1)) <= value < (1 << \result);

@@ -73,18 +73,6 @@ void test_a_wrapping_32_bit_number_is_read_as_signed(void)
     TEST_ASSERT_EQUAL_INT32(INT32_MIN, wide_to_signed_32(0x80000000U));
 }
 
-void test_the_high_half_of_a_product_is_rounded_down(void)
-{
-    TEST_ASSERT_EQUAL_INT32(1, wide_multiply_high(0x10000, 0x10000));
-    TEST_ASSERT_EQUAL_INT32(0, wide_multiply_high(0x10000, 0xFFFF));
-    TEST_ASSERT_EQUAL_INT32(-1, wide_multiply_high(1, -1));
-    TEST_ASSERT_EQUAL_INT32(-1, wide_multiply_high(-0x10000, 0x10000));
-    TEST_ASSERT_EQUAL_INT32(-2, wide_multiply_high(-0x10001, 0x10000));
-    TEST_ASSERT_EQUAL_INT32(0x3FFFFFFF, wide_multiply_high(INT32_MAX, INT32_MAX));
-    TEST_ASSERT_EQUAL_INT32(0x40000000, wide_multiply_high(INT32_MIN, INT32_MIN));
-    TEST_ASSERT_EQUAL_INT32(-0x40000000, wide_multiply_high(INT32_MIN, INT32_MAX));
-}
-
 void test_a_number_has_bits_up_to_its_highest_1(void)
 {
     TEST_ASSERT_EQUAL_UINT(0, wide_bits(0));
