@@ -369,8 +369,8 @@ void test_a_change_of_speed_that_the_move_ends_before_is_not_traced(void)
     TEST_ASSERT_EQUAL_UINT64(1000, pulses);
 }
 
-/* Ten sections of one step: a cut hands over the first four, and before main comes to the rest they are all used up. */
-void test_a_queue_that_ran_dry_behind_a_cut_is_filled_and_goes_on(void)
+/* Ten sections of one step: a cut hands over the first two, and before main comes to the rest they are used up. */
+static void run_dry(void)
 {
     struct motion_order order = {.start_speed_steps_per_s = 16000, .sections = MOTION_SECTIONS};
     for (unsigned i = 0; i < MOTION_SECTIONS; i++) {
@@ -381,6 +381,12 @@ void test_a_queue_that_ran_dry_behind_a_cut_is_filled_and_goes_on(void)
 
     mover_change_speed(&mover, 15999);
     TEST_ASSERT_FALSE(is_armed);
+}
+
+void test_a_queue_that_ran_dry_behind_a_cut_is_filled_and_goes_on(void)
+{
+    run_dry();
+
     run_to_the_end();
 
     TEST_ASSERT_EQUAL_UINT64(MOTION_SECTIONS, pulses);
@@ -389,15 +395,8 @@ void test_a_queue_that_ran_dry_behind_a_cut_is_filled_and_goes_on(void)
 
 void test_a_queue_that_ran_dry_goes_on_as_soon_as_it_is_fed(void)
 {
-    struct motion_order order = {.start_speed_steps_per_s = 16000, .sections = MOTION_SECTIONS};
-    for (unsigned i = 0; i < MOTION_SECTIONS; i++) {
-        order.section[i] = (struct motion_section){1, 16000, 60000};
-    }
-    start(&order, 1);
-    handing_ticks = 6 * 5250;
+    run_dry();
 
-    mover_change_speed(&mover, 15999);
-    TEST_ASSERT_FALSE(is_armed);
     TEST_ASSERT_TRUE(mover_feed(&mover));
     TEST_ASSERT_TRUE(is_armed);
     run_to_the_end();
