@@ -22,8 +22,9 @@ static bool unit_step_isr(void *context, unsigned motor)
 
 static void unit_brake(struct unit *unit)
 {
+    uint64_t since = hal_time_now() - hal_io_delay_ticks();
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        (void)mover_sense_isr(&unit->mover[motor], io_inputs(&unit->io));
+        (void)mover_sense_isr(&unit->mover[motor], io_inputs(&unit->io), since);
     }
 }
 

@@ -113,14 +113,15 @@ static bool change_speed(struct mover *mover, uint32_t speed_steps_per_s)
     return false;
 }
 
-/* Brakes at once: at high rates there is no time for planning before the next pulse. */
-static void brake(struct mover *mover)
+/* Brakes at once: at high rates there is no time for planning before the next pulse. A pulse that came after `since` is
+ * the one to brake from, although the next is armed by now. */
+static void brake(struct mover *mover, uint64_t since)
 {
-    struct step_cursor now;
+    struct step_cursor *at = &mover->brake;
     struct motion_brake brake;
-    if (step_channel_look(&mover->channel, &now) &&
-        motion_plan_brake(&mover->plan, step_cursor_pulse(&now), now.generator.slope, &brake)) {
-        mover->braking = step_channel_brake(&mover->channel, brake.accel, brake.until, &mover->brake);
+    if (step_channel_look(&mover->channel, (uint32_t)since, at) &&
+        motion_plan_brake(&mover->plan, step_cursor_pulse(at), at->generator.slope, &brake)) {
+        mover->braking = step_channel_brake(&mover->channel, brake.accel, brake.until, at);
     }
 }
 
@@ -137,24 +138,24 @@ static void plan_stop(struct mover *mover)
     }
 }
 
-static void stop_locked(struct mover *mover, enum hal_trace_stop cause)
+static void stop_locked(struct mover *mover, enum hal_trace_stop cause, uint64_t since)
 {
     if (!mover->moving || mover->cause != HAL_TRACE_STOP_NONE) {
         return;
     }
-    set_cause(mover, cause, hal_time_now());
+    set_cause(mover, cause, since);
     if (cause == HAL_TRACE_STOP_LIMIT) {
         motion_plan_end(&mover->plan);
         step_channel_halt(&mover->channel);
     } else {
-        brake(mover);
+        brake(mover, since);
     }
 }
 
 void mover_stop(struct mover *mover, enum hal_trace_stop cause)
 {
     hal_run_hold_tick();
-    stop_locked(mover, cause);
+    stop_locked(mover, cause, hal_time_now());
     mover_plan_stop_isr(mover);
     hal_run_release_tick();
 }
@@ -233,12 +234,12 @@ unsigned mover_corners(const struct mover *mover, struct motion_corner corners[M
     return count;
 }
 
-bool mover_sense_isr(struct mover *mover, uint8_t inputs)
+bool mover_sense_isr(struct mover *mover, uint8_t inputs, uint64_t since)
 {
     enum hal_trace_stop cause = guard_cause(&mover->guards, inputs);
     bool stops = mover->moving && mover->cause == HAL_TRACE_STOP_NONE && cause != HAL_TRACE_STOP_NONE;
     if (stops) {
-        stop_locked(mover, cause);
+        stop_locked(mover, cause, since);
     }
     return stops;
 }

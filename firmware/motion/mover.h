@@ -81,8 +81,9 @@ bool mover_take_mark(struct mover *mover);
 /* The break points of the move in progress (motion_plan.h); 0 while standing. */
 unsigned mover_corners(const struct mover *mover, struct motion_corner corners[MOTION_CORNERS_MAX]);
 
-/* Tick interrupt: ends the move if an input says so, or begins to brake. True: main has something to do. */
-bool mover_sense_isr(struct mover *mover, uint8_t inputs);
+/* Tick interrupt: ends the move if an input says so, or begins to brake, at the first pulse that has come or will come
+ * after `since`, the unit's time before which the inputs have not changed. True: main has something to do. */
+bool mover_sense_isr(struct mover *mover, uint8_t inputs, uint64_t since);
 
 /* Tick interrupt, behind mover_sense_isr of all motors: plans the stop of a motor that has begun to brake. */
 void mover_plan_stop_isr(struct mover *mover);

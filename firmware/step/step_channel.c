@@ -7,6 +7,9 @@
 
 static_assert((STEP_QUEUE_SEGMENTS & (STEP_QUEUE_SEGMENTS - 1)) == 0, "the ring's counters wrap with its size");
 
+/* No pulse is taken back where they come faster: half of that goes by until the last of four motors has its turn. */
+enum { BACK_INTERVAL_TICKS = 40 * TICKS_PER_US };
+
 static const struct step_segment *queue_slot(const struct step_channel *channel, uint32_t count)
 {
     return &channel->queue[count % STEP_QUEUE_SEGMENTS];
@@ -19,7 +22,11 @@ static inline bool cursor_begin_segment(struct step_cursor *cursor, const struct
         return false;
     }
     const struct step_segment *segment = queue_slot(channel, cursor->tail);
+    cursor->before_residual = cursor->generator.residual;
+    cursor->before_slope = cursor->generator.slope;
+    cursor->before_accel = cursor->generator.accel;
     step_generator_load(&cursor->generator, segment);
+    cursor->first = (uint32_t)cursor->end + 1U;
     cursor->end += segment->steps;
     cursor->left = segment->steps - 1U;
     cursor->tail++;
@@ -79,18 +86,40 @@ bool step_channel_is_running(const struct step_channel *channel)
     return atomic_load_explicit(&channel->running, memory_order_acquire);
 }
 
-bool step_channel_look(const struct step_channel *channel, struct step_cursor *cursor)
+/* Whether there is a pulse in the move before the one that a cursor stands on, and a change there leaves time. */
+static bool cursor_can_go_back(const struct step_cursor *cursor)
+{
+    return step_cursor_pulse(cursor) > 1U && cursor->generator.interval >= (uint32_t)BACK_INTERVAL_TICKS;
+}
+
+static void cursor_go_back(struct step_cursor *cursor)
+{
+    bool first = (uint32_t)step_cursor_pulse(cursor) == cursor->first;
+    step_generator_back(&cursor->generator);
+    if (first) {
+        cursor->generator.residual = cursor->before_residual;
+        cursor->generator.slope = cursor->before_slope;
+        cursor->generator.accel = cursor->before_accel;
+    }
+    cursor->left++;
+}
+
+bool step_channel_look(const struct step_channel *channel, uint32_t since, struct step_cursor *cursor)
 {
     hal_step_hold();
     bool running = step_channel_is_running(channel);
     *cursor = channel->cursor;
     hal_step_release();
+    uint32_t before = cursor->generator.tick - cursor->generator.interval;
+    if (running && cursor_can_go_back(cursor) && tick_is_before(since, before)) {
+        cursor_go_back(cursor);
+    }
     return running;
 }
 
 bool step_channel_foresee(const struct step_channel *channel, uint32_t tick, struct step_cursor *cursor)
 {
-    bool running = step_channel_look(channel, cursor);
+    bool running = step_channel_look(channel, tick, cursor);
     uint32_t head = atomic_load_explicit(&channel->head, memory_order_relaxed);
     while (running && tick_is_before(cursor->generator.tick, tick)) {
         running = cursor_advance(cursor, channel, head);
@@ -130,11 +159,24 @@ bool step_channel_cut(struct step_channel *channel, const struct step_cursor *at
     return in_time;
 }
 
+/* Takes the armed pulse back if it is the one behind `pulse`. */
+static bool channel_go_back(struct step_channel *channel, uint64_t pulse)
+{
+    bool back = step_cursor_pulse(&channel->cursor) == pulse + 1U && cursor_can_go_back(&channel->cursor) &&
+                hal_step_disarm(channel->motor);
+    if (back) {
+        cursor_go_back(&channel->cursor);
+    }
+    return back;
+}
+
 bool step_channel_brake(struct step_channel *channel, int32_t accel, uint64_t until, struct step_cursor *at)
 {
+    bool back = false;
     hal_step_hold();
     bool running = step_channel_is_running(channel);
     if (running) {
+        back = channel_go_back(channel, step_cursor_pulse(at));
         *at = channel->cursor;
         uint64_t pulse = step_cursor_pulse(at);
         channel->cursor.generator.accel = -accel;
@@ -143,6 +185,9 @@ bool step_channel_brake(struct step_channel *channel, int32_t accel, uint64_t un
         atomic_store_explicit(&channel->head, channel->cursor.tail, memory_order_relaxed);
     }
     hal_step_release();
+    if (back) {
+        step_channel_run(channel);
+    }
     return running;
 }
 

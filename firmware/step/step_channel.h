@@ -23,8 +23,12 @@ enum { STEP_QUEUE_SEGMENTS = 32 };
 /* How far the pulses have come: enough to foresee the pulses that follow. */
 struct step_cursor {
     struct step_generator generator;
+    uint64_t before_residual; /* of the last pulse on the segment before */
+    uint64_t before_slope;
+    int32_t before_accel;
     uint64_t end;      /* ordinal in the move of the last pulse on the present segment */
     uint32_t left;     /* pulses still to come on the present segment */
+    uint32_t first;    /* low half of the ordinal of the present segment's first pulse */
     uint32_t tail;     /* count of segments taken from the queue */
 };
 
@@ -64,15 +68,18 @@ void step_channel_run(struct step_channel *channel);
 /* Whether a pulse is still to come. */
 bool step_channel_is_running(const struct step_channel *channel);
 
-/* The pulse that is armed. False at rest. */
-bool step_channel_look(const struct step_channel *channel, struct step_cursor *cursor);
+/* The first pulse of a move behind `since`: the armed one, or, below 25 000 steps/s, the one before, if it came after
+ * `since`. False at rest. */
+bool step_channel_look(const struct step_channel *channel, uint32_t since, struct step_cursor *cursor);
 
 /* The pulse at which a change can take effect: the armed one, or the first that is due at or after `tick`, which
  * gives the caller time to plan. False if no pulse is left there. */
 bool step_channel_foresee(const struct step_channel *channel, uint32_t tick, struct step_cursor *cursor);
 
-/* Stops what was queued and brakes, from the armed pulse `at` on and to the pulse `until` at most: a stop-gap that
- * takes effect at once, while the segments behind `at` are being planned. False, and nothing is changed, at rest. */
+/* Stops what was queued and brakes, from the pulse `at` on and to the pulse `until` at most: a stop-gap that takes
+ * effect at once, while the segments behind `at` are being planned. `at` comes in as seen by step_channel_look; if the
+ * pulse behind it is armed by now, that one is taken back. If it is too late for that, `at` goes out as the armed
+ * pulse. False, and nothing is changed, at rest. */
 bool step_channel_brake(struct step_channel *channel, int32_t accel, uint64_t until, struct step_cursor *at);
 
 /* Puts the first planned segment behind `at` in the place of the stop-gap. The pulses that were made in the meantime

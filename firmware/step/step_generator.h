@@ -41,6 +41,9 @@ void step_generator_start(struct step_generator *generator, uint32_t tick);
 /* Stays on its pulse, which lies on a segment too: the segment's first `made` pulses have been made. */
 void step_generator_join(struct step_generator *generator, const struct step_segment *segment, uint32_t made);
 
+/* Goes back to the pulse before, which must lie on the same segment. `interval` stays: a guess for the next. */
+void step_generator_back(struct step_generator *generator);
+
 /* Completes a segment that stands on another moment, within 25 s before its first pulse: residual and slope are those
  * of `tick`, and no pulse has been made. The first pulse comes about `interval_ticks` later; nearer is found faster. */
 void step_generator_aim(struct step_segment *segment, uint32_t interval_ticks);

@@ -14,6 +14,7 @@ void host_machine_init(struct host_machine *machine, uint64_t epoch)
     memset(machine, 0, sizeof *machine);
     machine->epoch = epoch;
     machine->wake = TICK_NEVER;
+    machine->sense = TICK_NEVER;
     memset(machine->flash, ERASED, sizeof machine->flash);
     host_machine_set_node(machine, 1);
     host_machine_set_byte_ticks(machine, HOST_LINE_BYTE_TICKS);
@@ -43,6 +44,7 @@ void host_machine_restart(struct host_machine *machine)
     machine->client = (struct hal_client){0};
     machine->faults = (struct host_faults){0};
     machine->wake = TICK_NEVER;
+    machine->sense = TICK_NEVER;
     machine->step_held = false;
     machine->tick_held = false;
     machine->flash_operations = 0;
@@ -107,6 +109,17 @@ static uint8_t with_input(uint8_t levels, unsigned input, bool level)
     return (uint8_t)(level ? levels | bit : levels & ~bit);
 }
 
+static void sense_event(struct host_machine *machine)
+{
+    machine->now = machine->sense;
+    machine->sense = TICK_NEVER;
+    if (machine->client.tick_isr != NULL) {
+        machine->client.tick_isr(machine->client.context);
+        assert(!machine->step_held);
+    }
+    wake_main(machine, machine->now);
+}
+
 static void set_inputs(struct host_machine *machine, uint8_t levels)
 {
     if (levels == machine->inputs) {
@@ -116,11 +129,12 @@ static void set_inputs(struct host_machine *machine, uint8_t levels)
     if (machine->listener.input != NULL) {
         machine->listener.input(machine->listener.context, machine->now, levels);
     }
-    if (machine->client.tick_isr != NULL) {
-        machine->client.tick_isr(machine->client.context);
-        assert(!machine->step_held);
+    if (machine->sense == TICK_NEVER) {
+        machine->sense = machine->now + machine->faults.late_tick_ticks;
     }
-    wake_main(machine, machine->now);
+    if (machine->faults.late_tick_ticks == 0) {
+        sense_event(machine);
+    }
 }
 
 static void input_event(struct host_machine *machine, uint64_t tick)
@@ -164,11 +178,11 @@ static void main_event(struct host_machine *machine, host_main_pass *pass, void 
 }
 
 /* What happens next, of what falls on the same tick in this order. */
-enum event { EVENT_PULSE, EVENT_INPUT, EVENT_LINE, EVENT_MAIN, EVENT_NONE };
+enum event { EVENT_PULSE, EVENT_INPUT, EVENT_SENSE, EVENT_LINE, EVENT_MAIN, EVENT_NONE };
 
 static enum event next_event(const struct host_machine *machine, uint64_t pulse, uint64_t input, uint64_t until)
 {
-    const uint64_t ticks[] = {pulse, input, machine->line.next_tick, machine->wake};
+    const uint64_t ticks[] = {pulse, input, machine->sense, machine->line.next_tick, machine->wake};
     enum event next = EVENT_NONE;
     uint64_t earliest = until;
     for (unsigned event = EVENT_PULSE; event < EVENT_NONE; event++) {
@@ -195,6 +209,9 @@ void host_machine_run(struct host_machine *machine, uint64_t until, host_main_pa
         case EVENT_INPUT:
             input_event(machine, input);
             break;
+        case EVENT_SENSE:
+            sense_event(machine);
+            break;
         case EVENT_LINE:
             line_event(machine);
             break;
@@ -219,6 +236,7 @@ uint64_t host_machine_next_tick(const struct host_machine *machine)
     uint64_t next = machine->armed[first_motor(machine)];
     uint64_t input = next_input_tick(machine);
     next = input < next ? input : next;
+    next = machine->sense < next ? machine->sense : next;
     next = machine->line.next_tick < next ? machine->line.next_tick : next;
     return machine->wake < next ? machine->wake : next;
 }

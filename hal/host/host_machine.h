@@ -93,6 +93,7 @@ struct host_faults {
     uint32_t flash_silent_at; /* this flash operation goes wrong and reports success; 0: never */
     enum host_flash_done flash_done; /* of the operation that goes wrong */
     uint32_t late_step_ticks; /* every step interrupt comes this much after the edge */
+    uint32_t late_tick_ticks; /* every tick interrupt comes this much after the change of an input */
     bool no_crystal;          /* the board allows no motion */
     enum hal_board_cause start_cause; /* why the board has started */
 };
@@ -101,6 +102,7 @@ struct host_machine {
     uint64_t epoch;                    /* hal_time_now at the start */
     uint64_t now;                      /* ticks from the start */
     uint64_t wake;                     /* the next pass of main, ticks from the start; TICK_NEVER: none */
+    uint64_t sense;                    /* the tick interrupt that is due, likewise */
     struct hal_client client;
     struct host_listener listener;
     struct host_faults faults;
@@ -159,8 +161,8 @@ typedef uint64_t host_main_pass(void *context);
  * then stands, or up to the pass after which `done` (may be null) says so. With TICK_NEVER for `until` it ends, at the
  * last event, when nothing is left to happen. Main makes a pass at once, and again whenever its wake-up is due, an
  * interrupt has work for it, an input has changed, a byte has come by the line, or there is room again for bytes that
- * the line did not take. Of what falls on the same tick, pulses come first, in the order of the motors, then inputs,
- * then the line, then main. */
+ * the line did not take. Of what falls on the same tick, pulses come first, in the order of the motors, then inputs
+ * and the tick interrupt, then the line, then main. */
 void host_machine_run(struct host_machine *machine, uint64_t until, host_main_pass *pass, bool (*done)(void *context),
                       void *context);
 

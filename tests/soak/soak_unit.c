@@ -4,7 +4,10 @@
 
 #include "judge_unit.h"
 
-enum { CANARY = 0xA5 };
+enum {
+    CANARY = 0xA5,
+    LATE_TICKS = 5 * TICKS_PER_US, /* the tick interrupt behind an edge, as on a board */
+};
 
 #define FNV_START UINT64_C(0xCBF29CE484222325)
 #define FNV_PRIME UINT64_C(0x100000001B3)
@@ -88,6 +91,7 @@ void soak_unit_begin(struct soak_unit *soak, uint64_t epoch)
     soak->sent_digest = FNV_START;
     judge_init(&soak->judge, &limits);
     host_machine_init(&soak->machine, epoch);
+    soak->machine.faults.late_tick_ticks = LATE_TICKS;
     host_machine_select(&soak->machine);
     soak->machine.listener = (struct host_listener){
         .context = soak,

@@ -136,7 +136,8 @@ static void end_move(struct judge *judge, uint64_t tick, unsigned number, int64_
     motor->hidden = false;
 }
 
-/* A stop, or an error: it explains why a move ends early, and a plan that is known says where. */
+/* A stop, or an error: it explains why a move ends early, and a plan that is known says where. It takes effect at the
+ * first pulse behind its cause; an interrupt that is late may have seen that pulse come. */
 static void cut_move(struct judge *judge, uint64_t tick, unsigned number, int64_t cause)
 {
     struct judge_motor *motor = &judge->motor[number];
@@ -153,7 +154,8 @@ static void cut_move(struct judge *judge, uint64_t tick, unsigned number, int64_
     if (cause == HAL_TRACE_STOP_LIMIT) {
         judge_curve_halt(&motor->curve, motor->made);
     } else {
-        judge_curve_stop(&motor->curve, motor->made + 1U);
+        bool took_back = motor->made > 0 && tick < motor->last_tick;
+        judge_curve_stop(&motor->curve, motor->made + (took_back ? 0U : 1U));
         motor->leg = NULL;
     }
 }

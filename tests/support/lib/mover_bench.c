@@ -2,6 +2,7 @@
 
 #include "base_tick.h"
 #include "hal_io.h"
+#include "hal_time.h"
 #include "unity.h"
 
 const struct motion_order mover_bench_trapezoid = {
@@ -43,7 +44,8 @@ static bool step_isr(void *context, unsigned motor)
 static void tick_isr(void *context)
 {
     struct mover_bench *bench = context;
-    bench->stops_sensed += mover_sense_isr(&bench->mover, hal_io_read_inputs()) ? 1U : 0U;
+    uint64_t since = hal_time_now() - hal_io_delay_ticks();
+    bench->stops_sensed += mover_sense_isr(&bench->mover, hal_io_read_inputs(), since) ? 1U : 0U;
     mover_plan_stop_isr(&bench->mover);
 }
 

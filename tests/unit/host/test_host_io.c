@@ -140,3 +140,41 @@ void test_two_machines_do_not_know_of_each_other(void)
     TEST_ASSERT_EQUAL_HEX8(8, other.outputs);
     TEST_ASSERT_EQUAL_HEX8(0, machine.outputs);
 }
+
+static unsigned ticks_called;
+static uint64_t called_at;
+
+static void tick_seen(void *context)
+{
+    (void)context;
+    ticks_called++;
+    called_at = machine.now;
+}
+
+static bool step_seen(void *context, unsigned motor)
+{
+    (void)context;
+    (void)motor;
+    return false;
+}
+
+/* Two changes within the delay call one interrupt. */
+void test_a_tick_interrupt_that_is_late_sees_all_changes_until_then(void)
+{
+    static const struct host_input script[] = {
+        {.tick = 400, .input = 1, .level = true},
+        {.tick = 410, .input = 2, .level = true},
+    };
+    const struct hal_client client = {.step_isr = step_seen, .tick_isr = tick_seen};
+    hal_run_start(&client);
+    ticks_called = 0;
+    machine.faults.late_tick_ticks = 30;
+    host_machine_set_script(&machine, script, 2);
+
+    host_machine_run(&machine, 1000, main_pass, NULL, NULL);
+
+    TEST_ASSERT_EQUAL_UINT(1, ticks_called);
+    TEST_ASSERT_EQUAL_UINT64(430, called_at);
+    TEST_ASSERT_EQUAL_UINT8(3, hal_io_read_inputs());
+    TEST_ASSERT_EQUAL_UINT32(30, hal_io_delay_ticks());
+}

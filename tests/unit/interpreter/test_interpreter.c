@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base_tick.h"
+#include "hal_time.h"
 #include "host_machine.h"
 
 static struct host_machine machine;
@@ -27,7 +28,7 @@ static void tick_isr(void *context)
 {
     (void)context;
     (void)io_sample_isr(&io);
-    (void)mover_sense_isr(&mover, io_inputs(&io));
+    (void)mover_sense_isr(&mover, io_inputs(&io), hal_time_now());
     mover_plan_stop_isr(&mover);
 }
 
@@ -247,7 +248,7 @@ void test_an_x_that_only_the_mover_has_seen_ends_the_program(const char *text)
 {
     take("X03F900R");
     run_ms(300);
-    (void)mover_sense_isr(&mover, 4);
+    (void)mover_sense_isr(&mover, 4, hal_time_now());
     mover_plan_stop_isr(&mover);
     take(text);
     run_ms(2000);
@@ -259,7 +260,7 @@ void test_an_x_that_only_the_mover_has_seen_does_not_end_what_follows_a_reset(vo
 {
     take("X03F900R");
     run_ms(300);
-    (void)mover_sense_isr(&mover, 4);
+    (void)mover_sense_isr(&mover, 4, hal_time_now());
     mover_plan_stop_isr(&mover);
     take("\\T01");
     run_ms(2000);

@@ -150,7 +150,7 @@ void test_an_input_at_rest_does_nothing(void)
     start_guarded(&mover_bench_slow, (struct mover_guards){.stop_high = M});
     mover_bench_run(&bench);
 
-    TEST_ASSERT_FALSE(mover_sense_isr(&bench.mover, M));
+    TEST_ASSERT_FALSE(mover_sense_isr(&bench.mover, M, MOVER_BENCH_EPOCH));
 
     mover_bench_assert_cause(&bench, HAL_TRACE_STOP_NONE);
 }

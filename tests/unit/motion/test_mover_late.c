@@ -34,6 +34,13 @@ static const struct motion_order fast = {
     .sections = 1,
 };
 
+/* From 16 000 steps/s down to 100 takes 2133 steps at 60 000 steps/s^2, and from the 50th pulse of a ramp 50. */
+static const struct motion_order ramped = {
+    .section = {{4000, 16000, 60000}},
+    .start_speed_steps_per_s = 100,
+    .sections = 1,
+};
+
 static void make_pulses_until(uint64_t tick)
 {
     while (is_armed && armed <= tick) {
@@ -53,6 +60,15 @@ static void arm_seen(unsigned motor, uint32_t tick, int calls)
     TEST_ASSERT_FALSE(is_armed);
     armed = tick_extend(tick, now);
     is_armed = true;
+}
+
+static bool disarm_seen(unsigned motor, int calls)
+{
+    (void)motor;
+    (void)calls;
+    bool taken = is_armed;
+    is_armed = false;
+    return taken;
 }
 
 static void hold_seen(int calls)
@@ -113,6 +129,7 @@ void setUp(void)
     changes_traced = 0;
     hal_step_set_direction_Ignore();
     hal_step_arm_Stub(arm_seen);
+    hal_step_disarm_Stub(disarm_seen);
     hal_step_hold_Stub(hold_seen);
     hal_step_release_Stub(release_seen);
     hal_step_lead_ticks_Stub(tell_lead);
@@ -172,13 +189,6 @@ void test_a_stop_below_the_start_speed_takes_effect_at_the_next_pulse(void)
     TEST_ASSERT_EQUAL_UINT64(11, pulses);
     TEST_ASSERT_EQUAL_INT(HAL_TRACE_STOP_COMMAND, mover_stop_cause(&mover));
 }
-
-/* From 16 000 steps/s down to 100 takes 2133 steps at 60 000 steps/s^2, and from the 50th pulse of a ramp 50. */
-static const struct motion_order ramped = {
-    .section = {{4000, 16000, 60000}},
-    .start_speed_steps_per_s = 100,
-    .sections = 1,
-};
 
 /* Ends of moves that were stopped behind pulse 50, by the time that planning took. */
 static void assert_stopped_alike(uint64_t planning)
@@ -315,16 +325,68 @@ void test_a_stop_behind_which_no_pulse_is_left_changes_nothing(void)
     TEST_ASSERT_EQUAL_UINT64(1000, pulses);
 }
 
-void test_a_stop_that_meets_the_last_pulse_where_it_brakes_changes_nothing(void)
+void test_a_stop_takes_a_pulse_back_that_is_armed_while_it_looks(void)
 {
-    start(&fast, 998);
+    start(&fast, 10);
     looking_ticks = 5250;
 
     stop();
-    TEST_ASSERT_EQUAL_UINT64(999, pulses);
+    TEST_ASSERT_EQUAL_UINT64(11, pulses);
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT64(11, pulses);
+}
+
+/* Two pulses come meanwhile: the stop acts at the third. */
+void test_a_stop_that_looks_too_long_ago_acts_at_the_armed_pulse(void)
+{
+    start(&fast, 10);
+    looking_ticks = 2 * 5250;
+
+    stop();
+    run_to_the_end();
+
+    TEST_ASSERT_EQUAL_UINT64(13, pulses);
+}
+
+void test_a_stop_that_meets_the_last_pulse_where_it_brakes_changes_nothing(void)
+{
+    start(&fast, 998);
+    looking_ticks = 2 * 5250;
+
+    stop();
     run_to_the_end();
 
     TEST_ASSERT_EQUAL_UINT64(1000, pulses);
+}
+
+/* Behind 50 pulses, an input changes so long ago; the pulses are those of a stop behind `made`. */
+static void assert_sensed_like_a_stop_behind(unsigned made, uint64_t ago_ticks)
+{
+    static const struct mover_guards guards = {.stop_high = 1};
+    start(&ramped, 50);
+    now += 100;
+    mover.guards = guards;
+    TEST_ASSERT_TRUE(mover_sense_isr(&mover, 1, now - ago_ticks));
+    mover_plan_stop_isr(&mover);
+    run_to_the_end();
+    uint64_t sensed = pulses;
+
+    setUp();
+    start(&ramped, made);
+    stop();
+    run_to_the_end();
+    TEST_ASSERT_EQUAL_UINT64(pulses, sensed);
+}
+
+void test_an_input_that_is_seen_late_stops_at_the_pulse_behind_its_change(void)
+{
+    assert_sensed_like_a_stop_behind(49, 101);
+}
+
+void test_a_pulse_on_the_tick_of_the_change_is_not_behind_it(void)
+{
+    assert_sensed_like_a_stop_behind(50, 100);
 }
 
 void test_a_stop_of_a_move_whose_end_main_has_not_seen_changes_nothing(void)

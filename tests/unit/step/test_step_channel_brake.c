@@ -35,6 +35,7 @@ static struct step_cursor brake_until(uint64_t until)
     struct step_cursor at;
     begin_move(MOVE);
     make_pulses(MADE);
+    TEST_ASSERT_TRUE(step_channel_look(&channel, armed_tick, &at));
     TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, until, &at));
     return at;
 }
@@ -98,7 +99,7 @@ void test_a_look_tells_the_armed_pulse(void)
     begin_move(MOVE);
     make_pulses(MADE);
 
-    TEST_ASSERT_TRUE(step_channel_look(&channel, &cursor));
+    TEST_ASSERT_TRUE(step_channel_look(&channel, armed_tick, &cursor));
 
     TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&cursor));
     TEST_ASSERT_EQUAL_UINT32(armed_tick, cursor.generator.tick);
@@ -110,10 +111,137 @@ void test_a_look_at_rest_tells_the_last_pulse_and_that_none_is_armed(void)
     begin_move(3);
     (void)run_to_the_end();
 
-    TEST_ASSERT_FALSE(step_channel_look(&channel, &cursor));
+    TEST_ASSERT_FALSE(step_channel_look(&channel, armed_tick, &cursor));
 
     TEST_ASSERT_EQUAL_UINT64(3, step_cursor_pulse(&cursor));
     TEST_ASSERT_EQUAL_UINT32(START + 3 * INTERVAL, cursor.generator.tick);
+}
+
+/* Pulse 5 came on this tick; pulse 6 is armed. */
+enum { LAST_TICK = START + MADE * INTERVAL };
+
+void test_a_look_tells_the_pulse_before_the_armed_one_if_that_came_behind_the_moment(void)
+{
+    struct step_cursor cursor;
+    begin_move(MOVE);
+    make_pulses(MADE);
+
+    TEST_ASSERT_TRUE(step_channel_look(&channel, LAST_TICK - 1, &cursor));
+    TEST_ASSERT_EQUAL_UINT64(MADE, step_cursor_pulse(&cursor));
+    TEST_ASSERT_EQUAL_UINT32(LAST_TICK, cursor.generator.tick);
+
+    TEST_ASSERT_TRUE(step_channel_look(&channel, LAST_TICK, &cursor));
+    TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&cursor));
+}
+
+void test_a_look_before_the_first_pulse_of_a_move_tells_that_one(void)
+{
+    struct step_cursor cursor;
+    begin_move(MOVE);
+
+    TEST_ASSERT_TRUE(step_channel_look(&channel, START - 1000, &cursor));
+
+    TEST_ASSERT_EQUAL_UINT64(1, step_cursor_pulse(&cursor));
+}
+
+void test_a_look_goes_back_over_the_border_of_two_segments(void)
+{
+    struct step_cursor last;
+    struct step_cursor cursor;
+    begin_two(MADE, MOVE);
+    make_pulses(MADE - 1);
+    TEST_ASSERT_TRUE(step_channel_look(&channel, armed_tick, &last));
+    make_pulses(1);
+
+    TEST_ASSERT_TRUE(step_channel_look(&channel, LAST_TICK - 1, &cursor));
+
+    TEST_ASSERT_EQUAL_UINT64(MADE, step_cursor_pulse(&cursor));
+    TEST_ASSERT_EQUAL_UINT32(LAST_TICK, cursor.generator.tick);
+    TEST_ASSERT_EQUAL_UINT64(last.generator.residual, cursor.generator.residual);
+    TEST_ASSERT_EQUAL_UINT64(last.generator.slope, cursor.generator.slope);
+}
+
+void test_a_look_at_fast_pulses_tells_the_armed_one(void)
+{
+    enum { FAST = 3359 }; /* just above 25 000 steps/s */
+    struct step_cursor cursor;
+    struct step_segment segment = {
+        .slope = STEP_QUANTA / FAST, .tick = START, .pace_ticks = FAST, .steps = 100};
+    step_generator_aim(&segment, FAST);
+    step_channel_begin(&channel, START, false);
+    step_channel_push(&channel, &segment);
+    step_channel_run(&channel);
+    make_pulses(MADE);
+
+    TEST_ASSERT_TRUE(step_channel_look(&channel, START, &cursor));
+
+    TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&cursor));
+}
+
+/* Looks while pulse 5 is armed, and brakes when it has been made. */
+static struct step_cursor brake_behind_a_look(void)
+{
+    struct step_cursor at;
+    begin_move(MOVE);
+    make_pulses(MADE - 1);
+    TEST_ASSERT_TRUE(step_channel_look(&channel, armed_tick, &at));
+    make_pulses(1);
+    TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, MADE + GAP, &at));
+    return at;
+}
+
+void test_a_brake_takes_the_pulse_back_that_follows_the_one_looked_at(void)
+{
+    struct step_cursor at = brake_behind_a_look();
+
+    TEST_ASSERT_EQUAL_UINT64(MADE, step_cursor_pulse(&at));
+    TEST_ASSERT_EQUAL_UINT32(LAST_TICK, at.generator.tick);
+    TEST_ASSERT_EQUAL_UINT64(MADE, step_channel_pulses(&channel));
+    TEST_ASSERT_EQUAL_UINT(MADE + 2, arms);
+    TEST_ASSERT_GREATER_THAN_UINT32(LAST_TICK + INTERVAL, armed_tick);
+    TEST_ASSERT_EQUAL_UINT(GAP, run_to_the_end());
+}
+
+void test_a_brake_that_takes_a_pulse_back_makes_the_pulses_of_one_in_time(void)
+{
+    struct step_cursor at = brake_behind_a_look();
+    record(GAP);
+    uint32_t expected[GAP];
+    memcpy(expected, ticks, sizeof expected);
+
+    setUp();
+    begin_move(MOVE);
+    make_pulses(MADE - 1);
+    TEST_ASSERT_TRUE(step_channel_look(&channel, armed_tick, &at));
+    TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, MADE + GAP, &at));
+    make_pulses(1);
+    record(GAP);
+
+    TEST_ASSERT_EQUAL_UINT32_ARRAY(expected, ticks, GAP);
+}
+
+void test_a_brake_goes_on_from_the_armed_pulse_if_that_has_just_come(void)
+{
+    disarm_answer = false;
+    struct step_cursor at = brake_behind_a_look();
+
+    TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&at));
+    TEST_ASSERT_EQUAL_UINT(MADE + 1, arms);
+    TEST_ASSERT_EQUAL_UINT32(LAST_TICK + INTERVAL, armed_tick);
+}
+
+void test_a_brake_two_pulses_behind_its_look_goes_on_from_the_armed_pulse(void)
+{
+    struct step_cursor at;
+    begin_move(MOVE);
+    make_pulses(MADE - 2);
+    TEST_ASSERT_TRUE(step_channel_look(&channel, armed_tick, &at));
+    make_pulses(2);
+
+    TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, MADE + GAP, &at));
+
+    TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&at));
+    TEST_ASSERT_EQUAL_UINT(MADE + 1, arms);
 }
 
 void test_a_brake_stands_on_the_armed_pulse_and_leaves_it_armed(void)
@@ -141,6 +269,7 @@ void test_a_brake_goes_on_until_its_last_pulse_and_drops_what_is_queued(void)
     struct step_cursor at;
     begin_two(MADE + 10, 100);
     make_pulses(MADE);
+    TEST_ASSERT_TRUE(step_channel_look(&channel, armed_tick, &at));
 
     TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, MADE + 20, &at));
 
@@ -167,7 +296,7 @@ void test_a_brake_at_rest_changes_nothing(void)
     (void)run_to_the_end();
     struct step_cursor at = {.end = 77};
     struct step_cursor before;
-    (void)step_channel_look(&channel, &before);
+    (void)step_channel_look(&channel, armed_tick, &before);
 
     TEST_ASSERT_FALSE(step_channel_brake(&channel, ACCEL, 100, &at));
 
