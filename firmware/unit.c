@@ -5,6 +5,8 @@
 #include "base_tick.h"
 #include "hal_board.h"
 #include "hal_io.h"
+#include "hal_run.h"
+#include "hal_step.h"
 #include "hal_time.h"
 #include "unit_line.h"
 
@@ -20,37 +22,31 @@ static bool unit_step_isr(void *context, unsigned motor)
     return mover_pulse_isr(&unit->mover[motor]);
 }
 
-static void unit_brake(struct unit *unit)
+/* Stops motors as the inputs say; what takes long is left to the plan interrupt. */
+static void unit_sense(struct unit *unit, uint64_t since_tick)
 {
-    uint64_t since = hal_time_now() - hal_io_delay_ticks();
+    bool stops = false;
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        (void)mover_sense_isr(&unit->mover[motor], io_inputs(&unit->io), since);
+        stops = mover_sense_isr(&unit->mover[motor], io_inputs(&unit->io), since_tick) || stops;
+    }
+    if (stops) {
+        hal_run_plan();
     }
 }
 
-/* Planning a stop takes long: an input that changes meanwhile acts before the next one is planned. What it has stopped
- * may have had its turn, so they all come again. */
-static void unit_sense(struct unit *unit)
-{
-    bool again = false;
-    unit_brake(unit);
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        mover_plan_stop_isr(&unit->mover[motor]);
-        if (io_sample_isr(&unit->io)) {
-            unit_brake(unit);
-            again = true;
-        }
-    }
-    for (unsigned motor = 0; again && motor < UNIT_MOTORS; motor++) {
-        mover_plan_stop_isr(&unit->mover[motor]);
-    }
-}
-
-static void unit_tick_isr(void *context)
+static void unit_tick_isr(void *context, uint64_t since_tick)
 {
     struct unit *unit = context;
     (void)io_sample_isr(&unit->io);
-    unit_sense(unit);
+    unit_sense(unit, since_tick);
+}
+
+static void unit_plan_isr(void *context)
+{
+    struct unit *unit = context;
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        mover_plan_isr(&unit->mover[motor]);
+    }
 }
 
 void unit_init(struct unit *unit)
@@ -73,6 +69,7 @@ void unit_init(struct unit *unit)
         .context = unit,
         .step_isr = unit_step_isr,
         .tick_isr = unit_tick_isr,
+        .plan_isr = unit_plan_isr,
     };
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         unit->client.channel[motor] = &unit->mover[motor].channel;
@@ -89,25 +86,25 @@ static void unit_start_program(struct unit *unit, unsigned motor, uint64_t now_t
     }
 }
 
+/* The tick interrupt shows the inputs when they change, or in a millisecond. */
+static void unit_look(struct unit *unit, uint64_t now_ticks)
+{
+    hal_step_hold();
+    (void)io_sample_isr(&unit->io);
+    hal_step_release();
+    unit_sense(unit, now_ticks);
+}
+
 void unit_start(struct unit *unit)
 {
     hal_run_start(&unit->client);
     uint64_t now = hal_time_now();
+    unit_look(unit, now);
     unit->polled_tick = now;
     for (unsigned motor = 0; hal_board_may_start_programs() && motor < UNIT_MOTORS; motor++) {
         unit_start_program(unit, motor, now);
     }
     unit_line_start(unit);
-}
-
-/* Shows an input to programs and movers at once, not only at the next tick interrupt. */
-static void unit_sample(struct unit *unit)
-{
-    hal_run_hold_tick();
-    if (io_sample_isr(&unit->io)) {
-        unit_sense(unit);
-    }
-    hal_run_release_tick();
 }
 
 static void led_set(struct unit_led *led, unsigned motor, bool on)
@@ -157,7 +154,6 @@ uint64_t unit_poll(struct unit *unit)
     uint16_t variables = unit->io.variables;
     uint64_t wake = unit_line_poll(unit);
 
-    unit_sample(unit);
     uint64_t now = hal_time_now();
     unit->polled_tick = now;
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {

@@ -58,8 +58,8 @@ static void start_order(struct interpreter *interpreter, uint64_t now_ticks)
     interpreter->state = INTERPRETER_MOVING;
     interpreter->under_way = true;
     interpreter_trace(interpreter, interpreter->clock, HAL_TRACE_MOVE, signed_steps(interpreter, steps));
-    mover_start(mover, &interpreter->order, interpreter->order_backward, interpreter->clock, &interpreter->order_guards,
-                io_inputs(interpreter->io));
+    mover_start(mover, &interpreter->order, interpreter->order_backward, interpreter->clock,
+                &interpreter->order_guards);
     if (interpreter->order.sections == 1 && mover_stop_cause(mover) == HAL_TRACE_STOP_NONE) {
         set_order_outputs(interpreter, now_ticks);
     }

@@ -328,11 +328,6 @@ bool motion_plan_change_speed(struct motion_plan *plan, const struct motion_poin
     return true;
 }
 
-void motion_plan_end(struct motion_plan *plan)
-{
-    plan->progress.section = plan->order.sections;
-}
-
 /* The square root of half of `twice_speed2`, to the nearest: 20 bits below the point decide. */
 static uint32_t nearest_speed(uint64_t twice_speed2)
 {

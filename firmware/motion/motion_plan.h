@@ -73,9 +73,6 @@ bool motion_plan_stop(struct motion_plan *plan, const struct motion_point *at);
  * nothing is changed, if the move is being stopped or ends there. */
 bool motion_plan_change_speed(struct motion_plan *plan, const struct motion_point *at, uint32_t speed_steps_per_s);
 
-/* Leaves no segment to be handed over. */
-void motion_plan_end(struct motion_plan *plan);
-
 /* The break points of the ideal curve: the start of the move (step 1, start speed), the origin if it is a cut, every
  * corner after it, and the end with speed 0 unless the run is endless. Returns their number. */
 unsigned motion_plan_corners(const struct motion_plan *plan, struct motion_corner corners[MOTION_CORNERS_MAX]);

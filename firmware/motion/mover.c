@@ -16,28 +16,26 @@ void mover_init(struct mover *mover, unsigned motor)
     step_channel_init(&mover->channel, motor);
 }
 
-/* Lays the next segment, which takes a Cortex-M4 about 16 us. False if there is none, or no room for it now. */
+/* Lays the next segment, which takes a Cortex-M4 about 16 us. False if there is none, no room for it now, or a stop
+ * that makes it void. */
 static bool feed_segment(struct mover *mover)
 {
     struct step_segment segment;
-    bool fed = step_channel_room(&mover->channel) > 0 && motion_plan_next(&mover->plan, &segment);
-    if (fed) {
-        step_channel_push(&mover->channel, &segment);
-    }
-    return fed;
+    return step_channel_room(&mover->channel) > 0 && motion_plan_next(&mover->plan, &segment) &&
+           step_channel_push(&mover->channel, &segment);
 }
 
 bool mover_feed(struct mover *mover)
 {
-    if (!mover->moving) {
+    if (!mover_is_moving(mover)) {
         return false;
     }
-    hal_run_hold_tick();
+    hal_run_hold_plan();
     bool fed = feed_segment(mover);
     if (fed && !step_channel_is_running(&mover->channel)) {
         step_channel_run(&mover->channel);
     }
-    hal_run_release_tick();
+    hal_run_release_plan();
     return fed;
 }
 
@@ -55,32 +53,125 @@ static enum hal_trace_stop guard_cause(const struct mover_guards *guards, uint8_
     return (guards->halt_high & inputs) != 0 ? HAL_TRACE_STOP_LIMIT : HAL_TRACE_STOP_NONE;
 }
 
-static void set_cause(struct mover *mover, enum hal_trace_stop cause, uint64_t tick)
+/* Of a stop in main and one in the tick interrupt the first counts. */
+static bool take_cause(struct mover *mover, enum hal_trace_stop cause, uint64_t tick)
 {
-    mover->cause = cause;
-    hal_trace(tick, mover->motor + 1U, HAL_TRACE_STOP, cause);
+    unsigned none = HAL_TRACE_STOP_NONE;
+    bool first = atomic_compare_exchange_strong_explicit(&mover->cause, &none, cause, memory_order_relaxed,
+                                                         memory_order_relaxed);
+    if (first) {
+        hal_trace(tick, mover->motor + 1U, HAL_TRACE_STOP, cause);
+    }
+    return first;
+}
+
+/* Brakes at once: at high rates there is no time for planning before the next pulse. A pulse that came after `since` is
+ * the one to brake from, although the next is armed by now. */
+static void brake(struct mover *mover, uint64_t since)
+{
+    struct step_cursor *at = &mover->brake;
+    struct motion_brake brake;
+    if (step_channel_look(&mover->channel, (uint32_t)since, at) &&
+        motion_plan_brake(&mover->plan, step_cursor_pulse(at), at->generator.slope, &brake)) {
+        mover->braking = step_channel_brake(&mover->channel, brake.accel, brake.until, at);
+    }
+}
+
+/* False if the motor does not move, or is being stopped already. */
+static bool stop(struct mover *mover, enum hal_trace_stop cause, uint64_t since)
+{
+    if (!mover_is_moving(mover) || !take_cause(mover, cause, since)) {
+        return false;
+    }
+    if (cause == HAL_TRACE_STOP_LIMIT) {
+        step_channel_halt(&mover->channel);
+    } else {
+        brake(mover, since);
+    }
+    atomic_store_explicit(&mover->stopping, true, memory_order_release);
+    return true;
+}
+
+/* All of it is laid at once: main may be held up by the flash for long. */
+static void lay_stop(struct mover *mover)
+{
+    struct step_segment segment;
+    struct motion_point point = motion_point_of(&mover->brake, hal_time_now());
+    if (motion_plan_stop(&mover->plan, &point) && motion_plan_next(&mover->plan, &segment)) {
+        step_channel_splice(&mover->channel, &mover->brake, &segment);
+    }
+    while (feed_segment(mover)) {
+    }
+}
+
+/* A motor that was at rest when the stop came, as the planner was late, may have got its next segment since; or else it
+ * stays where it is. */
+static void plan_stop(struct mover *mover)
+{
+    if (!mover->braking && mover_stop_cause(mover) != HAL_TRACE_STOP_LIMIT) {
+        brake(mover, hal_time_now());
+    }
+    if (mover->braking) {
+        lay_stop(mover);
+    } else if (!step_channel_is_running(&mover->channel)) {
+        step_channel_halt(&mover->channel);
+    }
+    mover->braking = false;
+}
+
+void mover_plan_isr(struct mover *mover)
+{
+    if (atomic_exchange_explicit(&mover->stopping, false, memory_order_acquire)) {
+        plan_stop(mover);
+    }
+}
+
+bool mover_sense_isr(struct mover *mover, uint8_t inputs, uint64_t since)
+{
+    enum hal_trace_stop cause = guard_cause(&mover->guards, inputs);
+    atomic_store_explicit(&mover->inputs, inputs, memory_order_relaxed);
+    return cause != HAL_TRACE_STOP_NONE && stop(mover, cause, since);
+}
+
+void mover_stop(struct mover *mover, enum hal_trace_stop cause)
+{
+    hal_run_hold_plan();
+    (void)stop(mover, cause, hal_time_now());
+    mover_plan_isr(mover);
+    hal_run_release_plan();
+}
+
+/* An input that changes meanwhile finds the motor standing, and is looked at once more when it moves. */
+static void start(struct mover *mover, const struct motion_order *order, uint64_t start_tick)
+{
+    motion_plan_begin(&mover->plan, order, start_tick);
+    for (unsigned i = 0; i < START_SEGMENTS; i++) {
+        (void)feed_segment(mover);
+    }
+    step_channel_run(&mover->channel);
+    atomic_store_explicit(&mover->moving, true, memory_order_release);
+    enum hal_trace_stop cause = guard_cause(&mover->guards, mover->inputs);
+    if (cause != HAL_TRACE_STOP_NONE) {
+        (void)stop(mover, cause, hal_time_now());
+    }
 }
 
 void mover_start(struct mover *mover, const struct motion_order *order, bool backward, uint64_t start_tick,
-                 const struct mover_guards *guards, uint8_t inputs)
+                 const struct mover_guards *guards)
 {
-    hal_run_hold_tick();
+    hal_run_hold_plan();
     mover->guards = *guards;
-    mover->cause = HAL_TRACE_STOP_NONE;
+    atomic_store_explicit(&mover->cause, HAL_TRACE_STOP_NONE, memory_order_relaxed);
+    atomic_store_explicit(&mover->stopping, false, memory_order_relaxed);
     step_channel_begin(&mover->channel, (uint32_t)start_tick, backward);
-    enum hal_trace_stop cause = guard_cause(guards, inputs);
+    enum hal_trace_stop cause = guard_cause(guards, mover->inputs);
     if (cause != HAL_TRACE_STOP_NONE) {
-        set_cause(mover, cause, start_tick);
+        (void)take_cause(mover, cause, start_tick);
     } else {
-        motion_plan_begin(&mover->plan, order, start_tick);
-        mover->braking = false;
-        for (unsigned i = 0; i < START_SEGMENTS; i++) {
-            (void)feed_segment(mover);
-        }
-        mover->moving = true;
-        step_channel_run(&mover->channel);
+        start(mover, order, start_tick);
+        mover_plan_isr(mover);
     }
-    hal_run_release_tick();
+    hal_run_release_plan();
 }
 
 /* Cuts the plan at the first pulse that leaves time enough, and hands over what follows. Where planning takes longer
@@ -88,7 +179,8 @@ void mover_start(struct mover *mover, const struct motion_order *order, bool bac
  * False if nothing is left to change. */
 static bool change_speed(struct mover *mover, uint32_t speed_steps_per_s)
 {
-    for (uint32_t lead_ticks = hal_step_lead_ticks(); lead_ticks < TICK_HZ;
+    for (uint32_t lead_ticks = hal_step_lead_ticks();
+         lead_ticks < TICK_HZ && mover_stop_cause(mover) == HAL_TRACE_STOP_NONE;
          lead_ticks = 2U * lead_ticks + TICKS_PER_US) {
         uint64_t now = hal_time_now();
         struct step_cursor at;
@@ -106,96 +198,48 @@ static bool change_speed(struct mover *mover, uint32_t speed_steps_per_s)
             count++;
         }
         if (step_channel_cut(&mover->channel, &at, segments, count)) {
-            mover->plan = plan;
+            mover->plan = plan; /* what the tick interrupt reads for a brake is the same in both */
             return true;
         }
     }
     return false;
 }
 
-/* Brakes at once: at high rates there is no time for planning before the next pulse. A pulse that came after `since` is
- * the one to brake from, although the next is armed by now. */
-static void brake(struct mover *mover, uint64_t since)
-{
-    struct step_cursor *at = &mover->brake;
-    struct motion_brake brake;
-    if (step_channel_look(&mover->channel, (uint32_t)since, at) &&
-        motion_plan_brake(&mover->plan, step_cursor_pulse(at), at->generator.slope, &brake)) {
-        mover->braking = step_channel_brake(&mover->channel, brake.accel, brake.until, at);
-    }
-}
-
-/* All of it is laid at once: main may be held up by the flash for long. */
-static void plan_stop(struct mover *mover)
-{
-    struct step_segment segment;
-    struct motion_point point = motion_point_of(&mover->brake, hal_time_now());
-    mover->braking = false;
-    if (motion_plan_stop(&mover->plan, &point) && motion_plan_next(&mover->plan, &segment)) {
-        step_channel_splice(&mover->channel, &mover->brake, &segment);
-    }
-    while (feed_segment(mover)) {
-    }
-}
-
-static void stop_locked(struct mover *mover, enum hal_trace_stop cause, uint64_t since)
-{
-    if (!mover->moving || mover->cause != HAL_TRACE_STOP_NONE) {
-        return;
-    }
-    set_cause(mover, cause, since);
-    if (cause == HAL_TRACE_STOP_LIMIT) {
-        motion_plan_end(&mover->plan);
-        step_channel_halt(&mover->channel);
-    } else {
-        brake(mover, since);
-    }
-}
-
-void mover_stop(struct mover *mover, enum hal_trace_stop cause)
-{
-    hal_run_hold_tick();
-    stop_locked(mover, cause, hal_time_now());
-    mover_plan_stop_isr(mover);
-    hal_run_release_tick();
-}
-
 void mover_change_speed(struct mover *mover, uint32_t speed_steps_per_s)
 {
-    hal_run_hold_tick();
-    bool changeable = mover->moving && mover->cause == HAL_TRACE_STOP_NONE && mover->guards.halt_high == 0;
-    if (changeable && change_speed(mover, speed_steps_per_s)) {
+    hal_run_hold_plan();
+    if (mover_is_moving(mover) && mover->guards.halt_high == 0 && change_speed(mover, speed_steps_per_s)) {
         hal_trace(hal_time_now(), mover->motor + 1U, HAL_TRACE_SPEED, speed_steps_per_s);
     }
-    hal_run_release_tick();
+    hal_run_release_plan();
 }
 
 /* The step interrupt rests when the queue is empty. If the planner was late there is more: then the motor goes on,
  * late, and the backend counts it. */
 void mover_poll(struct mover *mover)
 {
-    if (!mover->moving) {
+    if (!mover_is_moving(mover)) {
         return;
     }
-    hal_run_hold_tick();
+    hal_run_hold_plan();
     if (!step_channel_is_running(&mover->channel)) {
         if (step_channel_room(&mover->channel) < STEP_QUEUE_SEGMENTS || feed_segment(mover)) {
             step_channel_run(&mover->channel);
         } else {
-            mover->moving = false;
+            atomic_store_explicit(&mover->moving, false, memory_order_relaxed);
         }
     }
-    hal_run_release_tick();
+    hal_run_release_plan();
 }
 
 bool mover_is_moving(const struct mover *mover)
 {
-    return mover->moving;
+    return atomic_load_explicit(&mover->moving, memory_order_relaxed);
 }
 
 enum hal_trace_stop mover_stop_cause(const struct mover *mover)
 {
-    return mover->cause;
+    return (enum hal_trace_stop)atomic_load_explicit(&mover->cause, memory_order_relaxed);
 }
 
 uint64_t mover_end_tick(const struct mover *mover)
@@ -225,30 +269,13 @@ bool mover_take_mark(struct mover *mover)
 
 unsigned mover_corners(const struct mover *mover, struct motion_corner corners[MOTION_CORNERS_MAX])
 {
-    if (!mover->moving) {
+    if (!mover_is_moving(mover)) {
         return 0;
     }
-    hal_run_hold_tick();
+    hal_run_hold_plan();
     unsigned count = motion_plan_corners(&mover->plan, corners);
-    hal_run_release_tick();
+    hal_run_release_plan();
     return count;
-}
-
-bool mover_sense_isr(struct mover *mover, uint8_t inputs, uint64_t since)
-{
-    enum hal_trace_stop cause = guard_cause(&mover->guards, inputs);
-    bool stops = mover->moving && mover->cause == HAL_TRACE_STOP_NONE && cause != HAL_TRACE_STOP_NONE;
-    if (stops) {
-        stop_locked(mover, cause, since);
-    }
-    return stops;
-}
-
-void mover_plan_stop_isr(struct mover *mover)
-{
-    if (mover->braking) {
-        plan_stop(mover);
-    }
 }
 
 bool mover_pulse_isr(struct mover *mover)

@@ -2,12 +2,14 @@
  * The mover: one motor's moves, from order to pulses, with all that can end a move early.
  *
  * Comes in: orders, stops and changes of speed from the interpreter; the inputs, sensed in the unit's tick. Goes out:
- * segments to the motor's step channel. Everything here is called from main, except mover_sense_isr and the step
- * interrupt's mover_pulse_isr; main holds the tick interrupt off (hal_run.h) by itself where it must.
+ * segments to the motor's step channel. Everything here is called from main, except what ends with _isr. Plans belong
+ * to main and the plan interrupt, which main holds off by itself where it must (hal_run.h). The tick interrupt only
+ * brakes: it may come while a plan is being made, so it reads nothing of a plan but the order.
  */
 #ifndef MOVER_H
 #define MOVER_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -29,11 +31,13 @@ struct mover {
     struct step_channel channel;
     struct motion_plan plan;
     struct mover_guards guards;
-    enum hal_trace_stop cause; /* why the move is being stopped or was stopped; NONE: not at all */
     struct step_cursor brake; /* while `braking`: the pulse from which the motor brakes and the stop is to be planned */
-    uint8_t motor;
-    bool moving;
+    _Atomic unsigned cause;   /* enum hal_trace_stop: why the move is being stopped or was stopped; NONE: not at all */
+    _Atomic uint8_t inputs;   /* as sensed last */
+    _Atomic bool moving;
+    _Atomic bool stopping;    /* the stop is to be planned */
     bool braking;
+    uint8_t motor;
 };
 
 /* Stands at position 0. */
@@ -42,7 +46,7 @@ void mover_init(struct mover *mover, unsigned motor);
 /* Begins a move at `start_tick`, the unit's time, which may be up to 200 us past: the first pulse comes a whole step
  * later. Where an input of a guard has the guarded level already, no step is made and the cause is set. */
 void mover_start(struct mover *mover, const struct motion_order *order, bool backward, uint64_t start_tick,
-                 const struct mover_guards *guards, uint8_t inputs);
+                 const struct mover_guards *guards);
 
 /* Stops the move down its ramp, from the next pulse that is due; nothing if it is being stopped already. */
 void mover_stop(struct mover *mover, enum hal_trace_stop cause);
@@ -81,12 +85,13 @@ bool mover_take_mark(struct mover *mover);
 /* The break points of the move in progress (motion_plan.h); 0 while standing. */
 unsigned mover_corners(const struct mover *mover, struct motion_corner corners[MOTION_CORNERS_MAX]);
 
-/* Tick interrupt: ends the move if an input says so, or begins to brake, at the first pulse that has come or will come
- * after `since`, the unit's time before which the inputs have not changed. True: main has something to do. */
+/* Tick interrupt, or main before it starts: ends the move if an input says so, or begins to brake, at the first pulse
+ * that has come or will come after `since`, the unit's time before which the inputs have not changed. True: the plan
+ * interrupt is needed. */
 bool mover_sense_isr(struct mover *mover, uint8_t inputs, uint64_t since);
 
-/* Tick interrupt, behind mover_sense_isr of all motors: plans the stop of a motor that has begun to brake. */
-void mover_plan_stop_isr(struct mover *mover);
+/* Plan interrupt: plans the stop of a motor that has begun to brake. */
+void mover_plan_isr(struct mover *mover);
 
 /* Step interrupt: the armed pulse has been made. True: main has something to do. */
 bool mover_pulse_isr(struct mover *mover);

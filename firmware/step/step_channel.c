@@ -54,6 +54,7 @@ void step_channel_begin(struct step_channel *channel, uint32_t tick, bool backwa
     step_generator_start(&channel->cursor.generator, tick);
     channel->cursor.end = 0;
     channel->cursor.left = 0;
+    channel->closed = false;
     channel->direction = backward ? -1 : 1;
     atomic_store_explicit(&channel->marked, false, memory_order_relaxed);
     hal_step_set_direction(channel->motor, backward);
@@ -66,11 +67,22 @@ uint32_t step_channel_room(const struct step_channel *channel)
     return STEP_QUEUE_SEGMENTS - (head - taken);
 }
 
-void step_channel_push(struct step_channel *channel, const struct step_segment *segment)
+static void channel_push(struct step_channel *channel, const struct step_segment *segment)
 {
     uint32_t head = atomic_load_explicit(&channel->head, memory_order_relaxed);
     channel->queue[head % STEP_QUEUE_SEGMENTS] = *segment;
     atomic_store_explicit(&channel->head, head + 1U, memory_order_release);
+}
+
+bool step_channel_push(struct step_channel *channel, const struct step_segment *segment)
+{
+    hal_step_hold();
+    bool open = !channel->closed;
+    if (open) {
+        channel_push(channel, segment);
+    }
+    hal_step_release();
+    return open;
 }
 
 void step_channel_run(struct step_channel *channel)
@@ -148,11 +160,12 @@ bool step_channel_cut(struct step_channel *channel, const struct step_cursor *at
                       unsigned count)
 {
     hal_step_hold();
-    bool in_time = step_channel_is_running(channel) && step_cursor_pulse(&channel->cursor) <= step_cursor_pulse(at);
+    bool in_time = step_channel_is_running(channel) && !channel->closed &&
+                   step_cursor_pulse(&channel->cursor) <= step_cursor_pulse(at);
     if (in_time) {
         channel_truncate(channel, step_cursor_pulse(at));
         for (unsigned i = 0; i < count; i++) {
-            step_channel_push(channel, &segments[i]);
+            channel_push(channel, &segments[i]);
         }
     }
     hal_step_release();
@@ -183,6 +196,7 @@ bool step_channel_brake(struct step_channel *channel, int32_t accel, uint64_t un
         channel->cursor.end = until > pulse ? until : pulse;
         channel->cursor.left = (uint32_t)(channel->cursor.end - pulse);
         atomic_store_explicit(&channel->head, channel->cursor.tail, memory_order_relaxed);
+        channel->closed = true;
     }
     hal_step_release();
     if (back) {
@@ -196,6 +210,7 @@ void step_channel_splice(struct step_channel *channel, const struct step_cursor 
 {
     struct step_cursor *cursor = &channel->cursor;
     hal_step_hold();
+    channel->closed = false;
     uint32_t made = (uint32_t)(step_cursor_pulse(cursor) - step_cursor_pulse(at));
     step_generator_join(&cursor->generator, segment, made);
     cursor->left = segment->steps - made;
@@ -217,7 +232,10 @@ void step_channel_halt(struct step_channel *channel)
             channel->cursor.generator.tick -= channel->cursor.generator.interval;
             atomic_store_explicit(&channel->running, false, memory_order_relaxed);
         }
+    } else {
+        atomic_store_explicit(&channel->head, channel->cursor.tail, memory_order_relaxed);
     }
+    channel->closed = true;
     hal_step_release();
 }
 

@@ -4,7 +4,8 @@
  * Comes in: segments, in a ring that the planner fills (main) and the step interrupt empties. Goes out: compare ticks
  * to hal_step, one pulse ahead, and the position. Because the channel is never more than one pulse ahead, a stop or a
  * change of speed cuts the queue at the pulse that is armed and nothing has to be taken back.
- * Functions named _isr run in the step interrupt; all others in main (or the unit's tick), never in both at once.
+ * Functions named _isr run in the step interrupt; step_channel_look, _brake, _halt and _pulses in any context below it,
+ * all others in main or the plan interrupt, never in both at once.
  */
 #ifndef STEP_CHANNEL_H
 #define STEP_CHANNEL_H
@@ -45,6 +46,7 @@ struct step_channel {
     _Atomic uint32_t taken;    /* count of segments taken; written by the interrupt: what main may overwrite */
     _Atomic bool running;      /* a pulse is armed */
     _Atomic bool marked;       /* a marked segment has begun; main clears it */
+    bool closed;               /* the motor brakes or has been halted: what was planned before is not wanted any more */
     int64_t origin;            /* absolute position at the start of the move, steps */
     int8_t direction;          /* +1 or -1 */
     uint8_t motor;             /* 0 to 3 */
@@ -59,8 +61,9 @@ void step_channel_begin(struct step_channel *channel, uint32_t tick, bool backwa
 /* Free places in the queue. */
 uint32_t step_channel_room(const struct step_channel *channel);
 
-/* Appends a segment; there must be room. */
-void step_channel_push(struct step_channel *channel, const struct step_segment *segment);
+/* Appends a segment; there must be room. False, and nothing is changed, after a brake or a halt, until a splice or the
+ * next move. */
+bool step_channel_push(struct step_channel *channel, const struct step_segment *segment);
 
 /* Arms the next pulse, the first of what has been pushed; rests if there is none. Not while running. */
 void step_channel_run(struct step_channel *channel);
@@ -88,11 +91,11 @@ void step_channel_splice(struct step_channel *channel, const struct step_cursor 
                          const struct step_segment *segment);
 
 /* From the pulse `at` on, nothing that was queued is left, and `count` new segments follow. False, and nothing is
- * changed, if the motor has gone past that pulse in the meantime. */
+ * changed, if the motor has gone past that pulse in the meantime, or brakes. */
 bool step_channel_cut(struct step_channel *channel, const struct step_cursor *at, const struct step_segment *segments,
                       unsigned count);
 
-/* Takes the armed pulse back and ends the move at once. */
+/* Takes the armed pulse back and ends the move at once; at rest, drops what is queued. */
 void step_channel_halt(struct step_channel *channel);
 
 /* Pulses made in the present or last move. */

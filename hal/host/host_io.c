@@ -33,11 +33,6 @@ uint8_t hal_io_read_inputs(void)
     return host_current()->inputs;
 }
 
-uint32_t hal_io_delay_ticks(void)
-{
-    return host_current()->faults.late_tick_ticks;
-}
-
 void hal_io_write_outputs(uint8_t levels)
 {
     write_outputs(host_current(), levels);

@@ -46,7 +46,7 @@ void host_machine_restart(struct host_machine *machine)
     machine->wake = TICK_NEVER;
     machine->sense = TICK_NEVER;
     machine->step_held = false;
-    machine->tick_held = false;
+    machine->plan_held = false;
     machine->flash_operations = 0;
     host_step_reset(machine);
     host_io_reset(machine);
@@ -114,7 +114,7 @@ static void sense_event(struct host_machine *machine)
     machine->now = machine->sense;
     machine->sense = TICK_NEVER;
     if (machine->client.tick_isr != NULL) {
-        machine->client.tick_isr(machine->client.context);
+        machine->client.tick_isr(machine->client.context, host_unit_time(machine) - machine->faults.late_tick_ticks);
         assert(!machine->step_held);
     }
     wake_main(machine, machine->now);
@@ -167,7 +167,7 @@ static void main_event(struct host_machine *machine, host_main_pass *pass, void 
 {
     machine->now = machine->wake;
     uint64_t next = pass(context);
-    assert(!machine->step_held && !machine->tick_held);
+    assert(!machine->step_held && !machine->plan_held);
     if (next == TICK_NEVER) {
         machine->wake = TICK_NEVER;
     } else if (next <= host_unit_time(machine)) {

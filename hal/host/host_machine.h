@@ -115,7 +115,7 @@ struct host_machine {
     bool led[UNIT_MOTORS];
     bool connected;                    /* STEP and DIR reach their pins; so they do at the start */
     bool step_held;
-    bool tick_held;
+    bool plan_held;
     uint8_t inputs;
     uint8_t outputs;
     struct host_line line;

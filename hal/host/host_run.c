@@ -4,20 +4,28 @@
 
 void hal_run_start(const struct hal_client *client)
 {
-    assert(client->step_isr != NULL && client->tick_isr != NULL);
+    assert(client->step_isr != NULL && client->tick_isr != NULL && client->plan_isr != NULL);
     host_current()->client = *client;
 }
 
-void hal_run_hold_tick(void)
+/* Nothing is above it here: main asks only while it does not hold it off. */
+void hal_run_plan(void)
 {
     struct host_machine *machine = host_current();
-    assert(!machine->tick_held);
-    machine->tick_held = true;
+    assert(!machine->plan_held);
+    machine->client.plan_isr(machine->client.context);
 }
 
-void hal_run_release_tick(void)
+void hal_run_hold_plan(void)
 {
     struct host_machine *machine = host_current();
-    assert(machine->tick_held);
-    machine->tick_held = false;
+    assert(!machine->plan_held);
+    machine->plan_held = true;
+}
+
+void hal_run_release_plan(void)
+{
+    struct host_machine *machine = host_current();
+    assert(machine->plan_held);
+    machine->plan_held = false;
 }

@@ -10,10 +10,6 @@
 /* The binary inputs now: bit 0 is BI1. */
 uint8_t hal_io_read_inputs(void);
 
-/* The longest time from a change at an input until the tick interrupt that it calls, in ticks. Main and tick
- * interrupt. */
-uint32_t hal_io_delay_ticks(void);
-
 /* Sets all binary outputs: bit 0 is BO1. */
 void hal_io_write_outputs(uint8_t levels);
 

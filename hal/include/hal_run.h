@@ -5,6 +5,7 @@
 #define HAL_RUN_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "base_limits.h"
 
@@ -19,15 +20,23 @@ struct hal_client {
     /* What step_isr works on, for a backend that counts cycles: it calls step_channel_next_isr itself, inline. */
     struct step_channel *channel[UNIT_MOTORS];
 
-    /* Tick interrupt, every millisecond and whenever an input changes: senses the inputs for guards and stops. */
-    void (*tick_isr)(void *context);
+    /* Tick interrupt, every millisecond and whenever an input changes: senses the inputs for guards and stops. They had
+     * not changed before `since_tick`, the unit's time. */
+    void (*tick_isr)(void *context, uint64_t since_tick);
+
+    /* Plan interrupt, below the tick interrupt: whenever hal_run_plan has asked for it. Plans, which takes long. */
+    void (*plan_isr)(void *context);
 };
 
 /* Starts the interrupts. The client must live as long as the backend runs. Main. */
 void hal_run_start(const struct hal_client *client);
 
-/* Holds the tick interrupt off while main works on what it shares with it, and lets it through again; not nested. */
-void hal_run_hold_tick(void);
-void hal_run_release_tick(void);
+/* Asks for the plan interrupt: it comes as soon as nothing above it runs and main does not hold it off. Main and tick
+ * interrupt. */
+void hal_run_plan(void);
+
+/* Holds the plan interrupt off while main works on what it shares with it, and lets it through again; not nested. */
+void hal_run_hold_plan(void);
+void hal_run_release_plan(void);
 
 #endif

@@ -11,10 +11,10 @@
 #include <stdint.h>
 
 /* Arms a pulse of motor 0 to 3 at `tick`, the low 32 bits of the unit's time, less than 25 s ahead. A tick that has
- * just gone by is made good at once and counted as late. Main and step interrupt. */
+ * just gone by is made good at once and counted as late. Main and all interrupts. */
 void hal_step_arm(unsigned motor, uint32_t tick);
 
-/* Takes the armed pulse back. False: it has been made already and its interrupt is due. Main. */
+/* Takes the armed pulse back. False: it has been made already and its interrupt is due. As hal_step_hold. */
 bool hal_step_disarm(unsigned motor);
 
 /* Sets DIR: false forward, true backward. Called only while no pulse is armed. Main. */
@@ -27,7 +27,8 @@ void hal_step_connect(bool connected);
  * what planning takes. 0 where planning takes no time. Main. */
 uint32_t hal_step_lead_ticks(void);
 
-/* Holds the step interrupt off, for less than 2 us, and lets it through again; not nested. Main. */
+/* Holds the step interrupt off and all others with it, for less than 2 us, and lets them through again; not nested.
+ * Main and all interrupts but the step interrupt. */
 void hal_step_hold(void);
 void hal_step_release(void);
 

@@ -3,7 +3,6 @@
 #include <assert.h>
 
 #include "base_limits.h"
-#include "base_tick.h"
 #include "stm32_pins.h"
 #include "stm32_private.h"
 
@@ -13,9 +12,6 @@ static_assert(STM32_PIN_BI_2 == STM32_PIN_BI_1 + 1 && STM32_PIN_BI_3 == STM32_PI
                    STM32_PIN_BI_6 == STM32_PIN_BI_1 + 5 && STM32_PIN_BI_7 == STM32_PIN_BI_1 + 6 &&
                    STM32_PIN_BI_8 == STM32_PIN_BI_1 + 7 && STM32_PIN_BI_1 / 16 == STM32_PIN_BI_8 / 16,
                "the inputs must be pins in a row of one port");
-
-/* The step interrupt with four pulses due takes 3 us, and the way from the edge to the unit 2 us. */
-enum { INPUT_DELAY_TICKS = 5 * TICKS_PER_US };
 
 static const uint8_t output_pins[UNIT_OUTPUTS] = {
     STM32_PIN_BO_1, STM32_PIN_BO_2, STM32_PIN_BO_3, STM32_PIN_BO_4,
@@ -31,11 +27,6 @@ uint8_t hal_io_read_inputs(void)
 {
     uint32_t levels = GPIO_IDR(STM32_PIN_BI_1 / 16U) >> (STM32_PIN_BI_1 % 16U);
     return (uint8_t)(BOARD_BI_LEVEL == 1U ? levels : ~levels);
-}
-
-uint32_t hal_io_delay_ticks(void)
-{
-    return INPUT_DELAY_TICKS;
 }
 
 void hal_io_write_outputs(uint8_t levels)

@@ -3,8 +3,9 @@
  *
  *   priority 0  TIM2     stm32_step.c   masked only with all interrupts (PRIMASK), for less than 2 us
  *   priority 1  USART    stm32_line.c
- *   priority 2  SysTick  stm32_tick.c   held off by main through BASEPRI
+ *   priority 2  SysTick  stm32_tick.c   held off by main through BASEPRI, for less than 2 us
  *               EXTI     stm32_tick.c   likewise
+ *   priority 3  PendSV   stm32_tick.c   held off by main through BASEPRI, while it plans
  *
  * All of them, what they call and what they read lie in RAM (stm32f405.ld): the flash does not answer while it is being
  * written or erased. So do the fault handlers.
@@ -17,7 +18,7 @@
 
 #include "hal_run.h"
 
-enum { STM32_PRIORITY_STEP = 0, STM32_PRIORITY_LINE = 1, STM32_PRIORITY_TICK = 2 };
+enum { STM32_PRIORITY_STEP = 0, STM32_PRIORITY_LINE = 1, STM32_PRIORITY_TICK = 2, STM32_PRIORITY_PLAN = 3 };
 
 /* Masks all interrupts; returns what stm32_unmask restores. */
 static inline uint32_t stm32_mask(void)
@@ -71,6 +72,7 @@ void stm32_step_interrupt(void);
 void stm32_tick_start(const struct hal_client *client, uint32_t core_hz, bool crystal);
 void stm32_tick_interrupt(void);
 void stm32_edge_interrupt(void);
+void stm32_plan_interrupt(void);
 extern volatile bool stm32_event;
 bool stm32_event_take(void);
 void stm32_event_sleep(void);

@@ -23,6 +23,7 @@ enum {
 
     EXCEPTIONS = 16,
     VECTORS = EXCEPTIONS + 82, /* RM0090 12.1.3 */
+    EXCEPTION_PENDSV = 14,
     EXCEPTION_SYSTICK = 15,
 };
 
@@ -74,6 +75,7 @@ static void start_vectors(void)
     for (uint32_t number = 0; number < VECTORS; number++) {
         set_vector(number, stm32_fault_entry);
     }
+    set_vector(EXCEPTION_PENDSV, stm32_plan_interrupt);
     set_vector(EXCEPTION_SYSTICK, stm32_tick_interrupt);
     for (unsigned input = 0; input < UNIT_INPUTS; input++) {
         set_vector(EXCEPTIONS + stm32_edge_irq(input), stm32_edge_interrupt);

@@ -19,6 +19,7 @@ enum {
     HOLDS_HZ = 20000,
     ALARM_CYCLES_MIN = 100,
     BLINK_MS = 100,
+    ENTRY_TICKS = 1 * TICKS_PER_US, /* from an edge to its interrupt, that of a step in between */
     PRIORITY_SHIFT = 4, /* four bits of priority, at the top of a byte; PM0214 4.3.7 */
 };
 
@@ -62,13 +63,14 @@ static void every_millisecond(void)
     }
 }
 
-static void look_at_inputs(bool must_call)
+/* `entered` is the counter where the interrupt began. */
+static void look_at_inputs(bool must_call, uint32_t entered)
 {
     uint8_t inputs = hal_io_read_inputs();
     if (must_call || inputs != tick.inputs) {
         tick.inputs = inputs;
         stm32_event = true;
-        tick.client.tick_isr(tick.client.context);
+        tick.client.tick_isr(tick.client.context, tick.time + (uint32_t)(entered - (uint32_t)tick.time) - ENTRY_TICKS);
     }
 }
 
@@ -108,6 +110,7 @@ static bool lengthen_clock(void)
 
 void stm32_tick_interrupt(void)
 {
+    uint32_t entered = TIM2_CNT;
     bool millisecond = true;
     if (tick.shortened) {
         millisecond = lengthen_clock();
@@ -120,16 +123,17 @@ void stm32_tick_interrupt(void)
     if (millisecond) {
         every_millisecond();
     }
-    look_at_inputs(millisecond);
+    look_at_inputs(millisecond, entered);
 }
 
 void stm32_edge_interrupt(void)
 {
+    uint32_t entered = TIM2_CNT;
     uint32_t rest = find_rest();
     stm32_edge_hold();
     shorten_clock(rest, tick.hold);
     tick.edges_held = true;
-    look_at_inputs(false);
+    look_at_inputs(false, entered);
 }
 
 void stm32_tick_start(const struct hal_client *client, uint32_t core_hz, bool crystal)
@@ -139,20 +143,38 @@ void stm32_tick_start(const struct hal_client *client, uint32_t core_hz, bool cr
     tick.period = core_hz / PERIODS_HZ;
     tick.hold = core_hz / HOLDS_HZ;
     tick.tick_cycles = core_hz > TICK_HZ ? core_hz / TICK_HZ : 1U;
-    SCB_SHPR3 = (uint32_t)STM32_PRIORITY_TICK << (24U + PRIORITY_SHIFT);
+    SCB_SHPR3 = (uint32_t)STM32_PRIORITY_TICK << (24U + PRIORITY_SHIFT) |
+                (uint32_t)STM32_PRIORITY_PLAN << (16U + PRIORITY_SHIFT);
     restart_clock(tick.period);
     STK_CTRL = STK_CTRL_CLKSOURCE | STK_CTRL_TICKINT | STK_CTRL_ENABLE;
 }
 
-void hal_run_hold_tick(void)
+void stm32_plan_interrupt(void)
 {
-    uint32_t priority = STM32_PRIORITY_TICK << PRIORITY_SHIFT;
-    __asm__ volatile("msr basepri, %0\n\tisb" ::"r"(priority) : "memory");
+    tick.client.plan_isr(tick.client.context);
 }
 
-void hal_run_release_tick(void)
+/* The barriers: it comes here, and not some instructions later, if nothing holds it off (PM0214 4.4.3). */
+void hal_run_plan(void)
 {
-    __asm__ volatile("msr basepri, %0" ::"r"(0) : "memory");
+    SCB_ICSR = SCB_ICSR_PENDSVSET;
+    stm32_barrier();
+}
+
+/* Holds interrupts off from a priority on; 0: none. */
+static void hold_from(uint32_t priority)
+{
+    __asm__ volatile("msr basepri, %0\n\tisb" ::"r"(priority << PRIORITY_SHIFT) : "memory");
+}
+
+void hal_run_hold_plan(void)
+{
+    hold_from(STM32_PRIORITY_PLAN);
+}
+
+void hal_run_release_plan(void)
+{
+    hold_from(0);
 }
 
 bool stm32_event_take(void)
@@ -167,14 +189,14 @@ bool stm32_event_take(void)
 /* A hold ends soon enough. */
 void stm32_event_alarm(uint32_t ticks)
 {
-    hal_run_hold_tick();
+    hold_from(STM32_PRIORITY_TICK);
     uint32_t rest = find_rest();
     uint32_t cycles = ticks * tick.tick_cycles;
     cycles = cycles < ALARM_CYCLES_MIN ? (uint32_t)ALARM_CYCLES_MIN : cycles;
     if (!tick.edges_held && rest > tick.rest && cycles < rest - tick.rest) {
         shorten_clock(rest, cycles);
     }
-    hal_run_release_tick();
+    hold_from(0);
 }
 
 /* An interrupt that comes between the look and the sleep ends the sleep, as it stays pending. */

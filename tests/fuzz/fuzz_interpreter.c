@@ -110,7 +110,7 @@ static uint64_t order_steps(const struct motion_order *order)
 }
 
 void mover_start(struct mover *mover, const struct motion_order *order, bool backward, uint64_t start_tick,
-                 const struct mover_guards *guards, uint8_t inputs)
+                 const struct mover_guards *guards)
 {
     FUZZ_REQUIRE(!mover->moving && start_tick <= bench.now);
     FUZZ_REQUIRE(bench.now - start_tick <= INTERPRETER_CLOCK_SLACK_TICKS);
@@ -118,7 +118,7 @@ void mover_start(struct mover *mover, const struct motion_order *order, bool bac
     bench.orders++;
     mover->guards = *guards;
     mover->channel.direction = backward ? -1 : 1;
-    mover->cause = (guards->stop_total & inputs) != 0 ? HAL_TRACE_STOP_TOTAL : HAL_TRACE_STOP_NONE;
+    mover->cause = (guards->stop_total & io_inputs(&bench.io)) != 0 ? HAL_TRACE_STOP_TOTAL : HAL_TRACE_STOP_NONE;
     mover->moving = mover->cause == HAL_TRACE_STOP_NONE;
     bench.made = 0;
     bench.steps = order_steps(order);

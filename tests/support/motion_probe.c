@@ -115,7 +115,13 @@ static bool step_isr(void *context, unsigned motor)
     return change_is_due(probe) || attention;
 }
 
-static void tick_isr(void *context)
+static void tick_isr(void *context, uint64_t since_tick)
+{
+    (void)context;
+    (void)since_tick;
+}
+
+static void plan_isr(void *context)
 {
     (void)context;
 }
@@ -147,7 +153,8 @@ static bool has_ended(void *context)
 static void run_case(struct probe *probe)
 {
     static const struct mover_guards none = {0};
-    const struct hal_client client = {.context = probe, .step_isr = step_isr, .tick_isr = tick_isr};
+    const struct hal_client client = {
+        .context = probe, .step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&probe->machine, probe->epoch);
     probe->machine.listener = (struct host_listener){.context = probe, .step = step_seen};
     host_machine_select(&probe->machine);
@@ -155,7 +162,7 @@ static void run_case(struct probe *probe)
     probe->changes_made = 0;
     probe->wanted_told = 0;
     mover_init(&probe->mover, 0);
-    mover_start(&probe->mover, &probe->order, false, probe->epoch, &none, 0);
+    mover_start(&probe->mover, &probe->order, false, probe->epoch, &none);
     probe->corner_count = mover_corners(&probe->mover, probe->corners);
     host_machine_run(&probe->machine, UINT64_MAX, main_pass, has_ended, probe);
 }

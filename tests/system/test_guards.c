@@ -138,16 +138,6 @@ void test_a_short_pulse_of_a_guard_stops_the_move(void)
     TEST_ASSERT_TRUE(bench_output(&bench, 1));
 }
 
-/* The pin changes and no tick interrupt has come yet when main makes a pass. */
-void test_main_shows_an_input_to_the_mover_at_once(void)
-{
-    bench_send(&bench, 1, "M03 S1000 F90 R T01");
-    bench_run_pulses(&bench, 1, 20);
-    bench.machine.inputs = 0x04;
-    bench_run_idle(&bench);
-    TEST_ASSERT_UINT32_WITHIN(1, 20, bench_pulses(&bench, 1));
-}
-
 void test_guards_do_not_act_in_a_wait(void)
 {
     bench_send(&bench, 1, "M03 W100 T01");

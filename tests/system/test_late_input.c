@@ -58,7 +58,7 @@ static void assert_no_later(const char *text, uint32_t late_ticks)
 
 TEST_CASE("M03 S2000 V16000 A60000 F300 R")
 TEST_CASE("X03 S500 V2000 A60000 B150 R")
-TEST_CASE("M03 S300 A9000 [ V900 F40 V3000 F60 V700 F30 ] R")
+TEST_CASE("M03 S300 A9000 V900 F40 Y V3000 F60 Y V700 F30 Y R")
 TEST_CASE("M03 S1500 V1500 A2000 F60 R")
 void test_a_guard_that_is_seen_late_stops_at_the_same_pulse(const char *text)
 {

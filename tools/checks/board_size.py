@@ -20,6 +20,7 @@ POINTER_CALLS = {
     "stm32_tick_interrupt": {"unit_tick_isr"},
     "stm32_edge_interrupt": {"unit_tick_isr"},
     "look_at_inputs": {"unit_tick_isr"},
+    "stm32_plan_interrupt": {"unit_plan_isr"},
 }
 # Folders of the build whose objects are not of the image.
 OTHERS = {"CompilerIdC", "rkm04_bench.dir"}
@@ -41,6 +42,7 @@ LIBRARY_FRAMES = {
 # behind the other.
 LEVELS = (
     ("main",),
+    ("stm32_plan_interrupt",),
     ("stm32_tick_interrupt", "stm32_edge_interrupt"),
     ("stm32_line_interrupt",),
     ("stm32_step_interrupt",),

@@ -22,9 +22,9 @@ REFERENCES_MIN = 100  # fewer mean that the image was linked without them
 
 # What the vector table has, what interrupts call through a pointer, and what waits for the flash.
 ENTRIES = [
-    *(f"stm32_{name}_interrupt" for name in ("step", "tick", "edge", "line")),
+    *(f"stm32_{name}_interrupt" for name in ("step", "tick", "edge", "line", "plan")),
     *("stm32_fault_entry", "stm32_fault_stop"),
-    "unit_tick_isr",
+    *("unit_tick_isr", "unit_plan_isr"),
     *("hal_flash_read", "hal_flash_write_word", "hal_flash_erase"),
 ]
 

@@ -37,6 +37,8 @@ LIMIT_SPEED = 2_000
 GUARD = b"S%d V%d A%d @1 M03 F90000 R W%d J1"
 TOTAL_STOP = b"S%d V%d A%d X03 F90000 R"
 LIMIT_RUN = b"S%d @1 )03 W%d J1"
+BUSY = b"S2000 V16000 A60000 @1 F2 Y F3 Y F4 Y F5 Y R J1"
+"""Plans all the time."""
 INPUT = 3
 
 GOAL_FAST_US, GOAL_US, FAST = 100, 1000, 10_000
@@ -50,6 +52,8 @@ class Reaction:
     kind: str
     speed: int
     motors: int
+    busy: bool = False
+    """Whether the other motors begin moves all the time."""
     begins: list[float] = field(default_factory=list)
     changes: list[float] = field(default_factory=list)
     stack_used: int = 0
@@ -68,6 +72,8 @@ class Reaction:
     def name(self) -> str:
         """For the table."""
         motors = "1 motor" if self.motors == 1 else f"{self.motors} motors"
+        if self.busy:
+            motors += " beside three busy"
         return f"{self.kind}, {thousands(self.speed)} steps/s, {motors}"
 
 
@@ -103,6 +109,7 @@ def measure(rig: Rig) -> list[Reaction]:
         found += [guard(rig, speed, motors) for speed in SPEEDS]
         found += [total_stop(rig, speed, motors) for speed in SPEEDS]
         found.append(limit_run(rig, motors))
+    found += [guard(rig, speed, 1, busy=True) for speed in SPEEDS]
     return found
 
 
@@ -136,15 +143,19 @@ def _run(
     seconds = (edges[-1] + behind_ms) / 1000
     ran = rig.run(seconds, line.lines, _inputs(edges), steps=True)
     reaction.stack_used = max(reaction.stack_used, ran.stack_used)
-    for ticks in ran.ticks().values():
+    found = ran.ticks()
+    for ticks in (found[motor] for motor in MOTORS[: reaction.motors]):
         for edge in edges:
             yield ticks, round(edge * TICKS_PER_MS)
 
 
-def guard(rig: Rig, speed: int, motors: int) -> Reaction:
+def guard(rig: Rig, speed: int, motors: int, *, busy: bool = False) -> Reaction:
     """Moves that a guard stops, one behind the other."""
-    reaction = Reaction("guard", speed, motors)
-    line = _all(GUARD % (START_SPEED, speed, ACCEL, round(PAUSE_MS)), motors)
+    reaction = Reaction("guard", speed, motors, busy)
+    text = GUARD % (START_SPEED, speed, ACCEL, round(PAUSE_MS))
+    line = programs(
+        {motor: text if motor <= motors else BUSY for motor in MOTORS if busy or motor <= motors}
+    )
     ramp = _ramp_ms(speed)
     first = line.released_ms + ramp + CRUISE_MS
     apart = ramp + PAUSE_MS + ramp + 2 * CRUISE_MS

@@ -64,7 +64,7 @@ static void start_move(struct unit *unit, unsigned motor, uint64_t tick)
     };
     const struct mover_guards none = {.stop_high = 0};
     if (move->steps != 0) {
-        mover_start(&unit->mover[motor], &order, false, tick + move->delay_ticks, &none, 0);
+        mover_start(&unit->mover[motor], &order, false, tick + move->delay_ticks, &none);
     }
 }
 

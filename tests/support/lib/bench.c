@@ -83,17 +83,24 @@ static bool step_isr(void *context, unsigned motor)
     return bench->unit.client.step_isr(&bench->unit, motor) || wanted;
 }
 
-static void tick_isr(void *context)
+static void tick_isr(void *context, uint64_t since_tick)
 {
     struct bench *bench = context;
-    bench->unit.client.tick_isr(&bench->unit);
+    bench->unit.client.tick_isr(&bench->unit, since_tick);
+}
+
+static void plan_isr(void *context)
+{
+    struct bench *bench = context;
+    bench->unit.client.plan_isr(&bench->unit);
 }
 
 static void start_unit(struct bench *bench)
 {
     unit_init(&bench->unit);
     unit_start(&bench->unit);
-    bench->machine.client = (struct hal_client){.context = bench, .step_isr = step_isr, .tick_isr = tick_isr};
+    bench->machine.client = (struct hal_client){
+        .context = bench, .step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
 }
 
 void bench_init_at(struct bench *bench, uint64_t epoch)

@@ -41,12 +41,19 @@ static bool step_isr(void *context, unsigned motor)
     return mover_pulse_isr(&bench->mover);
 }
 
-static void tick_isr(void *context)
+static void tick_isr(void *context, uint64_t since_tick)
 {
     struct mover_bench *bench = context;
-    uint64_t since = hal_time_now() - hal_io_delay_ticks();
-    bench->stops_sensed += mover_sense_isr(&bench->mover, hal_io_read_inputs(), since) ? 1U : 0U;
-    mover_plan_stop_isr(&bench->mover);
+    if (mover_sense_isr(&bench->mover, hal_io_read_inputs(), since_tick)) {
+        bench->stops_sensed++;
+        hal_run_plan();
+    }
+}
+
+static void plan_isr(void *context)
+{
+    struct mover_bench *bench = context;
+    mover_plan_isr(&bench->mover);
 }
 
 static uint64_t main_pass(void *context)
@@ -60,7 +67,8 @@ static uint64_t main_pass(void *context)
 
 void mover_bench_init(struct mover_bench *bench)
 {
-    const struct hal_client client = {.context = bench, .step_isr = step_isr, .tick_isr = tick_isr};
+    const struct hal_client client = {
+        .context = bench, .step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&bench->machine, MOVER_BENCH_EPOCH);
     bench->machine.listener = (struct host_listener){.context = bench, .trace = traced, .step = stepped};
     host_machine_select(&bench->machine);
@@ -74,7 +82,8 @@ void mover_bench_init(struct mover_bench *bench)
 void mover_bench_start(struct mover_bench *bench, const struct motion_order *order, struct mover_guards guards,
                        uint8_t inputs)
 {
-    mover_start(&bench->mover, order, false, MOVER_BENCH_EPOCH, &guards, inputs);
+    (void)mover_sense_isr(&bench->mover, inputs, MOVER_BENCH_EPOCH);
+    mover_start(&bench->mover, order, false, MOVER_BENCH_EPOCH, &guards);
 }
 
 void mover_bench_set_inputs(struct mover_bench *bench, uint8_t levels, uint8_t changed, uint64_t ms)

@@ -40,10 +40,10 @@ static uint64_t pass_that_holds_the_step_interrupt(void *context)
     return TICK_NEVER;
 }
 
-static uint64_t pass_that_holds_the_tick_interrupt(void *context)
+static uint64_t pass_that_holds_the_plan_interrupt(void *context)
 {
     (void)context;
-    hal_run_hold_tick();
+    hal_run_hold_plan();
     return TICK_NEVER;
 }
 
@@ -100,10 +100,10 @@ static void hold_steps_twice(void)
     hal_step_hold();
 }
 
-static void hold_ticks_twice(void)
+static void hold_plans_twice(void)
 {
-    hal_run_hold_tick();
-    hal_run_hold_tick();
+    hal_run_hold_plan();
+    hal_run_hold_plan();
 }
 
 static void hold_steps_beyond_a_pass(void)
@@ -111,9 +111,9 @@ static void hold_steps_beyond_a_pass(void)
     host_machine_run(&machine, 10, pass_that_holds_the_step_interrupt, NULL, NULL);
 }
 
-static void hold_ticks_beyond_a_pass(void)
+static void hold_plans_beyond_a_pass(void)
 {
-    host_machine_run(&machine, 10, pass_that_holds_the_tick_interrupt, NULL, NULL);
+    host_machine_run(&machine, 10, pass_that_holds_the_plan_interrupt, NULL, NULL);
 }
 
 static void start_without_interrupts(void)
@@ -195,31 +195,31 @@ void test_the_direction_of_an_armed_motor_cannot_be_set(void)
 void test_an_interrupt_is_held_only_once(void)
 {
     TEST_ASSERT_TRUE(is_refused(hold_steps_twice));
-    TEST_ASSERT_TRUE(is_refused(hold_ticks_twice));
+    TEST_ASSERT_TRUE(is_refused(hold_plans_twice));
 }
 
 void test_only_what_is_held_can_be_released(void)
 {
     TEST_ASSERT_TRUE(is_refused(hal_step_release));
-    TEST_ASSERT_TRUE(is_refused(hal_run_release_tick));
+    TEST_ASSERT_TRUE(is_refused(hal_run_release_plan));
 }
 
 void test_nothing_is_held_beyond_a_pass_of_main(void)
 {
     TEST_ASSERT_TRUE(is_refused(hold_steps_beyond_a_pass));
     setUp();
-    TEST_ASSERT_TRUE(is_refused(hold_ticks_beyond_a_pass));
+    TEST_ASSERT_TRUE(is_refused(hold_plans_beyond_a_pass));
 }
 
 void test_interrupts_held_and_released_are_let_through(void)
 {
     hal_step_hold();
     hal_step_release();
-    hal_run_hold_tick();
-    hal_run_release_tick();
+    hal_run_hold_plan();
+    hal_run_release_plan();
 
     TEST_ASSERT_FALSE(machine.step_held);
-    TEST_ASSERT_FALSE(machine.tick_held);
+    TEST_ASSERT_FALSE(machine.plan_held);
 }
 
 void test_both_interrupts_are_needed_to_start(void)

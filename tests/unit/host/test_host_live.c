@@ -28,11 +28,17 @@ static bool step_isr(void *context, unsigned motor)
     return false;
 }
 
-static void tick_isr(void *context)
+static void tick_isr(void *context, uint64_t since_tick)
 {
     (void)context;
+    (void)since_tick;
     ticks++;
     sensed = hal_io_read_inputs();
+}
+
+static void plan_isr(void *context)
+{
+    (void)context;
 }
 
 static void input_seen(void *context, uint64_t tick, uint8_t levels)
@@ -44,7 +50,7 @@ static void input_seen(void *context, uint64_t tick, uint8_t levels)
 
 void setUp(void)
 {
-    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr};
+    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&machine, 0);
     host_machine_select(&machine);
     hal_run_start(&client);

@@ -58,10 +58,15 @@ static bool step_isr(void *context, unsigned motor)
     return step_isr_wakes;
 }
 
-static void tick_isr(void *context)
+static void tick_isr(void *context, uint64_t since_tick)
 {
     (void)context;
-    note('T', hal_time_now() - machine.epoch, hal_io_read_inputs());
+    note('T', since_tick - machine.epoch, hal_io_read_inputs());
+}
+
+static void plan_isr(void *context)
+{
+    (void)context;
 }
 
 static uint64_t main_pass(void *context)
@@ -81,7 +86,7 @@ static bool is_done(void *context)
 
 static void begin_at(uint64_t epoch)
 {
-    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr};
+    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&machine, epoch);
     machine.listener = (struct host_listener){.step = step_seen, .input = input_seen};
     host_machine_select(&machine);
@@ -486,10 +491,10 @@ void test_a_restart_clears_the_faults(void)
 void test_a_restart_lets_held_interrupts_go(void)
 {
     hal_step_hold();
-    hal_run_hold_tick();
+    hal_run_hold_plan();
 
     host_machine_restart(&machine);
 
     TEST_ASSERT_FALSE(machine.step_held);
-    TEST_ASSERT_FALSE(machine.tick_held);
+    TEST_ASSERT_FALSE(machine.plan_held);
 }

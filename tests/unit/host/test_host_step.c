@@ -39,7 +39,13 @@ static bool step_isr(void *context, unsigned motor)
     return false;
 }
 
-static void tick_isr(void *context)
+static void tick_isr(void *context, uint64_t since_tick)
+{
+    (void)context;
+    (void)since_tick;
+}
+
+static void plan_isr(void *context)
 {
     (void)context;
 }
@@ -57,7 +63,7 @@ static void run_until(uint64_t until)
 
 static void begin_at(uint64_t epoch)
 {
-    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr};
+    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&machine, epoch);
     machine.listener = (struct host_listener){.step = step_seen, .direction = direction_seen};
     host_machine_select(&machine);

@@ -24,12 +24,17 @@ static bool step_isr(void *context, unsigned motor)
     return mover_pulse_isr(&mover);
 }
 
-static void tick_isr(void *context)
+static void tick_isr(void *context, uint64_t since_tick)
 {
     (void)context;
     (void)io_sample_isr(&io);
-    (void)mover_sense_isr(&mover, io_inputs(&io), hal_time_now());
-    mover_plan_stop_isr(&mover);
+    (void)mover_sense_isr(&mover, io_inputs(&io), since_tick);
+    mover_plan_isr(&mover);
+}
+
+static void plan_isr(void *context)
+{
+    (void)context;
 }
 
 static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
@@ -43,7 +48,7 @@ static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trac
 
 void setUp(void)
 {
-    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr};
+    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     memset(traced, 0, sizeof traced);
     host_machine_init(&machine, UINT64_C(77) << 32U);
     host_machine_select(&machine);
@@ -249,7 +254,7 @@ void test_an_x_that_only_the_mover_has_seen_ends_the_program(const char *text)
     take("X03F900R");
     run_ms(300);
     (void)mover_sense_isr(&mover, 4, hal_time_now());
-    mover_plan_stop_isr(&mover);
+    mover_plan_isr(&mover);
     take(text);
     run_ms(2000);
     TEST_ASSERT_EQUAL_INT(INTERPRETER_ENDED, interpreter.state);
@@ -261,7 +266,7 @@ void test_an_x_that_only_the_mover_has_seen_does_not_end_what_follows_a_reset(vo
     take("X03F900R");
     run_ms(300);
     (void)mover_sense_isr(&mover, 4, hal_time_now());
-    mover_plan_stop_isr(&mover);
+    mover_plan_isr(&mover);
     take("\\T01");
     run_ms(2000);
     TEST_ASSERT_EQUAL_HEX8(1, io.outputs);

@@ -41,7 +41,7 @@ void test_a_move_makes_its_steps(void)
 
 void test_a_move_backward_counts_down(void)
 {
-    mover_start(&bench.mover, &mover_bench_trapezoid, true, MOVER_BENCH_EPOCH, &no_guards, 0);
+    mover_start(&bench.mover, &mover_bench_trapezoid, true, MOVER_BENCH_EPOCH, &no_guards);
 
     mover_bench_run(&bench);
 
@@ -87,7 +87,7 @@ void test_moves_join_without_drift(void)
     start(&mover_bench_slow);
     mover_bench_run(&bench);
 
-    mover_start(&bench.mover, &mover_bench_slow, false, mover_end_tick(&bench.mover), &no_guards, 0);
+    mover_start(&bench.mover, &mover_bench_slow, false, mover_end_tick(&bench.mover), &no_guards);
     mover_bench_run(&bench);
 
     TEST_ASSERT_EQUAL_UINT64(2000 * TICKS_PER_MS, bench.last_edge_tick);

@@ -29,7 +29,7 @@ static void start_guarded(const struct motion_order *order, struct mover_guards 
 
 static void assert_no_step_at_start(struct mover_guards guards, uint8_t inputs, enum hal_trace_stop cause)
 {
-    mover_start(&bench.mover, &mover_bench_trapezoid, false, MOVER_BENCH_EPOCH, &guards, inputs);
+    mover_bench_start(&bench, &mover_bench_trapezoid, guards, inputs);
 
     mover_bench_run(&bench);
 
@@ -61,7 +61,7 @@ void test_a_limit_that_is_high_at_the_start_allows_no_step(void)
 void test_guards_with_the_other_level_at_the_start_let_the_motor_go(void)
 {
     const struct mover_guards guards = {.stop_high = M, .stop_low = N, .stop_total = X};
-    mover_start(&bench.mover, &mover_bench_trapezoid, false, MOVER_BENCH_EPOCH, &guards, (uint8_t) ~(M | X));
+    mover_bench_start(&bench, &mover_bench_trapezoid, guards, (uint8_t) ~(M | X));
     bench.machine.inputs = N;
 
     mover_bench_run(&bench);
@@ -72,13 +72,13 @@ void test_guards_with_the_other_level_at_the_start_let_the_motor_go(void)
 void test_a_total_stop_is_told_before_the_guards_and_they_before_the_limit(void)
 {
     struct mover_guards guards = {.stop_high = M, .stop_low = N, .stop_total = X, .halt_high = LIMIT};
-    mover_start(&bench.mover, &mover_bench_slow, false, MOVER_BENCH_EPOCH, &guards, M | X | LIMIT);
+    mover_bench_start(&bench, &mover_bench_slow, guards, M | X | LIMIT);
     TEST_ASSERT_EQUAL_INT(HAL_TRACE_STOP_TOTAL, mover_stop_cause(&bench.mover));
 
-    mover_start(&bench.mover, &mover_bench_slow, false, MOVER_BENCH_EPOCH, &guards, M | LIMIT);
+    mover_bench_start(&bench, &mover_bench_slow, guards, M | LIMIT);
     TEST_ASSERT_EQUAL_INT(HAL_TRACE_STOP_HIGH, mover_stop_cause(&bench.mover));
 
-    mover_start(&bench.mover, &mover_bench_slow, false, MOVER_BENCH_EPOCH, &guards, LIMIT);
+    mover_bench_start(&bench, &mover_bench_slow, guards, LIMIT);
     TEST_ASSERT_EQUAL_INT(HAL_TRACE_STOP_LOW, mover_stop_cause(&bench.mover));
 }
 

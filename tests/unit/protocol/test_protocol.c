@@ -26,14 +26,20 @@ static bool step_isr(void *context, unsigned motor)
     return mover_pulse_isr(&mover[motor]);
 }
 
-static void tick_isr(void *context)
+static void tick_isr(void *context, uint64_t since_tick)
+{
+    (void)context;
+    (void)since_tick;
+}
+
+static void plan_isr(void *context)
 {
     (void)context;
 }
 
 void setUp(void)
 {
-    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr};
+    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&machine, 1234567);
     host_machine_select(&machine);
     io_init(&io);

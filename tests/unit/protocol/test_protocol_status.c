@@ -23,15 +23,21 @@ static bool step_isr(void *context, unsigned motor)
     return mover_pulse_isr(&mover[motor]);
 }
 
-static void tick_isr(void *context)
+static void tick_isr(void *context, uint64_t since_tick)
 {
     (void)context;
+    (void)since_tick;
     (void)io_sample_isr(&io);
+}
+
+static void plan_isr(void *context)
+{
+    (void)context;
 }
 
 static void start(void)
 {
-    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr};
+    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     io_init(&io);
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         mover_init(&mover[motor], motor);

@@ -32,10 +32,16 @@ static bool step_isr(void *context, unsigned motor)
 }
 
 /* A limit switch: any input ends the move. */
-static void tick_isr(void *context)
+static void tick_isr(void *context, uint64_t since_tick)
 {
     (void)context;
+    (void)since_tick;
     step_channel_halt(&channels[MOTOR]);
+}
+
+static void plan_isr(void *context)
+{
+    (void)context;
 }
 
 static uint64_t main_pass(void *context)
@@ -46,7 +52,7 @@ static uint64_t main_pass(void *context)
 
 static void start_machine(uint64_t epoch)
 {
-    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr};
+    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&machine, epoch);
     machine.listener.step = edge_seen;
     host_machine_select(&machine);
