@@ -13,6 +13,7 @@
 enum { KEPT_BYTES_MAX = 86 };
 
 static_assert((uint32_t)LINK_REQUEST_BYTES_MAX <= (uint32_t)PROTOCOL_REQUEST_BYTES_MAX, "every request has an answer");
+static_assert((uint32_t)LINK_OPENING == (uint32_t)PROTOCOL_VERSION, "Version opens a session");
 static_assert((uint32_t)LINK_ANSWER_BYTES_MAX >= (uint32_t)PROTOCOL_ANSWER_BYTES_MAX, "every answer can be sent");
 
 void unit_line_start(struct unit *unit)

@@ -7,6 +7,7 @@ void link_init(struct link *link, uint8_t node, const uint8_t *answer)
     link_receiver_init(&link->receiver, node, link->message);
     link_sender_init(&link->sender);
     link->answer = answer;
+    link->open = false;
     link_forget(link);
 }
 
@@ -30,6 +31,16 @@ static void link_count(struct link *link, enum link_count count)
     link->receiver.counts[count]++;
 }
 
+/* A numbered request may be the repeat of one that was executed before the unit started. So none is executed until the
+ * master has opened a session. */
+static bool is_refused(struct link *link)
+{
+    const struct link_receiver *receiver = &link->receiver;
+    bool numbered = receiver->address != LINK_NODE_BROADCAST && receiver->number != LINK_NUMBER_NONE;
+    link->open = link->open || (numbered && receiver->message[0] == LINK_OPENING);
+    return numbered && !link->open;
+}
+
 bool link_take(struct link *link, const struct hal_line_byte *byte, struct link_request *request)
 {
     const struct link_receiver *receiver = &link->receiver;
@@ -42,6 +53,11 @@ bool link_take(struct link *link, const struct hal_line_byte *byte, struct link_
     }
     if (is_repeat(link)) {
         link_count(link, LINK_COUNT_REPEATS);
+        ready_answer(link);
+        return false;
+    }
+    if (is_refused(link)) {
+        link->answer_number = receiver->number;
         ready_answer(link);
         return false;
     }
@@ -75,6 +91,18 @@ void link_forget(struct link *link)
     link->answered_number = LINK_NUMBER_NONE;
 }
 
+/* As nothing numbered is executed without a session, an answer with a number is the refusal. */
+static void begin_answer(struct link *link)
+{
+    static const uint8_t refusal[] = {LINK_OPENING};
+    uint8_t address = link->receiver.node | LINK_ADDRESS_ANSWER;
+    if (link->open || link->answer_number == LINK_NUMBER_NONE) {
+        link_sender_start(&link->sender, address, link->answer_number, link->answer, link->answer_length);
+    } else {
+        link_sender_start(&link->sender, address | LINK_ADDRESS_REFUSED, link->answer_number, refusal, sizeof refusal);
+    }
+}
+
 uint64_t link_poll(struct link *link, uint64_t now_ticks)
 {
     uint64_t begin = link->receiver.tick + LINK_SILENCE_TICKS;
@@ -92,8 +120,7 @@ uint64_t link_poll(struct link *link, uint64_t now_ticks)
         link_count(link, LINK_COUNT_UNSENT);
         return TICK_NEVER;
     }
-    link_sender_start(&link->sender, link->receiver.node | LINK_ADDRESS_ANSWER, link->answer_number, link->answer,
-                      link->answer_length);
+    begin_answer(link);
     return TICK_NEVER;
 }
 

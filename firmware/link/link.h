@@ -1,9 +1,10 @@
 /*
  * The link of one unit: bytes of the line in, requests out to be executed; answers in, bytes for the line out.
  *
- * It holds the session (line.md, "Repeats"): a request with the number and the message of the one answered last is not
- * executed but answered again. Of that request it keeps the length and a CRC-32; the answer stays in a buffer of the
- * owner's. It listens or sends, never both. Main only. About 8.4 kB.
+ * It holds the session (line.md, "Sessions"): until a Version with a number has come no request with a number is
+ * executed, it is refused; and one with the number and the message of the one answered last is not executed but
+ * answered again. Of that request the link keeps the length and a CRC-32; the answer stays in a buffer of the owner's.
+ * It listens or sends, never both. Main only. About 8.4 kB.
  */
 #ifndef LINK_H
 #define LINK_H
@@ -34,10 +35,11 @@ struct link {
     uint8_t answered_number;     /* its number; 0: no request is known again */
     uint8_t answer_number;       /* the number that the answer carries */
     bool waiting;                /* the answer is to be sent */
+    bool open;                   /* a session has been opened since the start */
     uint8_t message[LINK_BUFFER_BYTES];
 };
 
-/* No session, silence. `node` is 1 to 16; `answer` is where link_answer finds the answers. */
+/* No session is open; silence. `node` is 1 to 16; `answer` is where link_answer finds the answers. */
 void link_init(struct link *link, uint8_t node, const uint8_t *answer);
 
 /* Takes one byte; not while sending. True: *request is to be executed and, if it is not a broadcast, link_answer to

@@ -16,11 +16,13 @@ enum {
     LINK_ESCAPE = 0x7D, /* the next byte is a flag or an escape, with LINK_ESCAPED changed */
     LINK_ESCAPED = 0x20,
 
-    LINK_ADDRESS_ANSWER = 0x80, /* set in the address of an answer */
-    LINK_NODE_BROADCAST = 0,    /* all units; none answers */
+    LINK_ADDRESS_ANSWER = 0x80,  /* set in the address of an answer */
+    LINK_ADDRESS_REFUSED = 0x40, /* set too: not executed, as no session is open */
+    LINK_NODE_BROADCAST = 0,     /* all units; none answers */
     LINK_NODE_MAX = 16,
 
     LINK_NUMBER_NONE = 0, /* the request is executed whenever it comes */
+    LINK_OPENING = 1,     /* the message that opens a session: Version; and all of a refusal */
 
     LINK_HEAD_BYTES = 2, /* address and number */
     LINK_FCS_BYTES = 2,

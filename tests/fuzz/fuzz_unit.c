@@ -1,7 +1,8 @@
 /*
  * The whole unit: bytes and input edges in, the judge on the pulses. Every good frame has one answer, which an
  * independent reader finds whole, a broadcast has none, a repeat is not executed again, and noise is never answered
- * unless the receiver has found a good frame in it. Time, flash faults and restarts come in between.
+ * unless the receiver has found a good frame in it. Time, flash faults and restarts come in between. A run begins with
+ * an open session; behind a restart every request but Version is refused until there is one.
  *
  * Input: a head (low 2 bits: epoch; bit 7: the run is made once more at another epoch and must be the same but for the
  * shift) | operations, a byte each with its operands behind:
@@ -34,6 +35,8 @@ struct talk {
     uint32_t frame_length;
     uint8_t number;
     bool broadcast;              /* the last frame was one */
+    bool opens;                  /* its message was Version */
+    bool open;                   /* a session is */
     bool answered;               /* the last frame was a request and has been answered, and nothing came since */
     struct host_line_byte script[FRAME_MAX];
     uint8_t content[FUZZ_SENT_MAX];
@@ -72,9 +75,20 @@ static void check_answer(struct talk *t)
     FUZZ_REQUIRE(fuzz->machine.line.to_send_count == 0);
     judge_exchange(&fuzz->judge, t->broadcast ? 0 : 1, fuzz->sent_count != 0 ? 1 : 0);
     if (!t->broadcast) {
-        FUZZ_REQUIRE(length >= 3);
-        FUZZ_REQUIRE(t->content[0] == (NODE | LINK_ADDRESS_ANSWER) && t->content[1] == t->number);
+        uint8_t address = NODE | LINK_ADDRESS_ANSWER | (t->open ? 0U : LINK_ADDRESS_REFUSED);
+        FUZZ_REQUIRE(length >= 3 && (t->open || length == 3));
+        FUZZ_REQUIRE(t->content[0] == address && t->content[1] == t->number);
     }
+}
+
+/* Only Set Command changes it. */
+static uint32_t commands_taken(const struct fuzz_unit *fuzz)
+{
+    uint32_t sum = 0;
+    for (unsigned i = 0; i < UNIT_MOTORS; i++) {
+        sum += fuzz->unit.interpreter[i].memory.written;
+    }
+    return sum;
 }
 
 static void do_frame(struct talk *t, bool repeated)
@@ -82,12 +96,24 @@ static void do_frame(struct talk *t, bool repeated)
     const struct link *link = &t->fuzz->unit.link;
     uint32_t repeats = link->receiver.counts[LINK_COUNT_REPEATS];
     bool known = repeated && t->answered && !t->broadcast;
+    uint32_t taken = commands_taken(t->fuzz);
+    t->open = t->open || (!t->broadcast && t->opens);
     hear(t, t->frame, t->frame_length);
     if (wait_for_silence(t)) {
         check_answer(t);
         FUZZ_REQUIRE(link->receiver.counts[LINK_COUNT_REPEATS] - repeats == (known ? 1U : 0U) || !known);
-        t->answered = !t->broadcast;
+        FUZZ_REQUIRE(t->open || t->broadcast || commands_taken(t->fuzz) == taken);
+        t->answered = !t->broadcast && t->open;
     }
+}
+
+static void do_request(struct talk *t, const uint8_t *message, uint32_t length, bool broadcast)
+{
+    t->number = (uint8_t)(t->number == UINT8_MAX ? 1 : t->number + 1U);
+    t->broadcast = broadcast;
+    t->opens = message[0] == PROTOCOL_VERSION;
+    t->frame_length = frame_write(t->frame, broadcast ? 0 : NODE, t->number, message, length);
+    do_frame(t, false);
 }
 
 static void do_message(struct talk *t, struct fuzz_stream *stream, bool broadcast)
@@ -97,13 +123,9 @@ static void do_message(struct talk *t, struct fuzz_stream *stream, bool broadcas
     const uint8_t *end = memchr(message, 0, left);
     size_t length = end != NULL ? (size_t)(end - message) : left;
     stream->next += end != NULL ? length + 1U : length;
-    if (length == 0 || length > MESSAGE_MAX) {
-        return;
+    if (length != 0 && length <= MESSAGE_MAX) {
+        do_request(t, message, (uint32_t)length, broadcast);
     }
-    t->number = (uint8_t)(t->number == UINT8_MAX ? 1 : t->number + 1U);
-    t->broadcast = broadcast;
-    t->frame_length = frame_write(t->frame, broadcast ? 0 : NODE, t->number, message, (uint32_t)length);
-    do_frame(t, false);
 }
 
 /* Something that is no frame of ours, or only by chance. */
@@ -113,7 +135,9 @@ static void do_noise(struct talk *t, const uint8_t *bytes, uint32_t length)
     uint32_t frames = counts[LINK_COUNT_FRAMES];
     hear(t, bytes, length);
     t->answered = false;
-    if (wait_for_silence(t)) {
+    bool over = !wait_for_silence(t);
+    t->open = t->fuzz->unit.link.open; /* a frame in it may have been Version */
+    if (!over) {
         FUZZ_REQUIRE(t->fuzz->sent_count == 0 || counts[LINK_COUNT_FRAMES] != frames);
     }
 }
@@ -156,6 +180,7 @@ static void do_trouble(struct talk *t, unsigned operand)
     case 2: faults->flash_cut_after = at; break;
     default:
         fuzz_unit_restart(t->fuzz);
+        t->open = false;
         t->answered = false;
         break;
     }
@@ -183,10 +208,13 @@ static void do_operation(struct talk *t, struct fuzz_stream *stream)
 
 static uint64_t run_once(struct fuzz_stream stream, unsigned epoch)
 {
+    const uint8_t opening = PROTOCOL_VERSION;
     talk.fuzz = fuzz_unit_begin(epoch);
     talk.frame_length = 0;
     talk.number = 0;
     talk.answered = false;
+    talk.open = false;
+    do_request(&talk, &opening, sizeof opening, false);
     for (unsigned i = 0; i < OPERATIONS_MAX && !fuzz_stream_is_over(&stream) && !fuzz_unit_is_over(talk.fuzz); i++) {
         do_operation(&talk, &stream);
     }

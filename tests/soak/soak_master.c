@@ -227,11 +227,18 @@ static const struct {
     {30, do_broadcast}, {15, do_listing}, {4, do_programs},    {1, do_store},
 };
 
+static void do_version(struct soak_master *master)
+{
+    const uint8_t message[] = {PROTOCOL_VERSION};
+    soak_request(master, message, sizeof message);
+}
+
 void soak_master_begin(struct soak_master *master, struct soak_unit *soak, uint64_t seed)
 {
     memset(master, 0, sizeof *master);
     master->soak = soak;
     master->chance = seed;
+    do_version(master);
     do_programs(master);
 }
 

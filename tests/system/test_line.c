@@ -13,6 +13,7 @@ void setUp(void)
 {
     bench_init(&bench);
     line_init(&line, &bench);
+    line_open(&line);
 }
 
 void tearDown(void)
@@ -104,17 +105,18 @@ void test_a_program_starts_at_the_end_of_its_frame(void)
  * what programs have lived through already, and counts from there. */
 void test_requests_that_come_at_the_same_time_count_from_then_or_from_the_pass_before(void)
 {
+    uint64_t tick = bench_now(&bench) + 12345;
     uint32_t length = frame_write(line.frame, NODE, 1, "\002" "1S1000F1R", 10);
     length += frame_write(line.frame + length, NODE, 2, "\002" "2S1000F1R", 10);
     length += frame_write(line.frame + length, NODE, 3, "\002" "3S1000F1R", 10);
     for (uint32_t i = 0; i < length; i++) {
-        line.script[i] = (struct host_line_byte){.tick = 12345, .value = line.frame[i]};
+        line.script[i] = (struct host_line_byte){.tick = tick, .value = line.frame[i]};
     }
     host_machine_set_line(&bench.machine, line.script, length);
     bench_run_ms(&bench, 10);
-    TEST_ASSERT_EQUAL_UINT64(12345 + TICKS_PER_MS, bench_pulse_tick(&bench, 1, 1));
-    TEST_ASSERT_EQUAL_UINT64(12345 + TICKS_PER_MS, bench_pulse_tick(&bench, 2, 1));
-    TEST_ASSERT_EQUAL_UINT64(12345 + HOST_PASS_TICKS + TICKS_PER_MS, bench_pulse_tick(&bench, 3, 1));
+    TEST_ASSERT_EQUAL_UINT64(tick + TICKS_PER_MS, bench_pulse_tick(&bench, 1, 1));
+    TEST_ASSERT_EQUAL_UINT64(tick + TICKS_PER_MS, bench_pulse_tick(&bench, 2, 1));
+    TEST_ASSERT_EQUAL_UINT64(tick + HOST_PASS_TICKS + TICKS_PER_MS, bench_pulse_tick(&bench, 3, 1));
 }
 
 /* A Set Command message of so many bytes that ends in a move. */

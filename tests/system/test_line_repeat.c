@@ -14,6 +14,7 @@ void setUp(void)
 {
     bench_init(&bench);
     line_init(&line, &bench);
+    line_open(&line);
 }
 
 void tearDown(void)
@@ -25,6 +26,12 @@ static void assert_done(const char *text)
 {
     TEST_ASSERT_NOT_NULL(text);
     TEST_ASSERT_EQUAL_MEMORY("1\0\0", text, 3);
+}
+
+static void assert_done_storing(const char *text)
+{
+    TEST_ASSERT_NOT_NULL(text);
+    TEST_ASSERT_EQUAL_MEMORY("1\0", text, 2);
 }
 
 void test_a_repeated_request_is_not_executed_and_answered_again(void)
@@ -58,14 +65,49 @@ void test_without_a_number_every_request_is_executed(void)
     TEST_ASSERT_EQUAL_UINT32(9, bench_pulses(&bench, 1));
 }
 
-void test_after_a_reset_of_the_unit_a_repeat_is_a_new_request(void)
+static void assert_refused(uint8_t number)
 {
-    line_request(&line, NODE, 7, PROTOCOL_SET_COMMAND, "1T01");
+    uint8_t refusal[FRAME_BYTES_MAX(1)];
+    uint32_t length = frame_write(refusal, 0xC0 | NODE, number, "\1", 1);
+    bench_run_ms(&bench, 20);
+    TEST_ASSERT_EQUAL_UINT32(length, line.sent_count - line.read_count);
+    for (uint32_t i = 0; i < length; i++) {
+        TEST_ASSERT_EQUAL_HEX8(refusal[i], line.sent[line.read_count + i].value);
+    }
+    line.read_count = line.sent_count;
+}
+
+void test_after_a_reset_of_the_unit_a_repeat_is_refused(void)
+{
+    line_request(&line, NODE, 7, PROTOCOL_SET_COMMAND, "1S1000F3R");
     assert_done(line_answer(&line, 7));
+    bench_run_idle(&bench);
     bench_restart(&bench);
-    line_request(&line, NODE, 7, PROTOCOL_SET_COMMAND, "1T01");
+    for (unsigned i = 0; i < 3; i++) {
+        line_request(&line, NODE, 7, PROTOCOL_SET_COMMAND, "1S1000F3R");
+        assert_refused(7);
+    }
+    TEST_ASSERT_EQUAL_UINT32(3, bench_pulses(&bench, 1));
+}
+
+/* The watchdog does not ask a master either. */
+void test_after_a_reset_by_the_watchdog_too(void)
+{
+    line_request(&line, NODE, 7, PROTOCOL_STORE_FLASH, "1");
+    assert_done_storing(line_answer(&line, 7));
+    bench_restart_badly(&bench);
+    line_request(&line, NODE, 7, PROTOCOL_STORE_FLASH, "1");
+    assert_refused(7);
+}
+
+void test_requests_of_a_new_session_are_executed_after_a_reset(void)
+{
+    bench_restart(&bench);
+    line_open(&line);
+    line_request(&line, NODE, 7, PROTOCOL_SET_COMMAND, "1S1000F3R");
     assert_done(line_answer(&line, 7));
-    TEST_ASSERT_TRUE(bench_output(&bench, 1));
+    bench_run_idle(&bench);
+    TEST_ASSERT_EQUAL_UINT32(3, bench_pulses(&bench, 1));
 }
 
 /* A damaged repeat and two broadcasts, one of which uses the buffer of the answers, come in between. */

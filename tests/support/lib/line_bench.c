@@ -98,6 +98,13 @@ const char *line_answer(struct line_bench *line, uint8_t number)
     return (const char *)line->content + 3;
 }
 
+void line_open(struct line_bench *line)
+{
+    line_check(line);
+    line->sent_count = 0;
+    line->read_count = 0;
+}
+
 void line_check(struct line_bench *line)
 {
     line_request(line, LINE_BENCH_NODE, 99, PROTOCOL_VERSION, "");

@@ -47,6 +47,9 @@ uint64_t line_request(struct line_bench *line, uint8_t address, uint8_t number, 
  * NULL: there was none. Fails if what was sent is not one frame with this number that answers the last message. */
 const char *line_answer(struct line_bench *line, uint8_t number);
 
+/* Opens a session: what was said before is forgotten. */
+void line_open(struct line_bench *line);
+
 /* Asks for the version. */
 void line_check(struct line_bench *line);
 

@@ -17,18 +17,6 @@ static uint8_t content[FRAME_BYTES_MAX(LINK_ANSWER_BYTES_MAX)];
 static uint8_t longest[LINK_REQUEST_BYTES_MAX];
 static uint64_t tick;
 
-void setUp(void)
-{
-    tick = 1000000;
-    memset(answer, 0, sizeof answer);
-    memset(&link, 0xEE, sizeof link);
-    link_init(&link, NODE, answer);
-}
-
-void tearDown(void)
-{
-}
-
 static unsigned take(const uint8_t *bytes, uint32_t length)
 {
     unsigned requests = 0;
@@ -50,8 +38,9 @@ static bool ask(uint8_t number, const char *text, const char *reply)
     return true;
 }
 
-/* Lets the link send what it wants to within the time of an answer; returns the text, "" for none. */
-static const char *hear(uint8_t number)
+/* Lets the link send what it wants to within the time of an answer; returns the text behind this address and the
+ * number, "" for none. */
+static const char *hear_from(uint8_t address, uint8_t number)
 {
     uint32_t length = 0;
     uint64_t begin = link_poll(&link, tick);
@@ -65,10 +54,40 @@ static const char *hear(uint8_t number)
     }
     length = frame_read(content, frame, length);
     TEST_ASSERT_GREATER_THAN_UINT32(2, length);
-    TEST_ASSERT_EQUAL_HEX8(0x80 | NODE, content[0]);
+    TEST_ASSERT_EQUAL_HEX8(address, content[0]);
     TEST_ASSERT_EQUAL_UINT8(number, content[1]);
     content[length] = '\0';
     return (const char *)content + 2;
+}
+
+static const char *hear(uint8_t number)
+{
+    return hear_from(0x80 | NODE, number);
+}
+
+static void switch_on(uint8_t node)
+{
+    memset(answer, 0, sizeof answer);
+    memset(&link, 0xEE, sizeof link);
+    link_init(&link, node, answer);
+}
+
+static void open_session(uint8_t node)
+{
+    take(frame, frame_write(frame, node, 200, "\1", 1));
+    link_answer(&link, 1);
+    link_forget(&link);
+}
+
+void setUp(void)
+{
+    tick = 1000000;
+    switch_on(NODE);
+    open_session(NODE);
+}
+
+void tearDown(void)
+{
 }
 
 void test_it_is_silent_at_first(void)
@@ -153,7 +172,8 @@ void test_the_limits_are_those_of_the_line(void)
 void test_every_node_answers_with_its_own_address(void)
 {
     for (unsigned node = 1; node <= LINK_NODE_MAX; node++) {
-        link_init(&link, (uint8_t)node, answer);
+        switch_on((uint8_t)node);
+        open_session((uint8_t)node);
         take(frame, frame_write(frame, (uint8_t)node, 1, "a", 1));
         link_answer(&link, 1);
         (void)link_poll(&link, tick + TICKS_PER_MS);
@@ -226,6 +246,69 @@ void test_nothing_is_known_again_after_the_start(void)
         setUp();
         TEST_ASSERT_TRUE(ask((uint8_t)number, "a", "A"));
     }
+}
+
+static void assert_refused(uint8_t number)
+{
+    TEST_ASSERT_FALSE(ask(number, "a", "A"));
+    TEST_ASSERT_EQUAL_STRING("\1", hear_from(0xC0 | NODE, number));
+}
+
+void test_before_a_session_every_request_with_a_number_is_refused(void)
+{
+    switch_on(NODE);
+    for (unsigned number = 1; number <= 255; number++) {
+        assert_refused((uint8_t)number);
+        assert_refused((uint8_t)number);
+    }
+    TEST_ASSERT_EQUAL_UINT32(0, link.receiver.counts[LINK_COUNT_REPEATS]);
+}
+
+void test_before_a_session_requests_without_a_number_are_executed(void)
+{
+    switch_on(NODE);
+    TEST_ASSERT_TRUE(ask(0, "a", "A"));
+    TEST_ASSERT_EQUAL_STRING("A", hear(0));
+    assert_refused(7);
+    TEST_ASSERT_TRUE(ask(0, "a", "B"));
+    TEST_ASSERT_EQUAL_STRING("B", hear(0));
+}
+
+void test_before_a_session_broadcasts_are_executed(void)
+{
+    switch_on(NODE);
+    TEST_ASSERT_EQUAL_UINT(1, take(frame, frame_write(frame, 0, 4, "a", 1)));
+    TEST_ASSERT_TRUE(request.broadcast);
+    TEST_ASSERT_EQUAL_STRING("", hear(4));
+}
+
+void test_version_opens_a_session(void)
+{
+    switch_on(NODE);
+    TEST_ASSERT_TRUE(ask(7, "\1", "V"));
+    TEST_ASSERT_EQUAL_STRING("V", hear(7));
+    TEST_ASSERT_TRUE(ask(8, "a", "A"));
+    TEST_ASSERT_EQUAL_STRING("A", hear(8));
+}
+
+void test_a_refused_request_is_executed_when_a_session_has_been_opened(void)
+{
+    switch_on(NODE);
+    assert_refused(7);
+    TEST_ASSERT_TRUE(ask(7, "\1", "V"));
+    TEST_ASSERT_TRUE(ask(7, "a", "A"));
+    TEST_ASSERT_EQUAL_STRING("A", hear(7));
+}
+
+TEST_CASE(5, 0)
+TEST_CASE(0, 0)
+TEST_CASE(0, 7)
+TEST_CASE(6, 7)
+void test_version_without_a_number_or_for_others_opens_none(unsigned address, unsigned number)
+{
+    switch_on(NODE);
+    (void)take(frame, frame_write(frame, (uint8_t)address, (uint8_t)number, "\1", 1));
+    assert_refused(8);
 }
 
 /* 'ab' begins as 'aa', and comes between it and its repeat: damaged, cut, for others, too long. */
