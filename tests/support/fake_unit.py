@@ -21,7 +21,7 @@ from frames import ESCAPE, ESCAPED, FLAG, fcs16, frame
 from statuses import GET_STATUS, VECTORS
 
 VERSION = b"01.02,06.03.2009"
-ANSWER = 0x80
+ANSWER, REFUSED = 0x80, 0x40
 
 Fault = Callable[[bytes], bytes]
 """Makes what goes back to the master out of the answer's bytes."""
@@ -83,9 +83,18 @@ class FakeUnit:
     """The answer to Get Status; empty: a unit that does not know it."""
     tables: dict[int, bytes] = field(default_factory=dict)
     last: tuple[int, bytes, bytes] = (0, b"", b"")
+    in_session: bool = False
+
+    def restart(self) -> None:
+        """Forget the line, as a start does."""
+        self.last = (0, b"", b"")
+        self.in_session = False
 
     def take(self, number: int, message: bytes) -> bytes:
-        """Answer a request, or a repeat of the last one."""
+        """Answer a request, or a repeat of the last one; empty: refused."""
+        self.in_session = self.in_session or (number != 0 and message[0] == 1)
+        if number and not self.in_session:
+            return b""
         if number and self.last[:2] == (number, message):
             return self.last[2]
         answer = self.execute(message)
@@ -245,7 +254,9 @@ class FakeLine:
             for unit in self.units.values():
                 unit.execute(message)
         elif address in self.units and not self.flood:
-            answer = frame(address | ANSWER, number, self.units[address].take(number, message))
+            taken = self.units[address].take(number, message)
+            back = address | ANSWER if taken else address | ANSWER | REFUSED
+            answer = frame(back, number, taken or b"\1")
             fault = self.faults.popleft() if self.faults else bytes
             time.sleep(self.delay_seconds)
             self._write(fault(answer))

@@ -48,6 +48,7 @@ class Talker:
     def __init__(self, fd: int, close: Callable[[], None]) -> None:
         self._fd = fd
         self._number = 0
+        self._in_session: set[int] = set()
         self._came = b""
         self.close = close
 
@@ -72,6 +73,10 @@ class Talker:
             self._came += os.read(self._fd, 65_536)
 
     def ask(self, message: bytes, node: int = 1, number: int | None = None) -> bytes:
+        """Ask for an answer, in a session."""
+        if node not in self._in_session:
+            self._in_session.add(node)
+            self.ask(b"\1", node)
         self._number = self._number % 255 + 1 if number is None else number
         self.send(frame(node, self._number, message))
         answer = self.receive()

@@ -73,7 +73,7 @@ def test_backup_where_nobody_answers_is_no_connection(tool, fake, tmp_path, unit
 
 
 def test_backup_of_two_units_with_one_address_is_refused(tool, fake, tmp_path):
-    fake.faults.append(fake_unit.twice)
+    fake.faults += [fake_unit.twice] * 2
 
     result = tool("backup", tmp_path / "b")
 
@@ -110,7 +110,7 @@ def test_restore_changes_nothing_if_a_unit_is_missing(tool, fake, folder, units)
 
     assert result.status == 3
     assert "unit 9 does not answer" in result.complaint
-    assert units[0].done == [b"\x01"]
+    assert set(units[0].done) == {b"\x01"}
 
 
 def test_restore_changes_nothing_if_a_file_has_an_error(tool, folder, units):

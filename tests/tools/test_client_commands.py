@@ -333,7 +333,7 @@ def test_watch_tells_the_speed(call, unit, monkeypatch):
 
 
 def test_watch_goes_on_when_a_unit_is_away_for_a_while(call, fake):
-    fake.faults += [bytes] * 5 + [fake_unit.lost] * 4
+    fake.faults += [bytes] * 6 + [fake_unit.lost] * 4
 
     text = call("watch", "--motor", "1", "--interval", "0.05", "--count", "3")
 

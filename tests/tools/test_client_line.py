@@ -14,8 +14,15 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from rkm04_tools.failure import Failure
 from rkm04_tools.frame import Frame
-from rkm04_tools.line import ATTEMPTS, Line, Wait, open_line
-from rkm04_tools.line_errors import GarbledAnswer, NoAnswer, PortLost, UnitRefused, WrongAnswer
+from rkm04_tools.line import ATTEMPTS, Line, Motor, Wait, open_line
+from rkm04_tools.line_errors import (
+    GarbledAnswer,
+    NoAnswer,
+    PortLost,
+    UnitRefused,
+    UnitRestarted,
+    WrongAnswer,
+)
 from rkm04_tools.messages import BreakPoint, Progress
 
 NODE = 3
@@ -72,15 +79,15 @@ def test_acts_are_the_messages_of_the_manual(motor, unit):
     assert commands(unit) == [b"\x022K", b"\x022C75", b"\x022\\", b"\x022V500", b"\x032"]
 
 
-def test_a_session_begins_with_version_and_counts_on(motor, fake):
+def test_a_session_begins_with_two_versions_and_counts_on(motor, fake):
     motor.position()
     motor.position()
     motor.position()
 
     numbers = [number for _, number, _ in fake.requests]
-    assert [message for _, _, message in fake.requests] == [VERSION, *[b"\x042"] * 3]
+    assert [message for _, _, message in fake.requests] == [VERSION] * 2 + [b"\x042"] * 3
     assert 0 not in numbers
-    assert [(b - a) % 255 for a, b in itertools.pairwise(numbers)] == [1, 1, 1]
+    assert [(b - a) % 255 for a, b in itertools.pairwise(numbers)] == [1, 1, 1, 1]
 
 
 def test_stop_goes_at_once_and_without_a_number(motor, fake):
@@ -96,8 +103,8 @@ def test_a_lost_request_is_repeated_with_its_number(motor, fake, unit):
     motor.command("F100R")
 
     assert commands(unit)[-1:] == [b"\x022F100R"]
-    assert len({number for _, number, _ in fake.requests[2:]}) == 1
-    assert len(fake.requests) == 5
+    assert len({number for _, number, _ in fake.requests[3:]}) == 1
+    assert len(fake.requests) == 6
 
 
 @pytest.mark.parametrize("fake", [False], indirect=True)
@@ -156,6 +163,64 @@ def test_two_units_that_talk_at_once_are_named_as_a_cause(motor, fake):
 
 
 @pytest.mark.parametrize("fake", [False], indirect=True)
+def test_a_request_is_not_repeated_by_a_restart_behind_its_execution(motor, fake, unit):
+    def lost_by_restart(answer: bytes) -> bytes:
+        unit.restart()
+        return b""
+
+    motor.position()
+    fake.faults.append(lost_by_restart)
+
+    with pytest.raises(UnitRestarted, match="executed before that or not at all; look") as caught:
+        motor.command("F100R")
+
+    assert caught.value.repeated
+    assert commands(unit).count(b"\x022F100R") == 1
+
+
+def test_a_unit_that_has_restarted_executes_nothing_that_changes_something(motor, unit):
+    motor.position()
+    unit.restart()
+
+    with pytest.raises(UnitRestarted, match="the request was not executed; look") as caught:
+        motor.command("F100R")
+    assert not caught.value.repeated
+    assert commands(unit) == [b"\x042"]
+
+    motor.command("F100R")
+    assert commands(unit) == [b"\x042", b"\x022F100R"]
+
+
+@pytest.mark.parametrize("act", [Motor.reset, Motor.resume, Motor.store])
+def test_nor_any_other_of_the_acts(motor, unit, act):
+    motor.position()
+    unit.restart()
+
+    with pytest.raises(UnitRestarted):
+        act(motor)
+
+    assert commands(unit) == [b"\x042"]
+
+
+def test_a_unit_that_has_restarted_is_asked_in_a_new_session(motor, fake, unit):
+    motor.position()
+    unit.restart()
+    unit.positions[1] = 0
+
+    assert motor.position() == 0
+    assert [message for _, _, message in fake.requests[-4:]] == [b"\x042", *[VERSION] * 2, b"\x042"]
+
+
+def test_a_unit_that_has_restarted_is_stopped(motor, unit):
+    motor.position()
+    unit.restart()
+
+    motor.stop()
+
+    assert commands(unit)[-1:] == [b"\x022K"]
+
+
+@pytest.mark.parametrize("fake", [False], indirect=True)
 def test_after_an_error_the_next_request_begins_a_session(motor, fake, unit):
     motor.position()
     fake.faults += [fake_unit.lost] * ATTEMPTS
@@ -164,7 +229,8 @@ def test_after_an_error_the_next_request_begins_a_session(motor, fake, unit):
 
     motor.command("F1")
 
-    assert unit.done == [VERSION, b"\x042", b"\x022F1", VERSION, b"\x022F1"]
+    begins = [VERSION] * 2
+    assert unit.done == [*begins, b"\x042", b"\x022F1", *begins, b"\x022F1"]
 
 
 def test_an_answer_that_comes_too_late_is_not_taken_for_the_next_one(line, fake, unit):
@@ -270,7 +336,7 @@ def test_a_port_that_goes_away_is_an_error(fake, line):
 
 def test_scan_finds_who_is_there_and_who_is_there_twice(unit):
     fake = FakeLine(FakeUnit(1), unit, FakeUnit(16))
-    fake.faults += [bytes, fake_unit.twice]
+    fake.faults += [bytes] * 2 + [fake_unit.twice] * 2
     try:
         with open_line(fake.port) as line:
             found = line.scan([1, 2, 3, 16])
@@ -346,6 +412,14 @@ class Script:
 
     def close(self) -> None:
         pass
+
+
+def test_an_answer_to_an_older_version_alone_begins_no_session(monkeypatch):
+    monkeypatch.setattr("random.choice", lambda numbers: 6)
+    old = Frame(0x83, 7, b"\x01\x10" + fake_unit.VERSION).encode()
+
+    with Line(Script([old] * 20)) as line, pytest.raises(NoAnswer):
+        line.request(3, b"\x022F1", Wait(0.01, 2))
 
 
 @given(

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import time
+from types import SimpleNamespace
 
 import pytest
 from fake_unit import FakeLine, FakeUnit
@@ -12,7 +14,7 @@ from rkm04_tools import sending
 from rkm04_tools.failure import Failure
 from rkm04_tools.frame import Frame
 from rkm04_tools.line import open_line
-from rkm04_tools.line_errors import UnitRefused
+from rkm04_tools.line_errors import UnitRefused, UnitRestarted
 from rkm04_tools.sending import TEXT_BYTES_MAX, Hold, check_program, plan_program
 
 LONG = "\\S100" + "F16000000R" * 120
@@ -72,7 +74,7 @@ def test_parts_are_as_long_as_they_can_be():
 def test_no_frame_is_longer_than_1024_bytes(motor, fake):
     motor.send(LONG)
 
-    assert len(fake.frame_bytes) == 3
+    assert len(fake.frame_bytes) == 4
     assert max(fake.frame_bytes) <= 1024
 
 
@@ -187,6 +189,40 @@ def test_a_full_memory_is_reported(motor, unit):
     unit.flag = b"\x03\x00"
 
     assert motor.send("F100R").overflow
+
+
+def test_the_rest_of_a_program_does_not_go_to_a_unit_that_has_restarted(motor, unit):
+    with pytest.raises(UnitRestarted):
+        motor.send(LONG, lambda done, total: unit.restart() if done == 1 else None)
+
+    assert len(sent_texts(unit)) == 1
+
+
+def test_nor_if_somebody_has_asked_it_in_between(motor, unit):
+    def tell(done: int, total: int) -> None:
+        if done == 1:
+            unit.restart()
+            motor.position()
+
+    with pytest.raises(UnitRestarted):
+        motor.send(LONG, tell)
+
+    assert len(sent_texts(unit)) == 1
+
+
+def test_nor_if_it_has_restarted_while_it_was_waited_for(motor, unit, monkeypatch):
+    unit.tables[1] = b"  2;[(1;100),(50;0)]"
+
+    def restart(seconds: float) -> None:
+        unit.restart()
+        unit.tables.clear()
+
+    clock = SimpleNamespace(monotonic=time.monotonic, sleep=restart)
+    monkeypatch.setattr(sending, "time", clock)
+    with pytest.raises(UnitRestarted):
+        motor.send(LONG + "[")
+
+    assert sent_texts(unit) == ["\\", "K"]
 
 
 def test_progress_is_told(motor):

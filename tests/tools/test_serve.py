@@ -120,8 +120,8 @@ def test_a_broadcast_is_executed_by_all_and_answered_by_none(serve):
 def test_all_clients_get_all_answers(serve):
     served = serve()
     one, other = served.talker(), served.talker()
-    other.ask(VERSION)
-    assert one.receive() is not None
+    other.send(frame(1, 1, VERSION))
+    assert other.receive() == one.receive()
 
     one.send(frame(1, 77, VERSION))
 

@@ -17,6 +17,9 @@ POLYNOMIAL, START, RESIDUE = 0x8408, 0xFFFF, 0xF0B8
 ANSWER = 0x80
 """The bit of the address that marks an answer."""
 
+REFUSED = 0x40
+"""The bit set too where the request was not executed, as the unit has no session open."""
+
 BROADCAST = 0
 NODES = range(1, 17)
 NUMBERS = range(1, 256)

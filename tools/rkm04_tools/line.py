@@ -6,14 +6,16 @@
         print(line.unit(3).motor(2).position())
 
 Every call ends: with an answer, or with an error of `line_errors` that says what to do. A request
-that gets no answer is repeated with the same number, so that the unit executes it once at most
-(firmware/docs/line.md). Calls from several threads take turns.
+that gets no answer is repeated with the same number, so that the unit executes it once at most,
+and a unit that has restarted refuses it (firmware/docs/line.md). Calls from several threads take
+turns.
 """
 
 from __future__ import annotations
 
 import random
 import time
+from collections import Counter
 from collections.abc import Collection
 from dataclasses import dataclass, field
 from threading import RLock
@@ -21,11 +23,12 @@ from types import TracebackType
 
 from rkm04_tools import messages
 from rkm04_tools.failure import Failure
-from rkm04_tools.frame import ANSWER, BROADCAST, NODES, NUMBERS, Frame, Receiver
-from rkm04_tools.line_errors import GarbledAnswer, LineError, NoAnswer
+from rkm04_tools.frame import ANSWER, BROADCAST, NODES, NUMBERS, REFUSED, Frame, Receiver
+from rkm04_tools.line_errors import GarbledAnswer, LineError, NoAnswer, UnitRestarted
 from rkm04_tools.messages import (
     ALL_MOTORS,
     ANSWER_BYTES_MAX,
+    CHANGING,
     GET_COMMAND,
     GET_POSITION,
     GET_PROGRESS,
@@ -93,10 +96,14 @@ def open_line(port: str) -> Line:
 
 @dataclass(eq=False)
 class Line:
-    """An open line. `echoes` tells whether its adapter hears what it sends, which does no harm."""
+    """An open line. `echoes` tells whether its adapter hears what it sends, which does no harm.
+
+    `sessions` counts those that were begun with each address.
+    """
 
     transport: Transport
     echoes: bool = False
+    sessions: Counter[int] = field(default_factory=Counter)
     _numbers: dict[int, int] = field(default_factory=dict)
     _twice: bool = False  # two answers have come to the last request
     _lock: RLock = field(default_factory=RLock)
@@ -136,18 +143,19 @@ class Line:
     def request(self, node: int, message: bytes, wait: Wait = USUAL) -> bytes:
         """Send a request and return the answer; of all units (node 0) it is empty.
 
-        The first request to a unit is preceded by Version with a random number, so that the unit
-        does not take the next one for a repeat of somebody else's.
+        A session is begun where there is none. A unit that has restarted is asked again in a new
+        one; what changes something is not sent again, UnitRestarted is raised instead.
         """
         with self._lock:
             if node == BROADCAST:
                 self._broadcast(message)
                 return b""
-            if node not in self._numbers:
-                version = self._begin(node, wait)
-                if message == bytes([VERSION]):
-                    return version
-            return self._numbered(node, message, wait)
+            try:
+                return self._in_session(node, message, wait)
+            except UnitRestarted:
+                if message[0] in CHANGING:
+                    raise
+                return self._in_session(node, message, wait)
 
     def request_at_once(self, node: int, message: bytes, wait: Wait = USUAL) -> bytes:
         """Send a request that may be executed twice, without the session that prevents it."""
@@ -157,9 +165,23 @@ class Line:
                 return b""
             return self._exchange(Frame(node, 0, message), wait)
 
+    def _in_session(self, node: int, message: bytes, wait: Wait) -> bytes:
+        if node not in self._numbers:
+            version = self._begin(node, wait)
+            if message == bytes([VERSION]):
+                return version
+        return self._numbered(node, message, wait)
+
     def _begin(self, node: int, wait: Wait) -> bytes:
+        """Send Version, with a random number and with the next.
+
+        So the unit does not take what follows for a repeat of somebody else's. An answer to an
+        older Version that is still under way can be taken for one of the two, never for both.
+        """
         self._numbers[node] = random.choice(NUMBERS)
+        self.sessions[node] += 1
         patience = Wait(min(wait.seconds, USUAL.seconds), wait.attempts)
+        self._numbered(node, bytes([VERSION]), patience)
         return self._numbered(node, bytes([VERSION]), patience)
 
     def _numbered(self, node: int, message: bytes, wait: Wait) -> bytes:
@@ -179,13 +201,16 @@ class Line:
 
     def _exchange(self, frame: Frame, wait: Wait) -> bytes:
         heard = Heard()
-        for _ in range(wait.attempts):
+        for attempt in range(wait.attempts):
             answer = self._attempt(frame, wait.seconds, heard)
-            if answer is not None:
-                return answer
+            if answer and answer.address & REFUSED:
+                where = f"{self.transport.name}: unit {frame.node}"
+                raise UnitRestarted(where, repeated=attempt > 0)
+            if answer:
+                return answer.message
         raise self._unanswered(frame.node, heard)
 
-    def _attempt(self, frame: Frame, patience_seconds: float, heard: Heard) -> bytes | None:
+    def _attempt(self, frame: Frame, patience_seconds: float, heard: Heard) -> Frame | None:
         """Send a request once and wait for its answer; nothing prolongs that past `last`."""
         self._drop_stale()
         data = frame.encode()
@@ -201,7 +226,7 @@ class Line:
             answers = [each for each in got if _answers(each, frame)]
             if answers:
                 self._twice = len(answers) > 1
-                return answers[0].message
+                return answers[0]
             if came:
                 until = min(last, max(until, time.monotonic() + GAP_SECONDS))
         heard.damaged += receiver.dropped.total() + receiver.is_inside
@@ -251,13 +276,13 @@ class Line:
 
 
 def _answers(got: Frame, sent: Frame) -> bool:
-    """Whether a frame is the answer to a request."""
+    """Whether a frame is the answer to a request, or says that it is refused."""
+    if got.number != sent.number:
+        return False
+    if got.address == sent.address | ANSWER | REFUSED:
+        return True
     expected = (sent.message[0], messages.UNKNOWN)
-    return (
-        got.address == sent.address | ANSWER
-        and got.number == sent.number
-        and got.message[0] in expected
-    )
+    return got.address == sent.address | ANSWER and got.message[0] in expected
 
 
 def _is_version_of(frame: Frame, node: int) -> bool:

@@ -40,6 +40,21 @@ class GarbledAnswer(LineError):
     """Something came back, and no frame of it was whole."""
 
 
+class UnitRestarted(LineError):
+    """The unit has started anew, and so does not execute the request.
+
+    `repeated`: the request had been sent before, so it may have been executed before the start.
+    """
+
+    def __init__(self, where: str, repeated: bool) -> None:
+        what = "executed before that or not at all" if repeated else "not executed"
+        super().__init__(
+            f"{where} has restarted, the request was {what}; "
+            "look at the unit (rkm04 status) before you send it again"
+        )
+        self.repeated = repeated
+
+
 class UnitRefused(Failure):
     """The unit understood the request and does not do it.
 

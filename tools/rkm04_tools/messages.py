@@ -21,6 +21,8 @@ NAMES = {
     GET_PROGRESS: "Get Pozic Run",
     GET_STATUS: "Get Status",
 }
+CHANGING = (SET_COMMAND, STORE_FLASH)
+"""Messages that change something when they are executed once more; all others only ask."""
 ANSWER_BYTES_MAX = {
     VERSION: 257,
     SET_COMMAND: 4,

@@ -18,7 +18,7 @@ from rkm04_tools.check import Checked, check_source
 from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.frame import BROADCAST
 from rkm04_tools.host import Command, parse
-from rkm04_tools.line_errors import UnitRefused
+from rkm04_tools.line_errors import UnitRefused, UnitRestarted
 from rkm04_tools.messages import ALL_MOTORS, MOTORS
 from rkm04_tools.source import Source
 
@@ -133,8 +133,7 @@ def send_program(motor: Motor, checked: Checked, tell: Tell = silent) -> Sent:
     plan = plan_program(checked)
     if plan.hold is not Hold.STOP:
         return _send_texts(motor, plan, tell)
-    _halt(motor, plan)
-    sent = _send_texts(motor, plan, tell)
+    sent = _send_texts(motor, plan, tell, _halt(motor, plan))
     motor.resume()
     return sent
 
@@ -146,18 +145,26 @@ def load_program(motor: Motor, checked: Checked) -> Sent:
     """
     plan = replace(plan_program(checked), hold=Hold.STOP)
     plan = replace(plan, texts=_packed(plan.plain))
-    _halt(motor, plan)
-    return _send_texts(motor, plan, silent)
+    return _send_texts(motor, plan, silent, _halt(motor, plan))
 
 
-def _send_texts(motor: Motor, plan: Plan, tell: Tell) -> Sent:
+def _session(motor: Motor) -> int:
+    return motor.unit.line.sessions[motor.unit.node]
+
+
+def _send_texts(motor: Motor, plan: Plan, tell: Tell, session: int | None = None) -> Sent:
+    """Send all texts in one session, which may have begun before."""
     overflow = False
     for done, text in enumerate(plan.texts):
         tell(done, len(plan.texts))
+        if session is not None and session != _session(motor):
+            # A question in between has begun a new one, behind which the unit may be another.
+            raise UnitRestarted(f"unit {motor.unit.node}", repeated=False)
         try:
             overflow = motor.command(text) or overflow
         except UnitRefused as refusal:
             raise _placed(refusal, plan) from None
+        session = _session(motor)
     tell(len(plan.texts), len(plan.texts))
     return Sent(len(plan.commands), len(plan.texts), overflow, plan.notes)
 
@@ -206,8 +213,8 @@ def _packed(tokens: Sequence[str]) -> list[str]:
     return texts
 
 
-def _halt(motor: Motor, plan: Plan) -> None:
-    """Reset and stop a motor, so that what is stored then waits for C75."""
+def _halt(motor: Motor, plan: Plan) -> int:
+    """Reset and stop a motor, so that what is stored then waits for C75; return the session."""
     if motor.unit.node == BROADCAST:
         raise Failure(
             f"{plan.checked.source.name}: cannot go to all units at once, as it needs several "
@@ -215,6 +222,7 @@ def _halt(motor: Motor, plan: Plan) -> None:
             NOT_SO,
         )
     motor.reset()
+    session = _session(motor)
     end = time.monotonic() + STAND_SECONDS
     numbers = MOTORS if motor.number == ALL_MOTORS else [motor.number]
     # K has no effect on a motor that is still slowing down because of \.
@@ -223,6 +231,7 @@ def _halt(motor: Motor, plan: Plan) -> None:
             raise Failure("the motor is still slowing down; send again when it stands", NOT_SO)
         time.sleep(POLL_SECONDS)
     motor.stop()
+    return session
 
 
 def _placed(refusal: UnitRefused, plan: Plan) -> UnitRefused:

@@ -163,6 +163,7 @@ export const cs: Dictionary = {
     "trouble.PortLost": "Port zmizel za provozu. Zkontrolujte kabel a připojte se znovu.",
     "trouble.NoAnswer": "Jednotka neodpovídá. Zkontrolujte napájení, linku a DNode (přepínač S1).",
     "trouble.GarbledAnswer": "Odpověď byla poškozená. Zkontrolujte linku a zda nemají dvě jednotky stejné DNode.",
+    "trouble.UnitRestarted": "Jednotka byla restartována a povel neprovedla znovu. Zkontrolujte její stav, než povel zopakujete.",
     "trouble.UnitRefused": "Jednotka povel odmítla.",
     "trouble.WrongAnswer": "Odpověď není od jednotky RKM04. Není na lince jiný přístroj nebo program?",
     "trouble.NotConnected": "Žádná jednotka není připojena. Připojte se nejdříve.",

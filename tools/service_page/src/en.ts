@@ -161,6 +161,7 @@ export const en = {
     "trouble.PortLost": "",
     "trouble.NoAnswer": "",
     "trouble.GarbledAnswer": "",
+    "trouble.UnitRestarted": "",
     "trouble.UnitRefused": "",
     "trouble.WrongAnswer": "",
     "trouble.NotConnected": "",
