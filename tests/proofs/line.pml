@@ -1,5 +1,5 @@
 /*
- * The line between one master and one unit (firmware/docs/line.md, "Repeats"), for Spin.
+ * The line between one master and one unit (firmware/docs/line.md, "Sessions"), for Spin.
  *
  * The line may lose, damage and repeat any frame, in both directions, and holds up to two each way; it does not
  * overtake. The unit may start anew at any time, and so may the master, in the middle of anything. Every choice that
@@ -10,9 +10,8 @@
  * The master's user wants ACTIONS things done, each of a kind. All those of one kind are the same message, so the
  * unit can only tell them by the number; `id` tells them here, and nobody in the model decides by it.
  *
- * Switches. LATE: the master may stop waiting while frames are still under way. ACROSS: an action counts as executed
- * twice also where the unit has started anew in between. AT_MOST_ONCE: an answer need not be the one to this very
- * action. SESSION_FIRST: a unit that has started executes no numbered request before Version. PLANT_...: an error, to see that it is found.
+ * Switches. LATE: the master may stop waiting, and start anew, while frames are still under way. PLANT_...: an error,
+ * to see that it is found.
  */
 #ifndef ACTIONS
 #define ACTIONS 3
@@ -23,14 +22,13 @@
 #define NO_NUMBER 0
 #define NO_ID 0
 
-mtype = { VERSION, SET, READ, STOP, BROADCAST };
+mtype = { VERSION, SET, READ, STOP, BROADCAST, REFUSED };
 
 /* number, message, whose it is (of an answer: what was executed for it), whether it is damaged */
 chan requests = [2] of { byte, mtype, byte, bool };
 chan answers = [2] of { byte, mtype, byte, bool };
 
-byte in_this_life[ACTIONS + 1]; /* how often the unit has executed each action since it started */
-byte in_all[ACTIONS + 1];
+byte executed[ACTIONS + 1]; /* how often the unit has executed each action, in all its lives */
 byte repetitions = REPETITIONS;
 byte unit_starts = 1;
 byte master_starts = 1;
@@ -57,7 +55,7 @@ active proctype unit()
     mtype kept_message = VERSION;
     byte number, id;
     mtype message;
-    bool damaged, begun = false; /* a Version has come since the start */
+    bool damaged, open = false; /* a session: a Version has come since the start */
 
 end:
     do
@@ -89,21 +87,17 @@ end:
             :: kept_number != NO_NUMBER && number == kept_number && message == kept_message ->
                 carry(answers, number, message, kept_id)
 #endif
-#ifdef SESSION_FIRST
-            :: !begun && number != NO_NUMBER && message != VERSION -> skip
+#ifndef PLANT_NO_REFUSAL
+            :: !open && number != NO_NUMBER && message != VERSION -> carry(answers, number, REFUSED, NO_ID)
 #endif
             :: else ->
                 assert(!damaged);
-#ifdef ACROSS
-                assert(message != SET || in_all[id] == 0);
-#else
-                assert(message != SET || in_this_life[id] == 0);
-#endif
+                assert(message != SET || executed[id] == 0);
                 if
-                :: message == SET -> in_this_life[id]++; in_all[id]++
+                :: message == SET -> executed[id]++
                 :: else
                 fi;
-                begun = begun || message == VERSION;
+                open = open || message == VERSION;
                 kept_number = number;
                 kept_message = message;
                 kept_id = id;
@@ -114,13 +108,7 @@ end:
        }
     :: atomic { unit_starts > 0 -> /* as answers may be lost, that is in the middle of a request too */
             unit_starts--;
-            kept_number = NO_NUMBER; kept_id = NO_ID; kept_message = VERSION; begun = false;
-            byte i = 0;
-            do
-            :: i <= ACTIONS -> in_this_life[i] = 0; i++
-            :: else -> break
-            od;
-            i = 0
+            kept_number = NO_NUMBER; kept_id = NO_ID; kept_message = VERSION; open = false
         }
     od
 }
@@ -131,13 +119,14 @@ end:
 #define NOTHING_COMES (empty(requests) && empty(answers))
 #endif
 
-/* Sends a request until an answer to it comes, ATTEMPTS times; `answered` tells. */
+/* Sends a request until an answer to it comes, ATTEMPTS times; `answered` and `refused` tell. */
 inline exchange(number, message, id)
 {
     answered = false;
+    refused = false;
     attempts = ATTEMPTS;
     do
-    :: attempts > 0 && !answered ->
+    :: attempts > 0 && !answered && !refused ->
         atomic { attempts--;
         do /* what has come until now and was not asked for; the rest of it is still under way */
         :: nempty(answers) -> answers?_, _, _, _
@@ -155,6 +144,7 @@ inline exchange(number, message, id)
         :: atomic { answers?got_number, got_message, got_id, damaged ->
             if
             :: !damaged && got_number == number && got_message == message -> answered = true; break
+            :: !damaged && got_number == number && got_message == REFUSED -> refused = true; break
             :: else -> got_number = 0; got_id = NO_ID; got_message = VERSION; damaged = false
             fi }
         :: NOTHING_COMES -> break
@@ -166,7 +156,7 @@ inline exchange(number, message, id)
 
 active proctype master()
 {
-    bool session = false, answered, damaged;
+    bool session = false, answered, refused, damaged;
     byte number, got_number, got_id, attempts, no_number = NO_NUMBER;
     byte id = NO_ID;
     mtype wanted, got_message;
@@ -185,7 +175,7 @@ next:
         :: wanted == STOP ->
             exchange(no_number, STOP, id)
         :: else ->
-            if
+again:      if
             :: !session ->
                 atomic {
                     if /* a random one */
@@ -196,6 +186,14 @@ next:
                 }
 #ifndef PLANT_NO_VERSION
                 exchange(number, VERSION, NO_ID);
+#ifndef PLANT_ONE_VERSION
+                if
+                :: answered ->
+                    number = number % NUMBERS + 1;
+                    exchange(number, VERSION, NO_ID)
+                :: else
+                fi;
+#endif
                 session = answered
 #else
                 session = true
@@ -208,10 +206,18 @@ next:
                 exchange(number, wanted, id);
                 session = answered;
                 /* The answer is the one to this very action, which has been executed. */
-#ifndef AT_MOST_ONCE
                 assert(!answered || got_id == id);
+                assert(!answered || wanted != SET || executed[id] > 0);
+                /* What is refused when it is sent for the first time has not been, if the line repeats nothing. */
+                assert(!refused || attempts < ATTEMPTS - 1 || repetitions < REPETITIONS || executed[id] == 0);
+                if
+#ifdef PLANT_SENT_AGAIN
+                :: refused -> goto again
+#else
+                :: refused && wanted == READ -> goto again
 #endif
-                assert(!answered || wanted != SET || got_id != id || in_all[id] > 0)
+                :: else
+                fi
             :: else
             fi
         fi

@@ -112,6 +112,7 @@ def good_frames() -> list[tuple[str, int, int, bytes]]:
         ("another unit", 16, 3, b"\x041"),
         ("an answer of this unit", 0x80 | NODE, 1, b"\x01\x1001.00,21.11.2026"),
         ("an answer of another unit", 0x90, 3, b"\x041\x0a         0"),
+        ("a refusal", 0xC0 | NODE, 2, b"\x01"),
         ("a node that there is not", 17, 3, b"\x01"),
         ("a reserved bit of the address", 0x20 | NODE, 3, b"\x01"),
         ("the number is a flag", NODE, FLAG, b"\x01"),
