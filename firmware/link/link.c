@@ -11,11 +11,17 @@ void link_init(struct link *link, uint8_t node, const uint8_t *answer)
     link_forget(link);
 }
 
+/* Only such a request may be a repeat. */
+static bool is_numbered(const struct link_receiver *receiver)
+{
+    return (receiver->address != LINK_NODE_BROADCAST) && (receiver->number != LINK_NUMBER_NONE);
+}
+
 static bool is_repeat(const struct link *link)
 {
     const struct link_receiver *receiver = &link->receiver;
-    return receiver->address != LINK_NODE_BROADCAST && link->answered_number != LINK_NUMBER_NONE &&
-           receiver->number == link->answered_number && receiver->length == link->answered_length &&
+    return is_numbered(receiver) && receiver->number == link->answered_number &&
+           receiver->length == link->answered_length &&
            crc32_append(0, receiver->message, receiver->length) == link->answered_crc;
 }
 
@@ -35,9 +41,10 @@ static void link_count(struct link *link, enum link_count count)
  * master has opened a session. */
 static bool is_refused(struct link *link)
 {
-    const struct link_receiver *receiver = &link->receiver;
-    bool numbered = receiver->address != LINK_NODE_BROADCAST && receiver->number != LINK_NUMBER_NONE;
-    link->open = link->open || (numbered && receiver->message[0] == LINK_OPENING);
+    bool numbered = is_numbered(&link->receiver);
+    if (numbered && link->receiver.message[0] == LINK_OPENING) {
+        link->open = true;
+    }
     return numbered && !link->open;
 }
 
@@ -53,21 +60,19 @@ bool link_take(struct link *link, const struct hal_line_byte *byte, struct link_
     }
     if (is_repeat(link)) {
         link_count(link, LINK_COUNT_REPEATS);
-        ready_answer(link);
-        return false;
-    }
-    if (is_refused(link)) {
+    } else if (is_refused(link)) {
         link->answer_number = receiver->number;
-        ready_answer(link);
-        return false;
+    } else {
+        *request = (struct link_request){
+            .message = receiver->message,
+            .length = receiver->length,
+            .end_tick = byte->tick,
+            .broadcast = receiver->address == LINK_NODE_BROADCAST,
+        };
+        return true;
     }
-    *request = (struct link_request){
-        .message = receiver->message,
-        .length = receiver->length,
-        .end_tick = byte->tick,
-        .broadcast = receiver->address == LINK_NODE_BROADCAST,
-    };
-    return true;
+    ready_answer(link);
+    return false;
 }
 
 void link_answer(struct link *link, uint32_t length)
@@ -96,7 +101,7 @@ static void begin_answer(struct link *link)
 {
     static const uint8_t refusal[] = {LINK_OPENING};
     uint8_t address = link->receiver.node | LINK_ADDRESS_ANSWER;
-    if (link->open || link->answer_number == LINK_NUMBER_NONE) {
+    if (link->open || (link->answer_number == LINK_NUMBER_NONE)) {
         link_sender_start(&link->sender, address, link->answer_number, link->answer, link->answer_length);
     } else {
         link_sender_start(&link->sender, address | LINK_ADDRESS_REFUSED, link->answer_number, refusal, sizeof refusal);

@@ -264,6 +264,15 @@ void test_before_a_session_every_request_with_a_number_is_refused(void)
     TEST_ASSERT_EQUAL_UINT32(0, link.receiver.counts[LINK_COUNT_REPEATS]);
 }
 
+void test_every_node_refuses_with_its_own_address(void)
+{
+    for (unsigned node = 1; node <= LINK_NODE_MAX; node++) {
+        switch_on((uint8_t)node);
+        take(frame, frame_write(frame, (uint8_t)node, 1, "a", 1));
+        TEST_ASSERT_EQUAL_STRING("\1", hear_from((uint8_t)(0xC0U + node), 1));
+    }
+}
+
 void test_before_a_session_requests_without_a_number_are_executed(void)
 {
     switch_on(NODE);
