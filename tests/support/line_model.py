@@ -36,13 +36,17 @@ class Variant:
 
 HOLD = (
     Variant("executed once, answered by its own answer; nobody blocks", ("ACTIONS=3",)),
-    Variant("executed once, answered by its own answer, if answers come late", ("ACTIONS=2", "LATE")),
+    Variant(
+        "executed once, answered by its own answer, if answers come late", ("ACTIONS=2", "LATE")
+    ),
     Variant("the master comes to an end", ("ACTIONS=2",), cycles=True),
 )
 FAIL = (
     Variant("planted: a unit that has started refuses nothing", ("ACTIONS=1", "PLANT_NO_REFUSAL")),
     Variant("planted: what was refused is sent again", ("ACTIONS=1", "PLANT_SENT_AGAIN")),
-    Variant("planted: a session begins with one Version", ("ACTIONS=2", "LATE", "PLANT_ONE_VERSION")),
+    Variant(
+        "planted: a session begins with one Version", ("ACTIONS=2", "LATE", "PLANT_ONE_VERSION")
+    ),
     Variant("planted: no memory of the last request", ("ACTIONS=1", "PLANT_NO_MEMORY")),
     Variant("planted: number not compared", ("ACTIONS=2", "PLANT_NUMBER_NOT_COMPARED")),
     Variant("planted: FCS not checked", ("ACTIONS=1", "PLANT_NO_CHECK")),
