@@ -16,6 +16,9 @@
 #ifndef ACTIONS
 #define ACTIONS 3
 #endif
+#ifndef UNIT_STARTS
+#define UNIT_STARTS 1 /* besides the first */
+#endif
 #define ATTEMPTS 2
 #define NUMBERS 3       /* 255 on the line; fewer meet again sooner */
 #define REPETITIONS 1   /* by the line itself */
@@ -30,7 +33,7 @@ chan answers = [2] of { byte, mtype, byte, bool };
 
 byte executed[ACTIONS + 1]; /* how often the unit has executed each action, in all its lives */
 byte repetitions = REPETITIONS;
-byte unit_starts = 1;
+byte unit_starts = UNIT_STARTS;
 byte master_starts = 1;
 #ifdef LATE
 byte broadcasts = 0;

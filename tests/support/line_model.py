@@ -53,7 +53,7 @@ FAIL = (
     Variant("planted: a new number for a repeat", ("ACTIONS=1", "PLANT_NEW_NUMBER")),
     Variant(
         "planted: a session begins without Version",
-        ("ACTIONS=2", "PLANT_NO_VERSION", "PLANT_NO_REFUSAL"),
+        ("ACTIONS=2", "UNIT_STARTS=0", "PLANT_NO_VERSION", "PLANT_NO_REFUSAL"),
     ),
     Variant("planted: a broadcast leaves a long answer", ("ACTIONS=2", "PLANT_ANSWER_KEPT")),
 )
