@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+IACCVIOL, IBUSERR, UNDEFINSTR, INVSTATE, INVPC = 1 << 0, 1 << 8, 1 << 16, 1 << 17, 1 << 18
+FORCED = 1 << 30
+
 # Sequences of images/costs.c with the cycles of each in RAM, by the Cortex-M4 manual, section 3.3.
 COSTS_IN_RAM = {
     "alu": 100,
@@ -123,6 +126,48 @@ def test_enabled_faults_go_to_their_handlers(run_image):
 
     assert result[12:24] == [5, 0x8200, 0, 5, 0x8200, 0, 6, 0x10000, 0, 6, 0x80000, 0]
     assert result[24] == 0xA0000010  # BFAR
+
+
+def go_astray(run_image, place: int) -> tuple[list[int], list[int], list[int]]:
+    """What the fault in main and that in a handler have told, and who went on behind them."""
+    result = run_image("astray", defines=[f"PLACE={place:#x}"]).result
+    return result[0:4], result[8:12], result[16:19]
+
+
+@pytest.mark.parametrize(
+    ("place", "cfsr"),
+    [
+        (0x00000000, INVSTATE),
+        (0x00000100, INVSTATE),
+        (0x20000100, INVSTATE),
+        (0x08040001, UNDEFINSTR),
+        (0x10000001, IBUSERR),
+        (0x60000001, IBUSERR),
+        (0x40000001, IACCVIOL),
+        (0xA5A5A5A5, IACCVIOL),
+        (0xE000ED01, IACCVIOL),
+    ],
+)
+def test_garbage_that_is_popped_as_the_program_counter_is_a_fault(run_image, place, cfsr):
+    in_main, in_handler, went_on = go_astray(run_image, place)
+
+    assert in_main == in_handler == [3, cfsr, FORCED, place & ~1]
+    assert went_on == [1, 1, 1]
+
+
+@pytest.mark.parametrize("place", [0xF0000001, 0xFFFFFF01, 0xFFFFFFF7, 0xFFFFFFFF])
+def test_what_is_no_return_of_an_exception_is_a_fault_of_its_own_in_a_handler(run_image, place):
+    in_main, in_handler, _ = go_astray(run_image, place)
+
+    assert in_main == [3, IACCVIOL, FORCED, place & ~1]
+    assert in_handler[:3] == [3, INVPC, FORCED]
+
+
+@pytest.mark.parametrize("place", [0xFFFFFFF1, 0xFFFFFFF9, 0xFFFFFFFD])
+def test_the_return_of_an_exception_is_no_place_for_main(run_image, place):
+    run = run_image("astray", defines=[f"PLACE={place:#x}"])
+
+    assert run.summary["watch"]["result"][:4] == [3, IACCVIOL, FORCED, place & ~1]
 
 
 def test_svc_is_taken_at_once_and_returns_behind_it(run_image):

@@ -27,6 +27,7 @@ enum cpu_stop {
 enum {
     CPU_TRAP_UNDEFINED = 1,
     CPU_TRAP_SVC = 2,
+    CPU_TRAP_NO_CODE = 3, /* nothing may be executed there */
     CPU_TRAP_BKPT = 7,
     CPU_TRAP_EXCEPTION_RETURN = 8,
     CPU_TRAP_NO_COPROCESSOR = 17,

@@ -188,6 +188,49 @@ static uint32_t pop_frame(struct board *board, uint32_t exc_return)
     return get_word(frame + WORD_BYTES * FRAME_REGISTERS) & ~UINT32_C(1);
 }
 
+/* Lets the next pending exception follow the one that ends: the frame stays where it is. */
+static uint32_t chain(struct board *board, unsigned ending, uint32_t exc_return)
+{
+    struct cpu *cpu = &board->cpu;
+    stats_leave(board, ending);
+    board->stats.tail_chains++;
+    stats_begin(board, cpu->now);
+    cpu->now += EXCEPTION_TAIL_CYCLES;
+    events_run(board, cpu->now);
+    uint32_t handler = enter_handler(board, nvic_next_pending(&board->nvic), exc_return);
+    profile_place(board, PROFILE_ENTRY);
+    return handler;
+}
+
+/* Asks for an exception that cannot wait. False: that is lockup. */
+static bool pend_fault(struct board *board, unsigned exception)
+{
+    struct nvic *nvic = &board->nvic;
+    board->event_cycle = board->cpu.now;
+    if (nvic_is_enabled(nvic, exception) && nvic_group_priority(nvic, exception) < nvic_running_priority(board)) {
+        nvic_pend(board, exception);
+        return true;
+    }
+    return escalate(board, exception == NVIC_DEBUG ? SCB_HFSR_DEBUGEVT : SCB_HFSR_FORCED);
+}
+
+/* To a handler, or to the main program on one of two stacks. */
+static bool is_return(uint32_t exc_return)
+{
+    uint32_t to = exc_return & ~EXC_RETURN_MAGIC & ~(uint32_t)RETURN_NO_FLOAT;
+    return (exc_return & EXC_RETURN_MAGIC) == EXC_RETURN_MAGIC &&
+           (to == 1U || to == (1U | RETURN_TO_THREAD) || to == (1U | RETURN_TO_THREAD | RETURN_TO_PSP));
+}
+
+/* An EXC_RETURN that is none ends the exception all the same, and the fault follows (ARMv7-M B1.5.8). */
+static uint32_t refuse_return(struct board *board, unsigned exception, uint32_t exc_return)
+{
+    board->scb.cfsr |= SCB_CFSR_INVPC;
+    stats_note_fault(board, SCB_CFSR_INVPC, exc_return);
+    nvic_set_active(&board->nvic, exception, false);
+    return pend_fault(board, NVIC_USAGE_FAULT) ? chain(board, exception, exc_return) : exc_return;
+}
+
 uint32_t exception_return(struct board *board, uint32_t exc_return)
 {
     struct cpu *cpu = &board->cpu;
@@ -195,8 +238,8 @@ uint32_t exception_return(struct board *board, uint32_t exc_return)
 
     events_run(board, cpu->now);
     profile_pause(board);
-    if ((exc_return & EXC_RETURN_MAGIC) != EXC_RETURN_MAGIC || !nvic_is_active(&board->nvic, exception)) {
-        board_fail(board, "return from exception %u with EXC_RETURN %08x", exception, exc_return);
+    if (!is_return(exc_return) || !nvic_is_active(&board->nvic, exception)) {
+        return refuse_return(board, exception, exc_return);
     }
     nvic_set_active(&board->nvic, exception, false);
     if (exception != NVIC_NMI) {
@@ -206,14 +249,7 @@ uint32_t exception_return(struct board *board, uint32_t exc_return)
         nvic_pend(board, exception);
     }
     if (nvic_can_take(board)) {
-        stats_leave(board, exception);
-        board->stats.tail_chains++;
-        stats_begin(board, cpu->now);
-        cpu->now += EXCEPTION_TAIL_CYCLES;
-        events_run(board, cpu->now);
-        uint32_t handler = enter_handler(board, nvic_next_pending(&board->nvic), exc_return);
-        profile_place(board, PROFILE_ENTRY);
-        return handler;
+        return chain(board, exception, exc_return);
     }
     cpu->now += EXCEPTION_EXIT_CYCLES;
     profile_place(board, PROFILE_EXIT);
@@ -230,7 +266,9 @@ uint32_t exception_return(struct board *board, uint32_t exc_return)
 
 uint32_t exception_fault(struct board *board, uint32_t cfsr_bits, uint32_t return_address)
 {
-    unsigned exception = (cfsr_bits & SCB_CFSR_USAGE) != 0 ? NVIC_USAGE_FAULT : NVIC_BUS_FAULT;
+    unsigned exception = (cfsr_bits & SCB_CFSR_USAGE) != 0    ? NVIC_USAGE_FAULT
+                         : (cfsr_bits & SCB_CFSR_MEMORY) != 0 ? NVIC_MEM_MANAGE
+                                                              : NVIC_BUS_FAULT;
     board->scb.cfsr |= cfsr_bits;
     if ((cfsr_bits & SCB_CFSR_BFARVALID) != 0) {
         board->scb.bfar = board->cpu.fault_address;
@@ -241,12 +279,5 @@ uint32_t exception_fault(struct board *board, uint32_t cfsr_bits, uint32_t retur
 
 uint32_t exception_call(struct board *board, unsigned exception, uint32_t return_address)
 {
-    struct nvic *nvic = &board->nvic;
-    board->event_cycle = board->cpu.now;
-    if (nvic_is_enabled(nvic, exception) && nvic_group_priority(nvic, exception) < nvic_running_priority(board)) {
-        nvic_pend(board, exception);
-    } else if (!escalate(board, exception == NVIC_DEBUG ? SCB_HFSR_DEBUGEVT : SCB_HFSR_FORCED)) {
-        return return_address;
-    }
-    return exception_take(board, return_address);
+    return pend_fault(board, exception) ? exception_take(board, return_address) : return_address;
 }

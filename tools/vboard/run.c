@@ -7,6 +7,10 @@ enum { WIDE_BYTES = 4, NARROW_BYTES = 2 };
 
 #define XPSR_THUMB (UINT32_C(1) << 24)
 #define LR_RESET UINT32_C(0xFFFFFFFF)
+#define PERIPHERALS_BASE UINT32_C(0x40000000)
+#define PERIPHERALS_BYTES UINT32_C(0x20000000)
+#define DEVICES_BASE UINT32_C(0xA0000000)
+#define RETURNS_BASE UINT32_C(0xF0000000) /* in a handler: EXC_RETURN */
 #define FLUSH_ADDRESS UINT32_C(0xB0000000) /* nothing is there */
 
 void cpu_reset(struct board *board)
@@ -66,12 +70,36 @@ void flash_update_protection(struct board *board)
     }
 }
 
+/* The program has gone to a place from which nothing may be executed: peripherals, devices and the system's own area
+ * (ARMv7-M B3.1), or to an even address. */
+static uint32_t after_no_code(struct board *board, uint32_t pc)
+{
+    struct cpu *cpu = &board->cpu;
+    uint32_t xpsr = cpu_read(cpu, UC_ARM_REG_XPSR);
+    uint32_t bits = (xpsr & XPSR_THUMB) != 0 ? SCB_CFSR_IBUSERR : SCB_CFSR_INVSTATE;
+    if (pc >= DEVICES_BASE || pc - PERIPHERALS_BASE < PERIPHERALS_BYTES) {
+        bits = SCB_CFSR_IACCVIOL;
+    }
+    cpu_write_xpsr(cpu, xpsr | XPSR_THUMB);
+    return exception_fault(board, bits, pc & ~UINT32_C(1));
+}
+
+/* Unicorn takes places at the end of the address space for returns in thread mode, too, and not all of them. */
+static uint32_t after_odd_place(struct board *board)
+{
+    struct cpu *cpu = &board->cpu;
+    uint32_t pc = cpu_read(cpu, UC_ARM_REG_PC);
+    bool in_handler = cpu_read(cpu, UC_ARM_REG_IPSR) != 0;
+    return in_handler && pc >= RETURNS_BASE ? exception_return(board, pc | 1U) : after_no_code(board, pc);
+}
+
 static uint32_t after_trap(struct board *board)
 {
     struct cpu *cpu = &board->cpu;
     switch (cpu->trap) {
     case CPU_TRAP_EXCEPTION_RETURN:
-        return exception_return(board, cpu_read(cpu, UC_ARM_REG_PC) | 1U);
+    case CPU_TRAP_NO_CODE:
+        return after_odd_place(board);
     case CPU_TRAP_SVC:
         return exception_call(board, NVIC_SVC, cpu->next);
     case CPU_TRAP_BKPT:

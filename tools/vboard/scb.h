@@ -10,6 +10,7 @@
 
 struct board;
 
+#define SCB_CFSR_IACCVIOL (UINT32_C(1) << 0)
 #define SCB_CFSR_IBUSERR (UINT32_C(1) << 8)
 #define SCB_CFSR_PRECISERR (UINT32_C(1) << 9)
 #define SCB_CFSR_UNSTKERR (UINT32_C(1) << 11)
@@ -21,6 +22,7 @@ struct board;
 #define SCB_CFSR_NOCP (UINT32_C(1) << 19)
 #define SCB_CFSR_UNALIGNED (UINT32_C(1) << 24)
 #define SCB_CFSR_DIVBYZERO (UINT32_C(1) << 25)
+#define SCB_CFSR_MEMORY UINT32_C(0x000000FF)
 #define SCB_CFSR_USAGE UINT32_C(0xFFFF0000)
 #define SCB_HFSR_VECTTBL (UINT32_C(1) << 1)
 #define SCB_HFSR_FORCED (UINT32_C(1) << 30)
