@@ -106,21 +106,25 @@ void board_reset(struct board *board, enum reset_cause cause)
     cpu_reset(board);
 }
 
-void board_reset_peripherals(struct board *board, uint32_t offset, uint32_t bits)
+static void reset_peripheral(struct board *board, uint32_t offset, unsigned bit)
 {
     enum { AHB1 = 0x10, APB1 = 0x20, APB2 = 0x24 };
+    if (offset == AHB1 && bit < GPIO_PORTS) {
+        gpio_reset_port(board, bit);
+    } else if (offset == APB1 && bit < TIMERS) {
+        timer_reset(board, bit);
+    } else if (offset == APB1 && (bit == 17 || bit == 18)) {
+        usart_reset(board, bit - 16U);
+    } else if (offset == APB2 && bit == 4) {
+        usart_reset(board, 0);
+    }
+}
+
+void board_reset_peripherals(struct board *board, uint32_t offset, uint32_t bits)
+{
     for (unsigned i = 0; i < 32; i++) {
-        if ((bits >> i & 1U) == 0) {
-            continue;
-        }
-        if (offset == AHB1 && i < GPIO_PORTS) {
-            gpio_reset_port(board, i);
-        } else if (offset == APB1 && i < TIMERS) {
-            timer_reset(board, i);
-        } else if (offset == APB1 && (i == 17 || i == 18)) {
-            usart_reset(board, i - 16U);
-        } else if (offset == APB2 && i == 4) {
-            usart_reset(board, 0);
+        if ((bits >> i & 1U) != 0) {
+            reset_peripheral(board, offset, i);
         }
     }
 }
@@ -209,12 +213,18 @@ static void set_cycle_model(struct board *board)
     board->bus.apb_wait = options->apb_wait;
 }
 
+static bool open_files(struct board *board)
+{
+    const struct options *options = board->options;
+    return pins_read(&board->pins, options->pins) && recorder_open(board) && inputs_open(board) && rs485_open(board) &&
+           tty_open(board) && profile_open(board, options->profile) && faults_open(board);
+}
+
 /* What is wired to the part, before power comes. */
 static bool connect(struct board *board)
 {
     const struct options *options = board->options;
-    if (!pins_read(&board->pins, options->pins) || !recorder_open(board) || !inputs_open(board) ||
-        !rs485_open(board) || !tty_open(board) || !profile_open(board, options->profile) || !faults_open(board)) {
+    if (!open_files(board)) {
         return false;
     }
     for (unsigned i = 0; i < options->stucks; i++) {

@@ -16,10 +16,10 @@ enum {
 
 /* A row of RM0090 table 1. */
 struct block {
-    uint32_t base;
     const char *name;
     bus_reader *read;
     bus_writer *write;
+    uint32_t base;
     uint8_t instance;
     bool takes_bytes; /* whether single bytes may be accessed */
     uint8_t clock_offset; /* of its clock enable register in RCC; 0: always on */
@@ -27,28 +27,28 @@ struct block {
 };
 
 static const struct block blocks[] = {
-    {0x40000000, "TIM2", timer_read, timer_write, 0, false, RCC_APB1ENR, 0},
-    {0x40000400, "TIM3", timer_read, timer_write, 1, false, RCC_APB1ENR, 1},
-    {0x40000800, "TIM4", timer_read, timer_write, 2, false, RCC_APB1ENR, 2},
-    {0x40000C00, "TIM5", timer_read, timer_write, 3, false, RCC_APB1ENR, 3},
-    {0x40003000, "IWDG", iwdg_read, iwdg_write, 0, false, 0, 0},
-    {0x40004400, "USART2", usart_read, usart_write, 1, false, RCC_APB1ENR, 17},
-    {0x40004800, "USART3", usart_read, usart_write, 2, false, RCC_APB1ENR, 18},
-    {0x40007000, "PWR", pwr_read, pwr_write, 0, false, RCC_APB1ENR, 28},
-    {0x40011000, "USART1", usart_read, usart_write, 0, false, RCC_APB2ENR, 4},
-    {0x40013800, "SYSCFG", syscfg_read, syscfg_write, 0, true, RCC_APB2ENR, 14},
-    {0x40013C00, "EXTI", exti_read, exti_write, 0, false, 0, 0},
-    {0x40020000, "GPIOA", gpio_read, gpio_write, 0, true, RCC_AHB1ENR, 0},
-    {0x40020400, "GPIOB", gpio_read, gpio_write, 1, true, RCC_AHB1ENR, 1},
-    {0x40020800, "GPIOC", gpio_read, gpio_write, 2, true, RCC_AHB1ENR, 2},
-    {0x40020C00, "GPIOD", gpio_read, gpio_write, 3, true, RCC_AHB1ENR, 3},
-    {0x40021000, "GPIOE", gpio_read, gpio_write, 4, true, RCC_AHB1ENR, 4},
-    {0x40021400, "GPIOF", gpio_read, gpio_write, 5, true, RCC_AHB1ENR, 5},
-    {0x40021800, "GPIOG", gpio_read, gpio_write, 6, true, RCC_AHB1ENR, 6},
-    {0x40021C00, "GPIOH", gpio_read, gpio_write, 7, true, RCC_AHB1ENR, 7},
-    {0x40022000, "GPIOI", gpio_read, gpio_write, 8, true, RCC_AHB1ENR, 8},
-    {0x40023800, "RCC", rcc_read, rcc_write, 0, true, 0, 0},
-    {0x40023C00, "FLASH", flash_read_register, flash_write_register, 0, true, 0, 0},
+    {"TIM2", timer_read, timer_write, 0x40000000, 0, false, RCC_APB1ENR, 0},
+    {"TIM3", timer_read, timer_write, 0x40000400, 1, false, RCC_APB1ENR, 1},
+    {"TIM4", timer_read, timer_write, 0x40000800, 2, false, RCC_APB1ENR, 2},
+    {"TIM5", timer_read, timer_write, 0x40000C00, 3, false, RCC_APB1ENR, 3},
+    {"IWDG", iwdg_read, iwdg_write, 0x40003000, 0, false, 0, 0},
+    {"USART2", usart_read, usart_write, 0x40004400, 1, false, RCC_APB1ENR, 17},
+    {"USART3", usart_read, usart_write, 0x40004800, 2, false, RCC_APB1ENR, 18},
+    {"PWR", pwr_read, pwr_write, 0x40007000, 0, false, RCC_APB1ENR, 28},
+    {"USART1", usart_read, usart_write, 0x40011000, 0, false, RCC_APB2ENR, 4},
+    {"SYSCFG", syscfg_read, syscfg_write, 0x40013800, 0, true, RCC_APB2ENR, 14},
+    {"EXTI", exti_read, exti_write, 0x40013C00, 0, false, 0, 0},
+    {"GPIOA", gpio_read, gpio_write, 0x40020000, 0, true, RCC_AHB1ENR, 0},
+    {"GPIOB", gpio_read, gpio_write, 0x40020400, 1, true, RCC_AHB1ENR, 1},
+    {"GPIOC", gpio_read, gpio_write, 0x40020800, 2, true, RCC_AHB1ENR, 2},
+    {"GPIOD", gpio_read, gpio_write, 0x40020C00, 3, true, RCC_AHB1ENR, 3},
+    {"GPIOE", gpio_read, gpio_write, 0x40021000, 4, true, RCC_AHB1ENR, 4},
+    {"GPIOF", gpio_read, gpio_write, 0x40021400, 5, true, RCC_AHB1ENR, 5},
+    {"GPIOG", gpio_read, gpio_write, 0x40021800, 6, true, RCC_AHB1ENR, 6},
+    {"GPIOH", gpio_read, gpio_write, 0x40021C00, 7, true, RCC_AHB1ENR, 7},
+    {"GPIOI", gpio_read, gpio_write, 0x40022000, 8, true, RCC_AHB1ENR, 8},
+    {"RCC", rcc_read, rcc_write, 0x40023800, 0, true, 0, 0},
+    {"FLASH", flash_read_register, flash_write_register, 0x40023C00, 0, true, 0, 0},
 };
 
 static const struct block *find_block(uint32_t address)

@@ -78,6 +78,14 @@ static bool starts_with(const cs_insn *instruction, const char *prefix)
     return strncmp(instruction->mnemonic, prefix, strlen(prefix)) == 0;
 }
 
+static bool starts_with_any(const cs_insn *instruction, const char *const *prefixes)
+{
+    while (*prefixes != NULL && !starts_with(instruction, *prefixes)) {
+        prefixes++;
+    }
+    return *prefixes != NULL;
+}
+
 /* The number of registers in a list: of all that are not the base. */
 static unsigned list_length(const cs_insn *instruction)
 {
@@ -121,31 +129,23 @@ static void price_store(struct cost *cost, const cs_insn *instruction)
 
 static bool price_memory(struct cost *cost, const cs_insn *instruction, uint32_t address)
 {
-    static const char *const multiples[] = {"ldm", "stm", "push", "pop", "vldm", "vstm", "vpush", "vpop"};
-    for (unsigned i = 0; i < sizeof multiples / sizeof *multiples; i++) {
-        if (starts_with(instruction, multiples[i])) {
-            cost->cycles = (uint8_t)(1U + list_length(instruction));
-            return true;
-        }
-    }
-    if (starts_with(instruction, "ldrd") || starts_with(instruction, "strd")) {
+    static const char *const multiples[] = {"ldm", "stm", "push", "pop", "vldm", "vstm", "vpush", "vpop", NULL};
+    static const char *const doubles[] = {"ldrd", "strd", NULL};
+    static const char *const singles[] = {"ldrex", "strex", "vldr", "vstr", NULL};
+    if (starts_with_any(instruction, multiples)) {
+        cost->cycles = (uint8_t)(1U + list_length(instruction));
+    } else if (starts_with_any(instruction, doubles)) {
         cost->cycles = COST_MEMORY + 1;
-        return true;
-    }
-    if (starts_with(instruction, "ldrex") || starts_with(instruction, "strex") || starts_with(instruction, "vldr") ||
-        starts_with(instruction, "vstr")) {
+    } else if (starts_with_any(instruction, singles)) {
         cost->cycles = COST_MEMORY;
-        return true;
-    }
-    if (starts_with(instruction, "ldr")) {
+    } else if (starts_with(instruction, "ldr")) {
         price_load(cost, instruction, address);
-        return true;
-    }
-    if (starts_with(instruction, "str")) {
+    } else if (starts_with(instruction, "str")) {
         price_store(cost, instruction);
-        return true;
+    } else {
+        return false;
     }
-    return false;
+    return true;
 }
 
 static void price_float(struct cost *cost, const cs_insn *instruction)
@@ -205,22 +205,25 @@ static void price_division(struct cost *cost, const cs_insn *instruction)
 
 static void price_other(struct cost *cost, const cs_insn *instruction)
 {
-    if (starts_with(instruction, "udiv") || starts_with(instruction, "sdiv")) {
+    static const char *const divisions[] = {"udiv", "sdiv", NULL};
+    static const char *const multiplies[] = {"mla", "mls", "umlal", "smlal", "umaal", NULL};
+    static const char *const tables[] = {"tbb", "tbh", NULL};
+    static const struct {
+        const char *name;
+        enum cost_kind kind;
+    } kinds[] = {{"cps", COST_MASKS}, {"msr", COST_MASKS}, {"wfi", COST_SLEEP}, {"wfe", COST_SLEEP_EVENT},
+                 {"sev", COST_EVENT}};
+    if (starts_with_any(instruction, divisions)) {
         price_division(cost, instruction);
-    } else if (starts_with(instruction, "cps") || starts_with(instruction, "msr")) {
-        set_kind(cost, COST_MASKS);
-    } else if (starts_with(instruction, "wfi")) {
-        set_kind(cost, COST_SLEEP);
-    } else if (starts_with(instruction, "wfe")) {
-        set_kind(cost, COST_SLEEP_EVENT);
-    } else if (strcmp(instruction->mnemonic, "sev") == 0) {
-        set_kind(cost, COST_EVENT);
-    } else if (starts_with(instruction, "mla") || starts_with(instruction, "mls") ||
-               starts_with(instruction, "umlal") || starts_with(instruction, "smlal") ||
-               starts_with(instruction, "umaal")) {
+    } else if (starts_with_any(instruction, multiplies)) {
         cost->cycles = COST_MULTIPLY_ADD;
-    } else if (starts_with(instruction, "tbb") || starts_with(instruction, "tbh")) {
+    } else if (starts_with_any(instruction, tables)) {
         cost->cycles = COST_TABLE_BRANCH;
+    }
+    for (unsigned i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        if (starts_with(instruction, kinds[i].name)) {
+            set_kind(cost, kinds[i].kind);
+        }
     }
 }
 
@@ -234,6 +237,26 @@ static bool waits_for_address(struct board *board, arm_reg base, uint32_t previo
            (arm_reg)before->detail->arm.operands[0].reg == base;
 }
 
+static void price(struct board *board, struct cost *cost, const cs_insn *instruction, uint32_t address,
+                  uint32_t previous)
+{
+    bool is_float = instruction->mnemonic[0] == 'v';
+    bool is_memory = price_memory(cost, instruction, address);
+    if (is_float) {
+        if (!is_memory) {
+            price_float(cost, instruction);
+        }
+        set_kind(cost, COST_FLOAT);
+    } else if (!is_memory) {
+        price_other(cost, instruction);
+    }
+    const cs_arm_op *memory = memory_operand(instruction);
+    if ((cost->flags & COST_PIPELINED) != 0 && memory != NULL &&
+        waits_for_address(board, (arm_reg)memory->mem.base, previous)) {
+        cost->flags &= (uint8_t)~COST_PIPELINED;
+    }
+}
+
 void cost_decode(struct board *board, uint32_t address, uint32_t previous)
 {
     struct cost_table *table = &board->cpu.cost;
@@ -245,20 +268,7 @@ void cost_decode(struct board *board, uint32_t address, uint32_t previous)
     if (code != NULL && code[1] == 0xBF && (code[0] & 0xFU) != 0) {
         open_block(table, &cost, code, address);
     } else if (instruction != NULL) {
-        bool is_float = instruction->mnemonic[0] == 'v';
-        if (!price_memory(&cost, instruction, address) && is_float) {
-            price_float(&cost, instruction);
-        } else if (!is_float) {
-            price_other(&cost, instruction);
-        }
-        if (is_float) {
-            set_kind(&cost, COST_FLOAT);
-        }
-        const cs_arm_op *memory = memory_operand(instruction);
-        if ((cost.flags & COST_PIPELINED) != 0 && memory != NULL &&
-            waits_for_address(board, (arm_reg)memory->mem.base, previous)) {
-            cost.flags &= (uint8_t)~COST_PIPELINED;
-        }
+        price(board, &cost, instruction, address, previous);
     }
     if (address == table->end_address) {
         set_kind(&cost, COST_END);

@@ -98,7 +98,7 @@ static bool look_around(struct board *board, uint32_t address)
 
 static uint32_t read_operand(struct cpu *cpu, unsigned number)
 {
-    return cpu_read(cpu, number == COST_REGISTER_LR ? (int)UC_ARM_REG_LR : (int)UC_ARM_REG_R0 + (int)number);
+    return cpu_read(cpu, number == COST_REGISTER_LR ? UC_ARM_REG_LR : UC_ARM_REG_R0 + (int)number);
 }
 
 static uint32_t division_cycles(struct cpu *cpu, struct cost cost)
@@ -162,6 +162,22 @@ static bool look_closer(struct board *board, uint32_t address, uint32_t previous
     return false;
 }
 
+/* Where the processor stands in the code, before the instruction there. */
+static inline void follow(struct board *board, uint32_t address)
+{
+    struct cpu *cpu = &board->cpu;
+    if (__builtin_expect(address != cpu->next, 0)) {
+        count_jump(board, address);
+        cpu->next = address;
+    }
+    if (__builtin_expect((address & cpu->line_mask) != cpu->line, 0)) {
+        enter_line(board, address);
+    }
+    if (__builtin_expect(board->profile.on, 0)) {
+        profile_at(board, address);
+    }
+}
+
 static void on_instruction(uc_engine *engine, uint64_t address64, uint32_t size, void *user)
 {
     struct board *board = user;
@@ -173,16 +189,7 @@ static void on_instruction(uc_engine *engine, uint64_t address64, uint32_t size,
     if (__builtin_expect(cpu->counted_all, 0)) {
         return;
     }
-    if (__builtin_expect(address != cpu->next, 0)) {
-        count_jump(board, address);
-        cpu->next = address;
-    }
-    if (__builtin_expect((address & cpu->line_mask) != cpu->line, 0)) {
-        enter_line(board, address);
-    }
-    if (__builtin_expect(board->profile.on, 0)) {
-        profile_at(board, address);
-    }
+    follow(board, address);
     if (__builtin_expect(cpu->now >= cpu->deadline, 0) && (entry->flags & COST_IN_IT) == 0 &&
         look_around(board, address)) {
         return;
@@ -269,7 +276,7 @@ static void *callback_of(void (*function)(void))
 {
     void *callback = NULL;
     _Static_assert(sizeof callback == sizeof function, "a callback fits into a pointer");
-    __builtin_memcpy(&callback, &function, sizeof callback);
+    __builtin_memcpy((void *)&callback, (const void *)&function, sizeof callback);
     return callback;
 }
 

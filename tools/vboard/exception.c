@@ -22,15 +22,18 @@ enum {
 #define EXC_RETURN_BASE UINT32_C(0xFFFFFFE1)
 #define EXC_RETURN_MAGIC UINT32_C(0xFFFFFFE0)
 
-static void put_word(uint8_t *at, uint32_t word)
+/* A word of a frame, by its number. */
+static void put_word(uint8_t *frame, uint32_t number, uint32_t word)
 {
+    uint8_t *at = frame + (size_t)number * WORD_BYTES;
     for (unsigned i = 0; i < WORD_BYTES; i++) {
         at[i] = (uint8_t)(word >> 8U * i);
     }
 }
 
-static uint32_t get_word(const uint8_t *at)
+static uint32_t get_word(const uint8_t *frame, uint32_t number)
 {
+    const uint8_t *at = frame + (size_t)number * WORD_BYTES;
     return (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
 }
 
@@ -43,17 +46,17 @@ enum { FRAME_REGISTERS = sizeof frame_registers / sizeof *frame_registers };
 static void save_floats(struct cpu *cpu, uint8_t *frame)
 {
     for (unsigned i = 0; i < FRAME_FLOATS; i++) {
-        put_word(frame + WORD_BYTES * (FRAME_WORDS + i), cpu_read(cpu, UC_ARM_REG_S0 + (int)i));
+        put_word(frame, FRAME_WORDS + i, cpu_read(cpu, UC_ARM_REG_S0 + (int)i));
     }
-    put_word(frame + WORD_BYTES * FRAME_FPSCR, cpu_read(cpu, UC_ARM_REG_FPSCR));
+    put_word(frame, FRAME_FPSCR, cpu_read(cpu, UC_ARM_REG_FPSCR));
 }
 
 static void restore_floats(struct cpu *cpu, const uint8_t *frame)
 {
     for (unsigned i = 0; i < FRAME_FLOATS; i++) {
-        cpu_write(cpu, UC_ARM_REG_S0 + (int)i, get_word(frame + WORD_BYTES * (FRAME_WORDS + i)));
+        cpu_write(cpu, UC_ARM_REG_S0 + (int)i, get_word(frame, FRAME_WORDS + i));
     }
-    cpu_write(cpu, UC_ARM_REG_FPSCR, get_word(frame + WORD_BYTES * FRAME_FPSCR));
+    cpu_write(cpu, UC_ARM_REG_FPSCR, get_word(frame, FRAME_FPSCR));
 }
 
 /* Pushes the frame onto the stack in use and gives the EXC_RETURN for it. False: there is no memory there. */
@@ -76,10 +79,10 @@ static bool push_frame(struct board *board, uint32_t return_address, uint32_t *e
         return false;
     }
     for (unsigned i = 0; i < FRAME_REGISTERS; i++) {
-        put_word(frame + WORD_BYTES * i, cpu_read(cpu, frame_registers[i]));
+        put_word(frame, i, cpu_read(cpu, frame_registers[i]));
     }
-    put_word(frame + WORD_BYTES * FRAME_REGISTERS, return_address & ~UINT32_C(1));
-    put_word(frame + WORD_BYTES * (FRAME_REGISTERS + 1U), (xpsr & ~XPSR_ALIGNED) | XPSR_THUMB | ((sp & 4U) << 7));
+    put_word(frame, FRAME_REGISTERS, return_address & ~UINT32_C(1));
+    put_word(frame, FRAME_REGISTERS + 1U, (xpsr & ~XPSR_ALIGNED) | XPSR_THUMB | ((sp & 4U) << 7));
     if (has_floats) {
         save_floats(cpu, frame);
         cpu_write(cpu, UC_ARM_REG_CONTROL, control & ~(uint32_t)CONTROL_FPCA);
@@ -167,9 +170,9 @@ static uint32_t pop_frame(struct board *board, uint32_t exc_return)
         note_stacking_fault(board, SCB_CFSR_UNSTKERR);
         return exception_take(board, 0);
     }
-    uint32_t xpsr = get_word(frame + WORD_BYTES * (FRAME_REGISTERS + 1U));
+    uint32_t xpsr = get_word(frame, FRAME_REGISTERS + 1U);
     if (((xpsr & XPSR_EXCEPTION) == 0) != to_thread) {
-        return exception_fault(board, SCB_CFSR_INVPC, get_word(frame + WORD_BYTES * FRAME_REGISTERS));
+        return exception_fault(board, SCB_CFSR_INVPC, get_word(frame, FRAME_REGISTERS));
     }
     cpu_write_xpsr(cpu, (xpsr & ~XPSR_ALIGNED) | XPSR_THUMB);
     if (to_thread) {
@@ -182,10 +185,10 @@ static uint32_t pop_frame(struct board *board, uint32_t exc_return)
         cpu_write(cpu, UC_ARM_REG_CONTROL, cpu_read(cpu, UC_ARM_REG_CONTROL) | CONTROL_FPCA);
     }
     for (unsigned i = 0; i < FRAME_REGISTERS; i++) {
-        cpu_write(cpu, frame_registers[i], get_word(frame + WORD_BYTES * i));
+        cpu_write(cpu, frame_registers[i], get_word(frame, i));
     }
     cpu_write(cpu, UC_ARM_REG_SP, sp + words * WORD_BYTES + ((xpsr & XPSR_ALIGNED) != 0 ? WORD_BYTES : 0));
-    return get_word(frame + WORD_BYTES * FRAME_REGISTERS) & ~UINT32_C(1);
+    return get_word(frame, FRAME_REGISTERS) & ~UINT32_C(1);
 }
 
 /* Lets the next pending exception follow the one that ends: the frame stays where it is. */
@@ -266,9 +269,12 @@ uint32_t exception_return(struct board *board, uint32_t exc_return)
 
 uint32_t exception_fault(struct board *board, uint32_t cfsr_bits, uint32_t return_address)
 {
-    unsigned exception = (cfsr_bits & SCB_CFSR_USAGE) != 0    ? NVIC_USAGE_FAULT
-                         : (cfsr_bits & SCB_CFSR_MEMORY) != 0 ? NVIC_MEM_MANAGE
-                                                              : NVIC_BUS_FAULT;
+    unsigned exception = NVIC_BUS_FAULT;
+    if ((cfsr_bits & SCB_CFSR_USAGE) != 0) {
+        exception = NVIC_USAGE_FAULT;
+    } else if ((cfsr_bits & SCB_CFSR_MEMORY) != 0) {
+        exception = NVIC_MEM_MANAGE;
+    }
     board->scb.cfsr |= cfsr_bits;
     if ((cfsr_bits & SCB_CFSR_BFARVALID) != 0) {
         board->scb.bfar = board->cpu.fault_address;

@@ -67,7 +67,7 @@ static uint64_t erase_us(const struct board *board, uint32_t bytes, unsigned siz
         return board->options->erase_us;
     }
     static const uint32_t typical_ms[3][3] = {{400, 300, 250}, {1200, 700, 550}, {2000, 1300, 1000}};
-    unsigned row = bytes <= 16U * 1024U ? 0 : bytes <= 64U * 1024U ? 1 : 2;
+    unsigned row = (bytes > 16U * 1024U ? 1U : 0U) + (bytes > 64U * 1024U ? 1U : 0U);
     uint64_t us = 1000U * (uint64_t)typical_ms[row][size > 2 ? 2 : size];
     return board->options->slow_flash ? 2U * us : us;
 }

@@ -45,7 +45,7 @@ struct port {
 };
 
 void gpio_reset(struct board *board);
-void gpio_reset_port(struct board *board, unsigned port);
+void gpio_reset_port(struct board *board, unsigned number);
 
 bool gpio_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);
 bool gpio_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask);

@@ -137,12 +137,12 @@ static int hex_digit(char digit)
 }
 
 /* False if the text is not exactly so many bytes. */
-static bool put_hex(uint8_t *to, uint32_t bytes, const char *text)
+static bool put_hex(uint8_t *to, size_t bytes, const char *text)
 {
-    if (strlen(text) != (size_t)bytes * 2U) {
+    if (strlen(text) != bytes * 2U) {
         return false;
     }
-    for (uint32_t i = 0; i < bytes; i++) {
+    for (size_t i = 0; i < bytes; i++) {
         int high = hex_digit(text[2U * i]);
         int low = hex_digit(text[2U * i + 1U]);
         if (high < 0 || low < 0) {

@@ -32,6 +32,14 @@ static bool take_comma(const char **at, const char *end)
     return comma;
 }
 
+static bool is_blank(const char *at, const char *end)
+{
+    while (at != end && (*at == ' ' || *at == '\t' || *at == '\r')) {
+        at++;
+    }
+    return at == end;
+}
+
 /* Reads a line without blanks at its beginning. */
 static bool read_line(const char *at, const char *end, struct input_change *change)
 {
@@ -42,10 +50,7 @@ static bool read_line(const char *at, const char *end, struct input_change *chan
                 line_read_fixed(&at, end, 0, 1, &level);
     change->input = (uint8_t)(input - 1U);
     change->level = level != 0;
-    while (good && at != end && (*at == ' ' || *at == '\t' || *at == '\r')) {
-        at++;
-    }
-    return good && at == end;
+    return good && is_blank(at, end);
 }
 
 static size_t count_lines(const struct infile *file)

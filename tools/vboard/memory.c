@@ -30,6 +30,18 @@ static bool map(struct board *board, uint32_t base, uint32_t bytes, uint32_t rig
            uc_mem_protect(board->cpu.engine, base, bytes, rights) == UC_ERR_OK;
 }
 
+static bool map_all(struct board *board)
+{
+    const struct memory *memory = &board->memory;
+    /* The CCM RAM hangs on the data bus only: nothing can be executed from it (section 2.3.1). */
+    return map(board, 0, MEMORY_FLASH_BYTES, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
+           map(board, MEMORY_FLASH_BASE, MEMORY_FLASH_BYTES, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
+           map(board, MEMORY_CCM_BASE, MEMORY_CCM_BYTES, UC_PROT_READ | UC_PROT_WRITE, memory->ccm) &&
+           map(board, MEMORY_SYSTEM_BASE, MEMORY_PAGE_BYTES, UC_PROT_READ, memory->system) &&
+           map(board, MEMORY_OPTIONS_BASE, MEMORY_PAGE_BYTES, UC_PROT_READ, memory->options) &&
+           map(board, MEMORY_SRAM_BASE, MEMORY_SRAM_BYTES, UC_PROT_ALL, memory->sram);
+}
+
 bool memory_init(struct board *board)
 {
     struct memory *memory = &board->memory;
@@ -43,13 +55,7 @@ bool memory_init(struct board *board)
         return false;
     }
     fill_system_area(memory);
-    /* The CCM RAM hangs on the data bus only: nothing can be executed from it (section 2.3.1). */
-    return map(board, 0, MEMORY_FLASH_BYTES, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
-           map(board, MEMORY_FLASH_BASE, MEMORY_FLASH_BYTES, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
-           map(board, MEMORY_CCM_BASE, MEMORY_CCM_BYTES, UC_PROT_READ | UC_PROT_WRITE, memory->ccm) &&
-           map(board, MEMORY_SYSTEM_BASE, MEMORY_PAGE_BYTES, UC_PROT_READ, memory->system) &&
-           map(board, MEMORY_OPTIONS_BASE, MEMORY_PAGE_BYTES, UC_PROT_READ, memory->options) &&
-           map(board, MEMORY_SRAM_BASE, MEMORY_SRAM_BYTES, UC_PROT_ALL, memory->sram);
+    return map_all(board);
 }
 
 void memory_forget(struct memory *memory)

@@ -249,16 +249,21 @@ static void write_bit(struct board *board, uint32_t offset, unsigned exception)
     }
 }
 
+/* Four exceptions from the first one on. */
+static void write_priorities(struct nvic *nvic, unsigned first, uint32_t value, uint32_t mask)
+{
+    for (unsigned i = 0; i < 4 && first + i < NVIC_EXCEPTIONS; i++) {
+        if ((mask >> PRIORITY_BITS * i & 0xFFU) != 0) {
+            nvic->priority[first + i] = (uint8_t)(value >> PRIORITY_BITS * i & PRIORITY_MASK);
+        }
+    }
+}
+
 bool nvic_write(struct board *board, uint32_t offset, uint32_t value, uint32_t mask)
 {
     cpu_poke(&board->cpu);
     if (offset >= OFFSET_PRIORITY && offset - OFFSET_PRIORITY < NVIC_IRQS) {
-        for (unsigned i = 0; i < 4 && NVIC_IRQ0 + offset - OFFSET_PRIORITY + i < NVIC_EXCEPTIONS; i++) {
-            if ((mask >> PRIORITY_BITS * i & 0xFFU) != 0) {
-                board->nvic.priority[NVIC_IRQ0 + offset - OFFSET_PRIORITY + i] =
-                    (uint8_t)(value >> PRIORITY_BITS * i & PRIORITY_MASK);
-            }
-        }
+        write_priorities(&board->nvic, NVIC_IRQ0 + offset - OFFSET_PRIORITY, value, mask);
         return true;
     }
     unsigned word = (offset & 0x7FU) / 4U;

@@ -73,16 +73,16 @@ enum kind {
 
 struct row {
     const char *name;
-    enum kind kind;
     size_t offset;     /* of the member: const char *, bool or uint64_t */
+    enum kind kind;
     unsigned decimals; /* KIND_NUMBER */
     uint64_t unit;     /* what one of the last decimals is worth */
     uint64_t least;
     uint64_t most;
 };
 
-#define TEXT(name, member) {name, KIND_TEXT, offsetof(struct options, member), 0, 0, 0, 0}
-#define FLAG(name, member) {name, KIND_FLAG, offsetof(struct options, member), 0, 0, 0, 0}
+#define TEXT(name, member) {name, offsetof(struct options, member), KIND_TEXT, 0, 0, 0, 0}
+#define FLAG(name, member) {name, offsetof(struct options, member), KIND_FLAG, 0, 0, 0, 0}
 
 static const struct row rows[] = {
     TEXT("--elf", elf),
@@ -104,16 +104,16 @@ static const struct row rows[] = {
     FLAG("--exti-mask-first", exti_mask_first),
     FLAG("--pwm-at-once", pwm_at_once),
     FLAG("--power-back", power_back),
-    {"--for", KIND_NUMBER, offsetof(struct options, for_ps), SECONDS_DECIMALS, 1000, 1, UINT64_C(1000000000000000)},
-    {"--measure-from", KIND_NUMBER, offsetof(struct options, measure_from_ps), MS_DECIMALS, 1000, 0,
+    {"--for", offsetof(struct options, for_ps), KIND_NUMBER, SECONDS_DECIMALS, 1000, 1, UINT64_C(1000000000000000)},
+    {"--measure-from", offsetof(struct options, measure_from_ps), KIND_NUMBER, MS_DECIMALS, 1000, 0,
      UINT64_C(1000000000000)},
-    {"--crystal-stops", KIND_NUMBER, offsetof(struct options, crystal_stops_ps), MS_DECIMALS, 1000, 0,
+    {"--crystal-stops", offsetof(struct options, crystal_stops_ps), KIND_NUMBER, MS_DECIMALS, 1000, 0,
      UINT64_C(1000000000000)},
-    {"--crystal", KIND_NUMBER, offsetof(struct options, crystal_hz), 6, 1, 4000000, 26000000},
-    {"--lsi", KIND_NUMBER, offsetof(struct options, lsi_hz), 0, 1, 17000, 47000},
-    {"--baud", KIND_NUMBER, offsetof(struct options, baud), 0, 1, 300, 4000000},
-    {"--flash-erase", KIND_NUMBER, offsetof(struct options, erase_us), 3, 1, 1, 100000000},
-    {"--timer-start", KIND_NUMBER, offsetof(struct options, timer_start), 0, 1, 0, UINT32_MAX},
+    {"--crystal", offsetof(struct options, crystal_hz), KIND_NUMBER, 6, 1, 4000000, 26000000},
+    {"--lsi", offsetof(struct options, lsi_hz), KIND_NUMBER, 0, 1, 17000, 47000},
+    {"--baud", offsetof(struct options, baud), KIND_NUMBER, 0, 1, 300, 4000000},
+    {"--flash-erase", offsetof(struct options, erase_us), KIND_NUMBER, 3, 1, 1, 100000000},
+    {"--timer-start", offsetof(struct options, timer_start), KIND_NUMBER, 0, 1, 0, UINT32_MAX},
 };
 
 static bool read_number(const char *text, unsigned decimals, uint64_t least, uint64_t most, uint64_t *number)
@@ -314,7 +314,7 @@ static bool read_row(struct options *options, const struct row *row, const char 
 {
     char *member = (char *)options + row->offset;
     if (row->kind == KIND_TEXT) {
-        memcpy(member, &text, sizeof text);
+        memcpy(member, (const void *)&text, sizeof text);
         return true;
     }
     uint64_t number = 0;

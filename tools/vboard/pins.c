@@ -5,6 +5,7 @@
 
 #include "complain.h"
 #include "infile.h"
+#include "line.h"
 
 enum { WORD_BYTES_MAX = 32 };
 
@@ -21,6 +22,8 @@ static const struct group groups[] = {
     {"bo", "", SIGNAL_OUTPUT, PINS_OUTPUTS},  {"de", "", SIGNAL_DRIVER, 0},
     {"s1_", "", SIGNAL_SWITCH, PINS_SWITCHES},
 };
+
+static const char *const usarts[] = {"USART1", "USART2", "USART3"};
 
 /* Whether a name is one of a group; then `signal` is its number. */
 static bool find_in_group(const struct group *group, const char *name, unsigned *signal)
@@ -54,27 +57,35 @@ static unsigned find_signal(const char *name)
 
 bool pins_read_name(const char *text, struct pin *pin)
 {
-    unsigned number = 0;
-    char port = '\0';
-    int end = 0;
-    if (sscanf(text, "P%c%2u%n", &port, &number, &end) != 2 || text[end] != '\0' || port < 'A' ||
-        port >= 'A' + GPIO_PORTS || number >= GPIO_PINS) {
+    uint64_t number = 0;
+    const char *end = text + strlen(text);
+    if (text[0] != 'P' || text[1] < 'A' || text[1] >= 'A' + GPIO_PORTS) {
         return false;
     }
-    *pin = (struct pin){.port = (uint8_t)(port - 'A'), .number = (uint8_t)number};
-    return true;
+    *pin = (struct pin){.port = (uint8_t)(text[1] - 'A')};
+    text += 2;
+    bool good = line_read_fixed(&text, end, 0, GPIO_PINS - 1, &number) && text == end;
+    pin->number = (uint8_t)number;
+    return good;
+}
+
+/* Null, or what is wrong with the USART of the line. */
+static const char *take_usart(struct pins *pins, const char *place)
+{
+    for (unsigned usart = 0; usart < sizeof usarts / sizeof *usarts; usart++) {
+        if (strcmp(place, usarts[usart]) == 0) {
+            pins->usart = usart;
+            return NULL;
+        }
+    }
+    return "the line must be on USART1, USART2 or USART3";
 }
 
 /* Null, or what is wrong with a line of up to three words. */
 static const char *take_line(struct pins *pins, const char *name, const char *place, const char *polarity)
 {
     if (strcmp(name, "line") == 0) {
-        unsigned usart = 0;
-        if (sscanf(place, "USART%1u", &usart) != 1 || usart < 1 || usart > 3) {
-            return "the line must be on USART1, USART2 or USART3";
-        }
-        pins->usart = usart - 1U;
-        return NULL;
+        return take_usart(pins, place);
     }
     unsigned signal = find_signal(name);
     if (signal == SIGNAL_NONE) {

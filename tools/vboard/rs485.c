@@ -51,6 +51,16 @@ static bool is_blank(char character)
     return character == ' ' || character == '\t' || character == '\r' || character == ',';
 }
 
+/* The marks behind a byte. */
+static uint8_t read_damage(const char **at, const char *end)
+{
+    uint8_t damage = 0;
+    for (; *at != end && (**at == '*' || **at == '~'); (*at)++) {
+        damage |= **at == '*' ? USART_FRAMING : USART_NOISE;
+    }
+    return damage;
+}
+
 /* Takes in the bytes of a line, which ends at a newline or a comment. */
 static bool read_bytes(struct rs485 *line, uint64_t start_ps, const char **at, const char *end)
 {
@@ -65,10 +75,7 @@ static bool read_bytes(struct rs485 *line, uint64_t start_ps, const char **at, c
             return false;
         }
         *at += 2;
-        uint8_t damage = 0;
-        for (; *at != end && (**at == '*' || **at == '~'); (*at)++) {
-            damage |= **at == '*' ? USART_FRAMING : USART_NOISE;
-        }
+        uint8_t damage = read_damage(at, end);
         if (!append(line, (struct rs485_byte){.start_ps = start_ps, .value = (uint8_t)(high << 4 | low),
                                               .damage = damage})) {
             return false;
@@ -77,18 +84,24 @@ static bool read_bytes(struct rs485 *line, uint64_t start_ps, const char **at, c
     return true;
 }
 
+/* A line of a script up to its newline or its comment. */
+static bool read_line(struct rs485 *line, const char **at, const char *end)
+{
+    uint64_t ps = 0;
+    while (*at != end && is_blank(**at)) {
+        (*at)++;
+    }
+    bool empty = *at == end || **at == '#' || **at == '\n';
+    return empty || (line_read_fixed(at, end, PS_DECIMALS, MS_MAX * VTIME_PS_PER_MS, &ps) &&
+                     read_bytes(line, ps, at, end));
+}
+
 static bool read_script(struct rs485 *line, const struct infile *file)
 {
     const char *at = (const char *)file->bytes;
     const char *end = at + file->length;
     for (unsigned number = 1; at != end; number++) {
-        uint64_t ps = 0;
-        while (at != end && is_blank(*at)) {
-            at++;
-        }
-        bool empty = at == end || *at == '#' || *at == '\n';
-        if (!empty && (!line_read_fixed(&at, end, PS_DECIMALS, MS_MAX * VTIME_PS_PER_MS, &ps) ||
-                       !read_bytes(line, ps, &at, end))) {
+        if (!read_line(line, &at, end)) {
             complain("%s:%u: not a time and bytes; write ms and hexadecimal bytes, for example 10.5 02 41 0D",
                      file->path, number);
             return false;
@@ -177,7 +190,7 @@ void rs485_event(struct board *board, uint64_t cycle)
         usart_receive(board, board->pins.usart, byte->value, byte->damage, board->options->baud, cycle);
     }
     line->arriving = false;
-    line->free_ps = line->arrival_ps + half_bits_ps(board, 2 * FRAME_BITS);
+    line->free_ps = line->arrival_ps + half_bits_ps(board, UINT64_C(2) * FRAME_BITS);
     line->next++;
     plan(board);
 }

@@ -1,6 +1,6 @@
 /*
- * Takes PLACE, a word of garbage, from the stack as the place to go on at, in main and in a handler: the fault is noted,
- * and the function that has lost its way returns.
+ * Takes PLACE, a word of garbage, from the stack as the place to go on at, in main and in a handler: the fault is
+ * noted, and the function that has lost its way returns.
  */
 #include "part.h"
 
