@@ -1,36 +1,14 @@
 #include "bench.h"
 
-#include <inttypes.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "epoch.h"
 #include "judge_unit.h"
 #include "unity.h"
 
-/* Half of all epochs let the 32-bit counter wrap within this time: 3 s. */
-#define WRAP_SOON_TICKS (UINT64_C(3) * TICK_HZ)
 #define IDLE_LIMIT_TICKS (UINT64_C(60) * TICK_HZ)
 
 #define MEMORY_COMMANDS_MIN 700
-
-/* splitmix64, seeded once a program; the seed is told so that a failure can be repeated. */
-static uint64_t random_next(void)
-{
-    static uint64_t state;
-    static bool seeded;
-    if (!seeded) {
-        const char *given = getenv("RKM04_SEED");
-        state = given != NULL ? strtoull(given, NULL, 0) : (uint64_t)time(NULL);
-        seeded = true;
-        printf("RKM04_SEED=%" PRIu64 "\n", state);
-    }
-    state += UINT64_C(0x9e3779b97f4a7c15);
-    uint64_t mixed = (state ^ (state >> 30U)) * UINT64_C(0xbf58476d1ce4e5b9);
-    mixed = (mixed ^ (mixed >> 27U)) * UINT64_C(0x94d049bb133111eb);
-    return mixed ^ (mixed >> 31U);
-}
 
 static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
 {
@@ -127,12 +105,7 @@ void bench_init(struct bench *bench)
     if (PROGRAM_COMMANDS_MAX < MEMORY_COMMANDS_MIN) {
         TEST_IGNORE_MESSAGE("the program memory of this build is too small");
     }
-    uint64_t chance = random_next();
-    uint64_t epoch = chance >> 16U;
-    if ((chance & 1U) != 0) {
-        epoch = (epoch | UINT32_MAX) - epoch % WRAP_SOON_TICKS;
-    }
-    bench_init_at(bench, epoch);
+    bench_init_at(bench, epoch_random());
 }
 
 void bench_restart(struct bench *bench)

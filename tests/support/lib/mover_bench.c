@@ -1,6 +1,7 @@
 #include "mover_bench.h"
 
 #include "base_tick.h"
+#include "epoch.h"
 #include "hal_io.h"
 #include "hal_time.h"
 #include "unity.h"
@@ -69,7 +70,7 @@ void mover_bench_init(struct mover_bench *bench)
 {
     const struct hal_client client = {
         .context = bench, .step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
-    host_machine_init(&bench->machine, MOVER_BENCH_EPOCH);
+    host_machine_init(&bench->machine, epoch_random());
     bench->machine.listener = (struct host_listener){.context = bench, .trace = traced, .step = stepped};
     host_machine_select(&bench->machine);
     hal_run_start(&client);
@@ -82,8 +83,8 @@ void mover_bench_init(struct mover_bench *bench)
 void mover_bench_start(struct mover_bench *bench, const struct motion_order *order, struct mover_guards guards,
                        uint8_t inputs)
 {
-    (void)mover_sense_isr(&bench->mover, inputs, MOVER_BENCH_EPOCH);
-    mover_start(&bench->mover, order, false, MOVER_BENCH_EPOCH, &guards);
+    (void)mover_sense_isr(&bench->mover, inputs, bench->machine.epoch);
+    mover_start(&bench->mover, order, false, bench->machine.epoch, &guards);
 }
 
 void mover_bench_set_inputs(struct mover_bench *bench, uint8_t levels, uint8_t changed, uint64_t ms)

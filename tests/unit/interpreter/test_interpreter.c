@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base_tick.h"
+#include "epoch.h"
 #include "hal_time.h"
 #include "host_machine.h"
 
@@ -50,7 +51,7 @@ void setUp(void)
 {
     static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     memset(traced, 0, sizeof traced);
-    host_machine_init(&machine, UINT64_C(77) << 32U);
+    host_machine_init(&machine, epoch_random());
     host_machine_select(&machine);
     machine.listener.trace = on_trace;
     io_init(&io);

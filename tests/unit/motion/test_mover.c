@@ -41,7 +41,7 @@ void test_a_move_makes_its_steps(void)
 
 void test_a_move_backward_counts_down(void)
 {
-    mover_start(&bench.mover, &mover_bench_trapezoid, true, MOVER_BENCH_EPOCH, &no_guards);
+    mover_start(&bench.mover, &mover_bench_trapezoid, true, bench.machine.epoch, &no_guards);
 
     mover_bench_run(&bench);
 
@@ -56,7 +56,7 @@ void test_a_move_ends_with_the_tick_of_its_last_pulse(void)
     mover_bench_run(&bench);
 
     TEST_ASSERT_EQUAL_UINT64((900 + 4505) * TICKS_PER_MS, bench.last_edge_tick);
-    TEST_ASSERT_EQUAL_UINT64(MOVER_BENCH_EPOCH + bench.last_edge_tick, mover_end_tick(&bench.mover));
+    TEST_ASSERT_EQUAL_UINT64(bench.machine.epoch + bench.last_edge_tick, mover_end_tick(&bench.mover));
 }
 
 void test_a_move_is_in_progress_until_main_has_seen_its_end(void)

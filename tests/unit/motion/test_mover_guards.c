@@ -35,7 +35,7 @@ static void assert_no_step_at_start(struct mover_guards guards, uint8_t inputs, 
 
     mover_bench_assert_steps(&bench, 0);
     mover_bench_assert_cause(&bench, cause);
-    TEST_ASSERT_EQUAL_UINT64(MOVER_BENCH_EPOCH, mover_end_tick(&bench.mover));
+    TEST_ASSERT_EQUAL_UINT64(bench.machine.epoch, mover_end_tick(&bench.mover));
 }
 
 void test_a_high_guard_that_is_high_at_the_start_allows_no_step(void)
@@ -130,7 +130,7 @@ void test_a_limit_ends_the_run_at_once(void)
 
     mover_bench_assert_steps(&bench, 10);
     mover_bench_assert_cause(&bench, HAL_TRACE_STOP_LIMIT);
-    TEST_ASSERT_EQUAL_UINT64(MOVER_BENCH_EPOCH + 100 * TICKS_PER_MS, mover_end_tick(&bench.mover));
+    TEST_ASSERT_EQUAL_UINT64(bench.machine.epoch + 100 * TICKS_PER_MS, mover_end_tick(&bench.mover));
 }
 
 void test_an_input_that_guards_nothing_does_nothing(void)
@@ -150,7 +150,7 @@ void test_an_input_at_rest_does_nothing(void)
     start_guarded(&mover_bench_slow, (struct mover_guards){.stop_high = M});
     mover_bench_run(&bench);
 
-    TEST_ASSERT_FALSE(mover_sense_isr(&bench.mover, M, MOVER_BENCH_EPOCH));
+    TEST_ASSERT_FALSE(mover_sense_isr(&bench.mover, M, bench.machine.epoch));
 
     mover_bench_assert_cause(&bench, HAL_TRACE_STOP_NONE);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base_tick.h"
+#include "epoch.h"
 #include "host_machine.h"
 #include "io.h"
 
@@ -40,7 +41,7 @@ static void plan_isr(void *context)
 void setUp(void)
 {
     static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
-    host_machine_init(&machine, 1234567);
+    host_machine_init(&machine, epoch_random());
     host_machine_select(&machine);
     io_init(&io);
     store_init(&store);

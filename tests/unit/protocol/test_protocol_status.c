@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base_tick.h"
+#include "epoch.h"
 #include "host_machine.h"
 #include "protocol.h"
 #include "status_vectors.h"
@@ -48,7 +49,7 @@ static void start(void)
 
 void setUp(void)
 {
-    host_machine_init(&machine, 1234567);
+    host_machine_init(&machine, epoch_random());
     host_machine_select(&machine);
     start();
 }

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "epoch.h"
 #include "host_machine.h"
 #include "store.h"
 
@@ -46,7 +47,7 @@ static void restart(void)
 
 void setUp(void)
 {
-    host_machine_init(&machine, 0);
+    host_machine_init(&machine, epoch_random());
     host_machine_select(&machine);
     store_init(&store);
 }

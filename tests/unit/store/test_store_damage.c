@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base_crc32.h"
+#include "epoch.h"
 #include "hal_flash.h"
 #include "host_machine.h"
 #include "store.h"
@@ -119,7 +120,7 @@ static void forge_head(unsigned area, uint32_t offset, uint32_t length, unsigned
 void setUp(void)
 {
     random_state = SEED;
-    host_machine_init(&machine, 0);
+    host_machine_init(&machine, epoch_random());
     host_machine_select(&machine);
     store_init(&store);
 }

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "epoch.h"
 #include "host_machine.h"
 #include "store.h"
 
@@ -78,7 +79,7 @@ static void fail_everywhere(const char *zero, const char *one)
 
 void setUp(void)
 {
-    host_machine_init(&machine, 0);
+    host_machine_init(&machine, epoch_random());
     host_machine_select(&machine);
     store_init(&store);
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "epoch.h"
 #include "host_machine.h"
 #include "store.h"
 
@@ -187,7 +188,7 @@ void setUp(void)
     area_is_full = false;
     old_seen = 0;
     new_seen = 0;
-    host_machine_init(&machine, 0);
+    host_machine_init(&machine, epoch_random());
     host_machine_select(&machine);
     store_init(&store);
 }
