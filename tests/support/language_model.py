@@ -19,6 +19,8 @@ FULL = 3
 
 def compare(script: Script, record: Record) -> None:
     """Compare all motors, from power-on to the end of the script."""
+    if record.complaints:
+        raise Difference(f"the judge: {record.complaints}")
     if record.late:
         raise Difference(f"{record.late} pulses were late")
     motors = _motors(script, record)

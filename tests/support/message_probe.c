@@ -3,14 +3,16 @@
  * with.
  *
  * Comes in on standard input, line by line: the bytes of a request in hexadecimal, or a number of milliseconds with `+`
- * before it, for which the unit then runs. Goes out, a line a request: the bytes of the answer. The argument is
- * the version that the unit tells. Exit status 2: the input is no such thing.
+ * before it, for which the unit then runs. Goes out, a line a request: the bytes of the answer. The arguments are the
+ * version that the unit tells, and its time at the start. Exit status 1: the judge complains, 2: the input is no such
+ * thing.
  */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "host_machine.h"
+#include "judge_unit.h"
 #include "unit.h"
 
 enum { LINE_BYTES_MAX = 2 * PROTOCOL_REQUEST_BYTES_MAX + 2, RUN_MS_MAX = 3600000 };
@@ -21,19 +23,47 @@ static _Noreturn void complain(const char *what)
     exit(2);
 }
 
-static uint64_t main_pass(void *context)
+struct probe {
+    struct host_machine machine;
+    struct unit unit;
+    struct judge judge;
+};
+
+static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
 {
-    return unit_poll(context);
+    struct probe *probe = context;
+    judge_unit_step(&probe->judge, tick, motor, backward);
 }
 
-static void run(struct host_machine *machine, struct unit *unit, const char *number)
+static void on_direction(void *context, uint64_t tick, unsigned motor, bool backward)
 {
+    struct probe *probe = context;
+    judge_unit_direction(&probe->judge, &probe->unit, tick, motor, backward);
+}
+
+static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
+{
+    struct probe *probe = context;
+    judge_unit_trace(&probe->judge, &probe->unit, tick, motor, event, value);
+}
+
+static uint64_t main_pass(void *context)
+{
+    struct probe *probe = context;
+    uint64_t wake = unit_poll(&probe->unit);
+    judge_unit_pass(&probe->judge, &probe->unit);
+    return wake;
+}
+
+static void run(struct probe *probe, const char *number)
+{
+    struct host_machine *machine = &probe->machine;
     char *end;
     unsigned long ms = strtoul(number, &end, 10);
     if (*end != '\0' || ms > RUN_MS_MAX) {
         complain("no number of milliseconds");
     }
-    host_machine_run(machine, machine->now + (uint64_t)ms * TICKS_PER_MS, main_pass, NULL, unit);
+    host_machine_run(machine, machine->now + (uint64_t)ms * TICKS_PER_MS, main_pass, NULL, probe);
 }
 
 static uint32_t read_bytes(const char *line, uint8_t bytes[PROTOCOL_REQUEST_BYTES_MAX])
@@ -50,35 +80,59 @@ static uint32_t read_bytes(const char *line, uint8_t bytes[PROTOCOL_REQUEST_BYTE
     return length;
 }
 
-static void ask(struct unit *unit, const char *line)
+static void ask(struct probe *probe, const char *line)
 {
     static uint8_t request[PROTOCOL_REQUEST_BYTES_MAX];
     static uint8_t answer[PROTOCOL_ANSWER_BYTES_MAX];
-    uint32_t length = unit_message(unit, request, read_bytes(line, request), answer);
+    uint32_t length = unit_message(&probe->unit, request, read_bytes(line, request), answer);
     for (uint32_t i = 0; i < length; i++) {
         (void)printf("%02x", answer[i]);
     }
     (void)printf("\n");
 }
 
+static void begin(struct probe *probe, const char *version, uint64_t epoch)
+{
+    const struct judge_limits limits = judge_default_limits();
+    judge_init(&probe->judge, &limits);
+    host_machine_init(&probe->machine, epoch);
+    host_machine_select(&probe->machine);
+    probe->machine.listener = (struct host_listener){
+        .context = probe,
+        .step = on_step,
+        .direction = on_direction,
+        .trace = on_trace,
+    };
+    unit_init(&probe->unit);
+    probe->unit.protocol.version = version;
+    unit_start(&probe->unit);
+}
+
+/* Whether nothing is wrong with what the unit did. */
+static bool is_lawful(struct probe *probe)
+{
+    char text[JUDGE_TEXT_BYTES + 32];
+    judge_finish(&probe->judge, probe->machine.now);
+    for (uint32_t i = 0; i < probe->judge.complaints; i++) {
+        judge_tell(&probe->judge, i, text);
+        (void)fprintf(stderr, "judge: %s\n", text);
+    }
+    return probe->judge.complaints == 0;
+}
+
 int main(int argc, char **argv)
 {
-    static struct host_machine machine;
-    static struct unit unit;
+    static struct probe probe;
     static char line[LINE_BYTES_MAX];
 
-    host_machine_init(&machine, 0);
-    host_machine_select(&machine);
-    unit_init(&unit);
-    unit.protocol.version = argc > 1 ? argv[1] : UNIT_VERSION;
-    unit_start(&unit);
+    begin(&probe, argc > 1 ? argv[1] : UNIT_VERSION, argc > 2 ? strtoull(argv[2], NULL, 10) : 0);
     while (fgets(line, (int)sizeof line, stdin) != NULL) {
         line[strcspn(line, "\n")] = '\0';
         if (line[0] == '+') {
-            run(&machine, &unit, line + 1);
+            run(&probe, line + 1);
         } else {
-            ask(&unit, line);
+            ask(&probe, line);
         }
     }
-    return 0;
+    return is_lawful(&probe) ? 0 : 1;
 }

@@ -8,6 +8,7 @@
  *   send T HEX          a request, bytes in hexadecimal
  *   run T               runs all of the above up to T, and answers
  * Goes out, for each run:
+ *   judge SENTENCE      what the judge complains of
  *   pulses MOTOR T ...  of each motor that made any; a minus: backward
  *   event T MOTOR NUMBER VALUE, answer T HEX   as they happen
  *   end LATE POSITION POSITION POSITION POSITION
@@ -19,6 +20,7 @@
 #include <string.h>
 
 #include "host_machine.h"
+#include "judge_unit.h"
 #include "mover.h"
 #include "unit.h"
 
@@ -27,6 +29,7 @@ enum { PULSES_MAX = 400000, INPUTS_MAX = 1000, LINE_BYTES_MAX = 2 * PROTOCOL_REQ
 struct probe {
     struct host_machine machine;
     struct unit unit;
+    struct judge judge;
     int64_t pulse[UNIT_MOTORS][PULSES_MAX];
     uint32_t pulse_count[UNIT_MOTORS];
     struct host_input input[INPUTS_MAX];
@@ -47,25 +50,42 @@ static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
         complain("too many pulses");
     }
     probe->pulse[motor][probe->pulse_count[motor]++] = backward ? -(int64_t)tick : (int64_t)tick;
+    judge_unit_step(&probe->judge, tick, motor, backward);
+}
+
+static void on_direction(void *context, uint64_t tick, unsigned motor, bool backward)
+{
+    struct probe *probe = context;
+    judge_unit_direction(&probe->judge, &probe->unit, tick, motor, backward);
 }
 
 static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
 {
-    (void)context;
+    struct probe *probe = context;
+    judge_unit_trace(&probe->judge, &probe->unit, tick, motor, event, value);
     (void)printf("event %" PRIu64 " %u %u %" PRId64 "\n", tick, motor, (unsigned)event, value);
 }
 
 static uint64_t main_pass(void *context)
 {
     struct probe *probe = context;
-    return unit_poll(&probe->unit);
+    uint64_t wake = unit_poll(&probe->unit);
+    judge_unit_pass(&probe->judge, &probe->unit);
+    return wake;
 }
 
 static void begin(struct probe *probe, uint64_t epoch)
 {
+    const struct judge_limits limits = judge_default_limits();
+    judge_init(&probe->judge, &limits);
     host_machine_init(&probe->machine, epoch);
     host_machine_select(&probe->machine);
-    probe->machine.listener = (struct host_listener){.context = probe, .step = on_step, .trace = on_trace};
+    probe->machine.listener = (struct host_listener){
+        .context = probe,
+        .step = on_step,
+        .direction = on_direction,
+        .trace = on_trace,
+    };
     memset(probe->pulse_count, 0, sizeof probe->pulse_count);
     probe->input_count = 0;
     probe->running = false;
@@ -111,6 +131,7 @@ static void send_request(struct probe *probe, const char *text)
     }
     run_until(probe, tick);
     length = unit_message(&probe->unit, request, length, answer);
+    judge_exchange(&probe->judge, 1, length != 0 ? 1 : 0);
     (void)printf("answer %" PRIu64 " ", tick);
     for (uint32_t i = 0; i < length; i++) {
         (void)printf("%02x", answer[i]);
@@ -118,8 +139,20 @@ static void send_request(struct probe *probe, const char *text)
     (void)printf("\n");
 }
 
-static void report(const struct probe *probe)
+static void report_complaints(struct judge *judge, const struct host_machine *machine)
 {
+    char text[JUDGE_TEXT_BYTES + 32];
+    judge_flash(judge, machine->flash_rewrites);
+    judge_finish(judge, machine->now);
+    for (uint32_t i = 0; i < judge->complaints; i++) {
+        judge_tell(judge, i, text);
+        (void)printf("judge %s\n", text);
+    }
+}
+
+static void report(struct probe *probe)
+{
+    report_complaints(&probe->judge, &probe->machine);
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         if (probe->pulse_count[motor] > 0) {
             (void)printf("pulses %u", motor + 1U);

@@ -69,6 +69,7 @@ class Record:
     pulses: dict[int, list[int]] = field(default_factory=lambda: {motor: [] for motor in MOTORS})
     events: list[Event] = field(default_factory=list)
     answers: list[bytes] = field(default_factory=list)
+    complaints: list[str] = field(default_factory=list)
     late: int = 0
     positions: list[int] = field(default_factory=list)
 
@@ -112,6 +113,8 @@ def _read(record: Record, words: list[str]) -> bool:
         record.events.append(Event(tick, motor, EVENTS[number], value))
     elif kind == "answer":
         record.answers.append(bytes.fromhex(words[2]) if len(words) > 2 else b"")
+    elif kind == "judge":
+        record.complaints.append(" ".join(words[1:]))
     elif kind == "pulses":
         record.pulses[int(words[1])] = [int(tick) for tick in words[2:]]
     else:
