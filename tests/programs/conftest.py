@@ -8,15 +8,20 @@ import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import pytest
+from chance import epoch
 from judge import Event, Limits, Steps, judge_files, read_steps, read_trace
 from reference import TICK_HZ, Curve
+from rkm04_tools import host
 from rkm04_tools.cli import main
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "tools" / "examples"
 TICKS_PER_MS = TICK_HZ // 1000
+EPOCH_MAX = 10**18
+"""What the simulator takes."""
 REACTION_TICKS = TICKS_PER_MS
 """From an edge at a pin to the pulse from which it acts, if that is not the next one."""
 
@@ -119,6 +124,13 @@ def run_program(
     """Run an example on motor 1, with its inputs or without, and let the judge look at it."""
     if "RKM04_BUILD" not in os.environ:
         monkeypatch.setenv("RKM04_BUILD", str(ROOT / "build" / "host"))
+    simulate = host.simulate
+
+    def simulate_then(arguments: Sequence[str]) -> dict[str, Any]:
+        """Let the unit's time begin anywhere."""
+        return simulate([*arguments, "--epoch", str(epoch() % EPOCH_MAX)])
+
+    monkeypatch.setattr(host, "simulate", simulate_then)
 
     def run(
         name: str, inputs: str | None = None, seconds: float = 60, limits: Limits | None = None

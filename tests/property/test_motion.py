@@ -11,6 +11,7 @@ from fractions import Fraction
 from itertools import accumulate, combinations, groupby, product
 
 import pytest
+from chance import epoch
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from motion_probe import EPOCH_BITS, STOP, Case, Move, complaints, deviation, run, run_one
@@ -57,7 +58,7 @@ def moves(draw: st.DrawFn) -> Move:
     return Move(draw(up_to(2000)), chosen, tuple((pulse, draw(speeds)) for pulse in pulses))
 
 
-EPOCHS = st.integers(0, (1 << EPOCH_BITS) - 1)
+EPOCHS = st.integers(0, (1 << EPOCH_BITS) - 1).map(epoch)
 
 
 def assert_exact(cases: list[Case]) -> None:
@@ -115,8 +116,7 @@ def test_break_points_are_the_corners_of_the_ideal_curve(
 
 def changed(*changes: tuple[int, int]) -> Case:
     """Return the compound move with changes, started at a moment that depends on them."""
-    epoch = random.Random(str(changes)).getrandbits(EPOCH_BITS)
-    return Case(Move(COMPOUND.start_speed, COMPOUND.sections, changes), epoch)
+    return Case(Move(COMPOUND.start_speed, COMPOUND.sections, changes), epoch(changes))
 
 
 def every_pulse() -> range:

@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 import pytest
+from chance import SEED
 from hypothesis import HealthCheck, given, seed, settings
 from language_model import compare
 from language_signals import Unsure
@@ -18,7 +19,6 @@ from program_probe import Probe, Script
 from program_strategies import scripts
 
 PROGRAMS = int(os.environ.get("RKM04_PROGRAMS", "300"))
-SEED = int(os.environ.get("RKM04_SEED", "2009"))
 BATCH = 300
 """Programs that are drawn together, by one seed; hypothesis grows slow and large with many more."""
 

@@ -15,11 +15,11 @@ from dataclasses import dataclass
 from itertools import combinations_with_replacement, product
 
 import pytest
+from chance import epoch
 from language_model import compare
 from language_signals import MS, Difference, Unsure
 from program_probe import Edge, Probe, Request, Script
 
-EPOCH_BITS = 62
 PAIRS = 10_000 if os.environ.get("RKM04_LONG") else 150
 """So many pairs of pulses and actions of each kind of move are tried, of some 100 000."""
 
@@ -70,7 +70,7 @@ OFFSETS = (0, 1, 40 * MS // 1000)
 """Ticks behind the pulse: with it, right behind it, while its interrupt has not ended."""
 
 
-def script(move: str, actions: Iterable[tuple[int, Action]], seed: str) -> Script:
+def script(move: str, actions: Iterable[tuple[int, Action]]) -> Script:
     """Return a run of a move with actions at given ticks, and a `C75` at last."""
     text = f"{SETUP}{MOVES[move]}{BEHIND}"
     requests, edges = [Request(0, b"\x021" + text.encode())], list(INPUT_BEGIN)
@@ -82,8 +82,8 @@ def script(move: str, actions: Iterable[tuple[int, Action]], seed: str) -> Scrip
             requests.append(Request(tick, b"\x021" + action.text.encode()))
     resume = tick + GO_ON_MS * MS
     requests += [Request(resume, b"\x021C75"), Request(resume + 1, b"\x040")]
-    epoch = random.Random(seed).getrandbits(EPOCH_BITS)
-    return Script(tuple(requests), tuple(edges), resume + GO_ON_MS * MS, epoch)
+    start = epoch(move, actions)
+    return Script(tuple(requests), tuple(edges), resume + GO_ON_MS * MS, start)
 
 
 @pytest.fixture(scope="module")
@@ -102,7 +102,7 @@ def assert_all_agree(probe: Probe, move: str, runs: Iterable[list[tuple[int, Act
     """Compare runs of a move; those in which an action falls on its end say nothing."""
     count: Counter[str] = Counter()
     for actions in runs:
-        run = script(move, actions, str(actions))
+        run = script(move, actions)
         try:
             compare(run, probe.run(run))
         except Unsure:

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from chance import epoch
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = sorted((ROOT / "firmware" / "docs").glob("*.md"))
@@ -207,7 +208,7 @@ def test_the_file_of_vectors_holds_the_messages_of_the_documents() -> None:
 def test_the_unit_answers_as_the_documents_say(talk: dict[str, Any]) -> None:
     asked = [f"+{each['after_ms']}\n{each['request']}\n" for each in talk["exchanges"]]
 
-    answers = run(program("message-probe"), VERSION, text="".join(asked)).split()
+    answers = run(program("message-probe"), VERSION, str(epoch()), text="".join(asked)).split()
 
     assert answers == [each["answer"] for each in talk["exchanges"]]
 

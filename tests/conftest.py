@@ -1,0 +1,11 @@
+"""What holds for all tests in Python."""
+
+from __future__ import annotations
+
+import pytest
+from chance import SEED
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Tell what repeats the run."""
+    terminalreporter.write_line(f"RKM04_SEED={SEED}")
