@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from chance import epoch, timer_start
 from frames import frame
 from judge import Event, Steps, judge_files, read_steps, read_trace
 from reference import TICK_HZ
@@ -23,10 +24,15 @@ from rkm04_tools import board, host, virtual_board
 TICKS_PER_MS = TICK_HZ // 1000
 BYTE_MS = 10 / 19.2
 NODE = 1
+EPOCH_MAX = 10**18
+"""What the simulator takes."""
 READY_MS = 50.0
 """The unit listens by then."""
 ANSWER_MS = 40.0
 """Time for an answer of four bytes, and for the silence around it."""
+
+PIN_TIMES_US = {"width_min": 0.5, "gap_min": 0.5, "dir_setup_min": 5.0, "dir_hold_min": 5.0}
+"""What the board's drivers need (BOARD_STEP_HIGH_NS and its like): STEP high and low, DIR still."""
 
 SET_COMMAND = b"\x02"
 GET_POSITION = b"\x040"
@@ -178,6 +184,7 @@ class VirtualBoard:
             file = self.folder / f"{motor}.rks"
             file.write_bytes(text)
             arguments += ["--motor", f"{motor}={file}"]
+        arguments += ["--epoch", str(epoch() % EPOCH_MAX)]
         summary = host.simulate([*arguments, *self._file("inputs", inputs)])
         assert judge_files(steps, trace, counter_set=True) == []
         return Simulated(summary, read_steps(steps), read_trace(trace))
@@ -189,10 +196,13 @@ class VirtualBoard:
         arguments += self._file("pins", virtual_board.board_pins(self.image.board))
         arguments += ["--steps", str(steps), "--vcd", str(self.folder / "board.vcd")]
         arguments += ["--line-log", str(self.folder / "log.txt")]
+        if "--timer-start" not in options:
+            arguments += ["--timer-start", str(timer_start())]
         arguments += ["--watch", "stm32_late_steps", "--stack-limit", "stm32_stack_bottom"]
         arguments += [*self._file("line-script", lines), *self._file("inputs", inputs), *options]
         summary = virtual_board.run(self.program, arguments)
         assert judge_files(steps) == []
+        assert pin_times_too_short(summary) == []
         return Modelled(summary, read_steps(steps), self.folder)
 
     def _file(self, name: str, text: str) -> list[str]:
@@ -201,6 +211,18 @@ class VirtualBoard:
         path = self.folder / name
         path.write_text(text)
         return [f"--{name}", str(path)]
+
+
+def pin_times_too_short(summary: Mapping[str, Any]) -> list[str]:
+    """Where STEP or DIR of the reference board moved too soon; a reset may cut a pulse short."""
+    if sum(summary["resets"].values()) > 1:
+        return []
+    return [
+        f"motor {motor['motor']}: {name} {motor[name]} us, less than {least}"
+        for motor in summary["motors"]
+        for name, least in PIN_TIMES_US.items()
+        if motor["pulses"] and motor[name] is not None and motor[name] < least
+    ]
 
 
 def shifted(inputs: Sequence[tuple[float, int, int]], by_ms: float) -> str:
