@@ -1,7 +1,8 @@
 """The image of the board when its processor goes wrong: hung, astray, without its crystal.
 
 Four motors run stored programs and hold an output each when the fault comes. Then the outputs must
-be safe, the board must start again without starting the programs, tell why, and do as it is told.
+be safe, the board must start again without starting the programs, tell why over the line, and do as
+it is told.
 """
 
 from __future__ import annotations
@@ -12,10 +13,11 @@ import pytest
 from board_talk import ask, heard
 from debug_info import offset
 from rkm04_tools import board
+from rkm04_tools.status import Status, parse_status
 from stored import area, flash, record
 from virtual_board import TICKS_PER_MS, Modelled, VirtualBoard
 
-VERSION = b"\x01"
+VERSION, GET_STATUS, SET_COMMAND = b"\x01", b"\xc8", b"\x021"
 TOLD_VERSION = b"\x01\x10" + board.version().encode()
 MOTORS = range(1, 5)
 SPEED = 4000
@@ -23,6 +25,8 @@ PROGRAM = b"S2000V%dA40000T0%dF100000R"
 FAULT_MS = 150.0
 RESTART_MS = 60.0
 """From a reset until the unit answers, with room."""
+TOLD_MS = 120.0
+"""From the first question until the unit is told to move: the status takes 60 ms."""
 CAUSE_POWER, CAUSE_WATCHDOG, CAUSE_FAULT = 0, 2, 3
 HARD_FAULT, NMI, ASSERTION = 3, 2, 0
 RECORD = ("magic", "cause", "exception", "status", "hard", "address", "pc", "count")
@@ -38,10 +42,11 @@ MAIN_MS = 200.0
 def run(
     unit: VirtualBoard, seconds: float, *options: str, ask_ms: float, fault: str = ""
 ) -> Modelled:
-    """Run with stored programs and a fault; later ask for the version, then send a move."""
+    """Run with stored programs and a fault; later ask for version and status, then send a move."""
     path = unit.folder / "flash"
     path.write_bytes(flash(area(1, [record(m, 1 + m, PROGRAM % (SPEED, m)) for m in MOTORS])))
-    script = ask(ask_ms, VERSION) + ask(ask_ms + 30, b"\x021\\S2000V2000F7R")
+    script = ask(ask_ms, VERSION) + ask(ask_ms + 30, GET_STATUS)
+    script += ask(ask_ms + TOLD_MS, SET_COMMAND + b"\\S2000V2000F7R")
     faults = ["--fault", f"{FAULT_MS}:{fault}"] if fault else []
     watched = ["--watch", "stm32_fault_record", "--watch", "start_cause"]
     return unit.run(script, seconds, "", *faults, "--flash", str(path), *watched, *options)
@@ -61,12 +66,22 @@ def pulses(modelled: Modelled, begin_ms: float, end_ms: float) -> int:
     return int(((ticks >= begin_ms) & (ticks < end_ms)).sum())
 
 
-def assert_stands_until_told(unit: VirtualBoard, modelled: Modelled, told_ms: float) -> None:
-    """Safe behind the reset, no program by itself; answers; then does what it is told."""
+def told_status(unit: VirtualBoard) -> Status:
+    """The status, of the three answers there must be."""
+    version, status, taken = (answer.message for answer in heard(unit.folder))
+    assert (version, taken) == (TOLD_VERSION, SET_COMMAND + b"\0\0")
+    return parse_status(status)
+
+
+def assert_stands_until_told(
+    unit: VirtualBoard, modelled: Modelled, told_ms: float, cause: str
+) -> None:
+    """Safe behind the reset, no program by itself; tells why; then does what it is told."""
     assert pulses(modelled, 100, FAULT_MS) > 3 * 50 * SPEED // 1000, "the motors did not run"
     assert pulses(modelled, reset_ms(modelled), told_ms) == 0
     assert modelled.summary["outputs"] == 0
-    assert [answer.message for answer in heard(unit.folder)] == [TOLD_VERSION, b"\x021\0\0"]
+    status = told_status(unit)
+    assert (status.cause, status.not_started, status.no_crystal) == (cause, True, False)
     assert pulses(modelled, told_ms, 1e9) == 7
     assert modelled.summary["resets"]["power"] == 1
     assert modelled.summary["lockups"] == 0
@@ -87,7 +102,7 @@ def test_what_hangs_ends_in_a_watchdog_reset_after_which_nothing_starts_by_itsel
     unit, fault, silent_ms
 ):
     reset = FAULT_MS + silent_ms + WATCHDOG_MS[32000]
-    told = reset + RESTART_MS + 30
+    told = reset + RESTART_MS + TOLD_MS
 
     modelled = run(unit, told / 1000 + 0.1, ask_ms=reset + RESTART_MS, fault=fault)
 
@@ -95,7 +110,7 @@ def test_what_hangs_ends_in_a_watchdog_reset_after_which_nothing_starts_by_itsel
     assert reset - 3 < reset_ms(modelled) < reset + 3
     assert modelled.summary["watch"]["start_cause"] == CAUSE_WATCHDOG
     assert fault_record(modelled)["cause"] == CAUSE_WATCHDOG
-    assert_stands_until_told(unit, modelled, told)
+    assert_stands_until_told(unit, modelled, told, "watchdog")
 
 
 @pytest.mark.parametrize("lsi_hz", [17000, 47000])
@@ -126,7 +141,7 @@ def test_the_watchdog_resets_at_any_rate_of_its_oscillator(unit, lsi_hz):
 def test_what_goes_astray_is_caught_with_the_outputs_safe_and_the_cause_kept(
     unit, fault, exception, status
 ):
-    told = FAULT_MS + RESTART_MS + 30
+    told = FAULT_MS + RESTART_MS + TOLD_MS
 
     # What the tick calls is in the client, which its own data begin with.
     fault = fault.format(tick_isr=offset(unit.image.file("elf"), "hal_client", ("tick_isr",)))
@@ -142,11 +157,13 @@ def test_what_goes_astray_is_caught_with_the_outputs_safe_and_the_cause_kept(
     assert kept["status"] & status == status
     assert kept["hard"] == (FORCED if status else 0)
     assert modelled.summary["watch"]["start_cause"] == CAUSE_FAULT
-    assert_stands_until_told(unit, modelled, told)
+    assert_stands_until_told(unit, modelled, told, "fault")
 
 
-def assert_refuses_motion(unit: VirtualBoard, modelled: Modelled, from_ms: float) -> None:
-    """No pulse, all LEDs blinking together, answers at the right rate."""
+def assert_refuses_motion(
+    unit: VirtualBoard, modelled: Modelled, from_ms: float, cause: str
+) -> None:
+    """No pulse, all LEDs blinking together, answers at the right rate that tell why."""
     assert pulses(modelled, from_ms, 1e9) == 0
     blinks = [ms for ms, _ in modelled.edges("m1_led") if ms > from_ms]
     assert len(blinks) > 2
@@ -155,7 +172,8 @@ def assert_refuses_motion(unit: VirtualBoard, modelled: Modelled, from_ms: float
         assert [ms for ms, _ in modelled.edges(f"m{motor}_led") if ms > from_ms] == pytest.approx(
             blinks, abs=0.01
         )
-    assert [answer.message for answer in heard(unit.folder)] == [TOLD_VERSION, b"\x021\0\0"]
+    status = told_status(unit)
+    assert (status.cause, status.no_crystal) == (cause, True)
     assert modelled.summary["line"]["unheard"] == 0
     assert modelled.summary["line"]["baud"] == pytest.approx(19200, rel=0.005)
 
@@ -163,7 +181,7 @@ def assert_refuses_motion(unit: VirtualBoard, modelled: Modelled, from_ms: float
 def test_without_a_crystal_the_unit_answers_shows_it_and_does_not_move(unit):
     modelled = run(unit, 0.7, "--no-crystal", ask_ms=200)
 
-    assert_refuses_motion(unit, modelled, 150)
+    assert_refuses_motion(unit, modelled, 150, "power-on")
     assert pulses(modelled, 0, 1e9) == 0
     assert modelled.summary["resets"] == {"power": 1, "software": 0, "watchdog": 0}
     assert modelled.summary["watch"]["start_cause"] == CAUSE_POWER
@@ -179,4 +197,4 @@ def test_a_crystal_that_stops_is_a_fault_after_which_the_unit_does_not_move(unit
     assert modelled.summary["last_reset"]["steps"] == 0
     assert modelled.summary["last_reset"]["outputs"] == 0
     assert (kept["cause"], kept["exception"]) == (CAUSE_FAULT, NMI)
-    assert_refuses_motion(unit, modelled, FAULT_MS + 0.1)
+    assert_refuses_motion(unit, modelled, FAULT_MS + 0.1, "fault")
