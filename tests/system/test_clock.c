@@ -177,6 +177,7 @@ void test_a_shifted_epoch_shifts_the_pulses_and_changes_nothing_else(void)
         for (uint32_t pulse = 0; pulse < 40; pulse++) {
             ticks[i][pulse] = bench_pulse_tick(&bench, 1, pulse + 1);
         }
+        bench_check(&bench);
     }
     for (unsigned i = 1; i < 4; i++) {
         TEST_ASSERT_EQUAL_UINT64_ARRAY(ticks[0], ticks[i], 40);

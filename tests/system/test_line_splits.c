@@ -73,6 +73,7 @@ static void run_split(uint32_t first, uint32_t second)
         line.read_count = line.sent_count;
     }
     assert_executed_once();
+    bench_check(&bench);
     splits++;
 }
 
@@ -109,7 +110,7 @@ void test_a_program_in_two_messages_is_the_same_program(void)
         for (uint32_t i = 0; i < COMMANDS; i++) {
             strcat(text[i >= parted ? 1 : 0], commands[i]);
         }
-        bench_init_at(&bench, parted);
+        bench_init(&bench);
         bench_send(&bench, 1, text[0]);
         bench_do(&bench, 1, text[1]);
         if (parted == 0) {
@@ -122,5 +123,6 @@ void test_a_program_in_two_messages_is_the_same_program(void)
             TEST_ASSERT_EQUAL_UINT64(whole[i].tick, bench.pulses[i].tick);
             TEST_ASSERT_EQUAL(whole[i].backward, bench.pulses[i].backward);
         }
+        bench_check(&bench);
     }
 }

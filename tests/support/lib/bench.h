@@ -54,6 +54,7 @@ struct bench {
     uint32_t made[UNIT_MOTORS + 1]; /* pulses of each motor */
     struct bench_event events[BENCH_EVENTS_MAX];
     uint32_t event_count;
+    bool forgets_events; /* they are for the judge alone, as there are too many */
     struct bench_edge edges[BENCH_EDGES_MAX];
     uint32_t edge_count;
     struct host_input script[BENCH_INPUTS_MAX];
