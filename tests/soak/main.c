@@ -4,10 +4,10 @@
  *     rkm04-soak [--minutes N] [--seed N] [--epoch N] [--twice]
  *
  * Four motors run programs that never end while a master talks, repeats, disturbs and turns inputs; all by chance, from
- * the seed. At the end the judge must be silent, the unit's counters and positions must be what was sent and seen, the
- * canaries around the unit must live, and the process must not have grown. `--twice` does it again from another epoch
- * of the timer and wants the same pulses, events and bytes at the same times. Prints what was done. Exit status 0: all
- * that holds, 1: not, 2: the call is wrong.
+ * the seed; the timer begins anywhere, unless an epoch is given. At the end the judge must be silent, the unit's
+ * counters and positions must be what was sent and seen, the canaries around the unit must live, and the process must
+ * not have grown. `--twice` does it again from another epoch of the timer and wants the same pulses, events and bytes
+ * at the same times. Prints what was done. Exit status 0: all that holds, 1: not, 2: the call is wrong.
  */
 #include <errno.h>
 #include <inttypes.h>
@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <time.h>
 
 #include "base_tick.h"
 #include "soak_line.h"
@@ -31,6 +32,7 @@ enum {
 };
 
 #define MINUTE_TICKS (UINT64_C(60) * TICK_HZ)
+#define EPOCH_SPREAD UINT64_C(0x12345678B) /* neighbouring seconds lie far apart in 32 bits */
 #define OTHER_EPOCH ((UINT64_C(5) << 32U) - UINT64_C(30) * TICK_HZ)
 
 struct call {
@@ -53,7 +55,7 @@ static bool read_number(const char *text, uint64_t *number)
 
 static bool read_call(struct call *call, char **arguments)
 {
-    *call = (struct call){.minutes = MINUTES, .seed = SEED};
+    *call = (struct call){.minutes = MINUTES, .seed = SEED, .epoch = (uint64_t)time(NULL) * EPOCH_SPREAD >> 2U};
     for (; *arguments != NULL; arguments++) {
         uint64_t *number = strcmp(*arguments, "--minutes") == 0 ? &call->minutes
                            : strcmp(*arguments, "--seed") == 0  ? &call->seed
@@ -73,15 +75,21 @@ static long resident_kb(void)
     return getrusage(RUSAGE_SELF, &usage) == 0 ? usage.ru_maxrss : 0;
 }
 
-static void print_done(const struct call *call, long grown_kb)
+/* Before anything can fail. */
+static void print_call(const struct call *call)
+{
+    printf("seed %" PRIu64 ", %" PRIu64 " min of unit time, epoch %" PRIu64 "\n", call->seed, call->minutes,
+           call->epoch);
+    (void)fflush(stdout);
+}
+
+static void print_done(long grown_kb)
 {
     const struct soak_tally *tally = &master.tally;
     uint64_t pulses = 0;
     for (unsigned i = 0; i < UNIT_MOTORS; i++) {
         pulses += soak.pulses[i];
     }
-    printf("seed %" PRIu64 ", %" PRIu64 " min of unit time, epoch %" PRIu64 "\n", call->seed, call->minutes,
-           call->epoch);
     printf("pulses %" PRIu64 ", moves %" PRIu64 ", run-time errors %" PRIu64 ", passes of main %" PRIu64 "\n", pulses,
            soak.moves, soak.errors, soak.passes);
     printf("requests %" PRIu64 ", answers %" PRIu64 ", repeats %" PRIu64 ", broadcasts %" PRIu64 ", programs %" PRIu64
@@ -113,6 +121,7 @@ static bool run(const struct call *call)
 {
     uint64_t end = call->minutes * MINUTE_TICKS;
     long resident = 0;
+    print_call(call);
     soak_unit_begin(&soak, call->epoch);
     soak_master_begin(&master, &soak, call->seed);
     while (soak.machine.now < end && master.trouble == NULL && soak.judge.complaints == 0) {
@@ -126,7 +135,7 @@ static bool run(const struct call *call)
     soak_require(&master, soak.machine.late_steps == 0, "no step is late");
     soak_require(&master, soak_unit_is_whole(&soak), "what is around the unit and what never changes is as it was");
     soak_require(&master, grown_kb <= GROWTH_KB_MAX, "the process does not grow");
-    print_done(call, grown_kb);
+    print_done(grown_kb);
     return complain();
 }
 
