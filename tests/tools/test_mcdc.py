@@ -66,3 +66,9 @@ def test_an_excuse_for_what_was_reached_is_an_error(capsys: pytest.CaptureFixtur
 
 def test_conditions_that_were_not_shown_to_decide_are_too_few() -> None:
     assert not mcdc.report(mcdc.collect(files(1, 2, [True, False]), SOURCES), SOURCES, [])
+
+
+def test_a_source_that_no_test_has_in_it_is_told() -> None:
+    sources = {**SOURCES, "motion/g.c": "", "motion/g.h": ""}
+
+    assert mcdc.never_linked(files(1, 2, [True, True]), sources) == ["motion/g.c"]
