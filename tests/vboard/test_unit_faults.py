@@ -7,10 +7,13 @@ it is told.
 
 from __future__ import annotations
 
+import random
 from itertools import pairwise
 
+import numpy as np
 import pytest
 from board_talk import ask, heard
+from chance import SEED
 from debug_info import offset
 from rkm04_tools import board
 from rkm04_tools.status import Status, parse_status
@@ -30,6 +33,7 @@ TOLD_MS = 120.0
 CAUSE_POWER, CAUSE_WATCHDOG, CAUSE_FAULT = 0, 2, 3
 HARD_FAULT, NMI, ASSERTION = 3, 2, 0
 RECORD = ("magic", "cause", "exception", "status", "hard", "address", "pc", "count")
+NO_CODE_THERE = 1 << 0
 INSTRUCTION_BUS_ERROR, STACKING_ERROR, UNDEFINED = 1 << 8, 1 << 12, 1 << 16
 FORCED = 1 << 30
 SYSTICK, TIM2 = 15, 44
@@ -40,14 +44,19 @@ MAIN_MS = 200.0
 
 
 def run(
-    unit: VirtualBoard, seconds: float, *options: str, ask_ms: float, fault: str = ""
+    unit: VirtualBoard,
+    seconds: float,
+    *options: str,
+    ask_ms: float,
+    fault: str = "",
+    fault_ms: float = FAULT_MS,
 ) -> Modelled:
     """Run with stored programs and a fault; later ask for version and status, then send a move."""
     path = unit.folder / "flash"
     path.write_bytes(flash(area(1, [record(m, 1 + m, PROGRAM % (SPEED, m)) for m in MOTORS])))
     script = ask(ask_ms, VERSION) + ask(ask_ms + 30, GET_STATUS)
     script += ask(ask_ms + TOLD_MS, SET_COMMAND + b"\\S2000V2000F7R")
-    faults = ["--fault", f"{FAULT_MS}:{fault}"] if fault else []
+    faults = ["--fault", f"{fault_ms:.6f}:{fault}"] if fault else []
     watched = ["--watch", "stm32_fault_record", "--watch", "start_cause"]
     return unit.run(script, seconds, "", *faults, "--flash", str(path), *watched, *options)
 
@@ -130,13 +139,23 @@ def test_the_watchdog_resets_at_any_rate_of_its_oscillator(unit, lsi_hz):
     [
         ("jump=60000000", HARD_FAULT, INSTRUCTION_BUS_ERROR),
         ("jump=08040000", HARD_FAULT, UNDEFINED),
+        ("jump=a5a5a5a4", HARD_FAULT, NO_CODE_THERE),
         ("sp=stm32_stack_bottom+8", HARD_FAULT, STACKING_ERROR),
         ("sp=10000000", HARD_FAULT, STACKING_ERROR),
         ("word=tick+{tick_isr:x}:70000001", HARD_FAULT, INSTRUCTION_BUS_ERROR),
         ("jump=__assert_func", ASSERTION, 0),
         ("jump=stm32_reset", ASSERTION, 0),
     ],
-    ids=["nowhere", "erased flash", "stack overflow", "no stack", "interrupt", "assert", "reset"],
+    ids=[
+        "nowhere",
+        "erased flash",
+        "no code",
+        "stack overflow",
+        "no stack",
+        "interrupt",
+        "assert",
+        "reset",
+    ],
 )
 def test_what_goes_astray_is_caught_with_the_outputs_safe_and_the_cause_kept(
     unit, fault, exception, status
@@ -198,3 +217,24 @@ def test_a_crystal_that_stops_is_a_fault_after_which_the_unit_does_not_move(unit
     assert modelled.summary["last_reset"]["outputs"] == 0
     assert (kept["cause"], kept["exception"]) == (CAUSE_FAULT, NMI)
     assert_refuses_motion(unit, modelled, FAULT_MS + 0.1, "fault")
+
+
+@pytest.mark.parametrize("place", range(4))
+def test_power_that_goes_in_a_move_leaves_nothing_but_the_stored_programs(unit, place):
+    off = random.Random(f"{SEED} {place}").uniform(60, 160)
+
+    modelled = run(unit, 2 * off / 1000, ask_ms=5000, fault="power", fault_ms=off)
+
+    assert modelled.summary["resets"] == {"power": 2, "software": 0, "watchdog": 0}
+    assert modelled.summary["last_reset"]["microseconds"] == pytest.approx(1000 * off, abs=2)
+    assert modelled.late_steps == 0
+    for motor in MOTORS:
+        ticks = modelled.steps.tick[modelled.steps.motor == motor]
+        before, again = (
+            ticks[part] for part in (ticks < off * TICKS_PER_MS, ticks >= off * TICKS_PER_MS)
+        )
+        count = min(len(before), len(again))
+        assert count > 50
+        assert list(np.diff(before[:count])) == list(np.diff(again[:count]))
+        # The first start sets the level of the brown-out reset, which takes some milliseconds.
+        assert 0 <= off - (again[0] - before[0]) / TICKS_PER_MS < 6
