@@ -8,7 +8,8 @@
  *
  * The invariants of a run, and how each is seen:
  *
- *  1 signed pulses = change of the position    judge_position after each pass; in files the column of positions
+ *  1 signed pulses = change of the position    judge_position after each pass and at `done`; in files the column of
+ *                                              positions
  *  2 never faster than V in force, never       intervals against the fastest place of the plan (without a plan: the
  *    slower than the plan                      limits); slower than the plan is 3, pulse by pulse
  *  3 every pulse within 1 tick of the exact    judge_curve, for each move whose order is known; without orders the

@@ -17,6 +17,9 @@ void judge_unit_direction(struct judge *judge, const struct unit *unit, uint64_t
 void judge_unit_trace(struct judge *judge, const struct unit *unit, uint64_t tick, unsigned motor,
                       enum hal_trace_event event, int64_t value)
 {
+    if (event == HAL_TRACE_DONE) { /* before the program can write the counter */
+        judge_position(judge, motor, mover_position_steps(&unit->mover[motor - 1U]));
+    }
     judge_event(judge, tick, motor, event, value);
     if (event == HAL_TRACE_MOVE) {
         judge_order(judge, motor, &unit->interpreter[motor - 1U].order, mover_position_steps(&unit->mover[motor - 1U]));
