@@ -18,6 +18,7 @@ void setUp(void)
 void tearDown(void)
 {
     bench_check(&bench);
+    bench_check(&still);
 }
 
 /* Runs a move of motor 1 whose guard changes at a tick. */

@@ -42,6 +42,11 @@ def test_there_are_planted_bugs_all_over_the_tree() -> None:
     assert {"firmware", "hal"} <= touched
 
 
+def test_the_documents_say_how_many_there_are() -> None:
+    assert f"{len(BUGS)} planted bugs" in (ROOT / "README.md").read_text()
+    assert f"{len(BUGS)} patches" in (ROOT / "firmware/docs/reliability.md").read_text()
+
+
 def test_a_patch_that_does_not_fit_is_told(tmp_path: Path) -> None:
     shutil.copy(BUGS[0].patch, tmp_path)
 
