@@ -55,6 +55,18 @@ def test_a_branch_with_a_reason_is_excused() -> None:
     assert mcdc.report(folders, SOURCES, excuses)
 
 
+def test_an_excuse_is_for_one_branch_of_its_text() -> None:
+    sources = {"motion/f.c": SOURCE + SOURCE}
+    [first] = files(0, 2, [True, True])[:1]
+    twice = {**first, "branches": [[5, 9, 5, 14, 0, 2, 0, 0, 4], [13, 9, 13, 14, 0, 2, 0, 0, 4]]}
+    row = "motion/f.c | if (a > 1 && b > 1) { | true | never so\n"
+
+    folders = mcdc.collect([twice], sources)
+
+    assert not mcdc.report(folders, sources, mcdc.read_excuses(row))
+    assert mcdc.report(folders, sources, mcdc.read_excuses(row + row))
+
+
 def test_an_excuse_for_what_was_reached_is_an_error(capsys: pytest.CaptureFixture[str]) -> None:
     folders = mcdc.collect(files(1, 2, [True, True]), SOURCES)
     excuses = mcdc.read_excuses("motion/f.c | if (a > 1 && b > 1) { | true | never so")

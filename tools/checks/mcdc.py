@@ -168,17 +168,17 @@ def read_sources() -> dict[str, str]:
 def report(folders: dict[str, Folder], sources: dict[str, str], excuses: list[Excuse]) -> bool:
     """Prints a line a folder and what is missing. Whether it is enough."""
     good = True
-    used: set[Excuse] = set()
+    unused = list(excuses)  # a row excuses one side
     print(f"{'folder':12} {'branches':>8} {'reached':>8} {'excused':>8}   conditions  shown")
     for name, folder in folders.items():
         unexcused = []
         missing = missing_branches(folder)
         for place, side in missing:
-            excuse = find_excuse(excuses, place[0], line_of(place, sources), side)
+            excuse = find_excuse(unused, place[0], line_of(place, sources), side)
             if excuse is None:
                 unexcused.append((place, side))
             else:
-                used.add(excuse)
+                unused.remove(excuse)
         branches = 2 * len(folder.branches)
         conditions = sum(map(len, folder.decisions.values()))
         hidden = missing_conditions(folder)
@@ -192,7 +192,7 @@ def report(folders: dict[str, Folder], sources: dict[str, str], excuses: list[Ex
         for place, index in hidden:
             print(f"  condition {index} of {place[0]}:{place[1]}  {line_of(place, sources)}")
         good = good and not unexcused and percent >= MCDC_PERCENT
-    for excuse in set(excuses) - used:
+    for excuse in unused:
         print(f"excused but reached, or not there: {excuse.file} | {excuse.text} | {excuse.side}")
         good = False
     return good
