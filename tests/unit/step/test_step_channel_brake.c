@@ -161,10 +161,9 @@ void test_a_look_goes_back_over_the_border_of_two_segments(void)
     TEST_ASSERT_EQUAL_UINT64(last.generator.slope, cursor.generator.slope);
 }
 
-void test_a_look_at_fast_pulses_tells_the_armed_one(void)
+static void begin_fast_move(void)
 {
     enum { FAST = 3359 }; /* just above 25 000 steps/s */
-    struct step_cursor cursor;
     struct step_segment segment = {
         .slope = STEP_QUANTA / FAST, .tick = START, .pace_ticks = FAST, .steps = 100};
     step_generator_aim(&segment, FAST);
@@ -172,10 +171,29 @@ void test_a_look_at_fast_pulses_tells_the_armed_one(void)
     step_channel_push(&channel, &segment);
     step_channel_run(&channel);
     make_pulses(MADE);
+}
+
+void test_a_look_at_fast_pulses_tells_the_armed_one(void)
+{
+    struct step_cursor cursor;
+    begin_fast_move();
 
     TEST_ASSERT_TRUE(step_channel_look(&channel, START, &cursor));
 
     TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&cursor));
+}
+
+void test_a_brake_of_fast_pulses_takes_none_back(void)
+{
+    struct step_cursor at;
+    begin_fast_move();
+    TEST_ASSERT_TRUE(step_channel_look(&channel, START, &at));
+    make_pulses(1);
+
+    TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, MADE + GAP, &at));
+
+    TEST_ASSERT_EQUAL_UINT64(MADE + 2, step_cursor_pulse(&at));
+    TEST_ASSERT_EQUAL_UINT(MADE + 2, arms);
 }
 
 /* Looks while pulse 5 is armed, and brakes when it has been made. */
