@@ -29,6 +29,14 @@ def planted(tmp_path: Path, source: str, right: str, wrong: str) -> Path:
             "tick_difference(a, b) < 0", "tick_difference(a, b) <= 0",
         ),
         (
+            "motion_time", "motion_time_add", "firmware/motion/motion_time.c",
+            "time.ticks + ticks + (fraction", "time.ticks + ticks + 1U + (fraction",
+        ),
+        (
+            "motion_plan", "border_cap", "firmware/motion/motion_plan.c",
+            "section + 1U < order->sections", "section + 1U <= order->sections",
+        ),
+        (
             "link_receiver", "take_plain", "firmware/link/link_receiver.c",
             "if (place == (uint32_t)", "if (place > (uint32_t)",
         ),
