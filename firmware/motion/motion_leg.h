@@ -24,7 +24,7 @@ struct motion_leg {
     uint32_t accel;           /* quanta a tick^2; 0: cruise */
 };
 
-/* The slope of a speed, given twice the speed's square in (steps/s)^2, below 2^59. */
+/* The slope of a speed, given twice the speed's square in (steps/s)^2, at most 2^56. */
 uint64_t motion_leg_slope(uint64_t twice_speed2);
 
 /* Sets the end of a leg from its start: a ramp lasts |to_slope - from_slope| / (2 * accel), a cruise as long as the way
