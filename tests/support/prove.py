@@ -7,6 +7,7 @@ A file of contracts is C text, then parts that begin with a `%` line:
     % trust FUNCTION...   the contract is used, the body is not proved
     % prove FUNCTION...   a function of a header that is to be proved; else those are trusted
     % unsigned            unsigned numbers must not wrap either
+    % option OPTION...    one more for Frama-C
     % source PATH         a source of the firmware; what follows goes into a copy of it
     % before LINE         the text below goes before the next line that reads like this
     % after LINE          or behind it
@@ -62,6 +63,7 @@ class Contracts:
     trusted: list[str] = field(default_factory=list)
     proved: list[str] = field(default_factory=list)
     unsigned: bool = False
+    options: list[str] = field(default_factory=list)
     text: str = ""
 
 
@@ -110,6 +112,9 @@ def put_together(path: Path, root: Path = ROOT) -> Contracts:
             done.append(text)
         elif word == "unsigned":
             contracts.unsigned = True
+            done.append(text)
+        elif word == "option":
+            contracts.options += argument.split()
             done.append(text)
         elif word == "source":
             done += ["\n".join(source), text]
@@ -166,7 +171,7 @@ def prove(contracts: Contracts, seconds: int = SECONDS, extra: Sequence[str] = (
         "-load-module", "wp,rtegen", "-c11", "-machdep", "gcc_x86_32", "-wp", "-wp-rte",
         "-wp-prover", ",".join(PROVERS), "-wp-timeout", str(seconds),
         "-wp-par", str(min(os.cpu_count() or 1, 2)), "-wp-cache", "update",
-        f"-cpp-extra-args={includes}", *trust, *extra, str(path),
+        f"-cpp-extra-args={includes}", *trust, *contracts.options, *extra, str(path),
     ]  # fmt: skip
     environment = {**os.environ, "WHY3CONFIG": str(why3_configuration())}
     started = time.monotonic()
