@@ -35,6 +35,7 @@
         ((high * 0x100000000) | low) == high * 0x100000000 + low;
     admit lemma join_32_back: \forall integer high, low; 0 <= high && 0 <= low < 0x100000000 ==>
         (low | (high * 0x100000000)) == high * 0x100000000 + low;
+    admit lemma odd: \forall integer x; 0 <= x ==> 1 <= (x | 1);
 */
 
 #endif

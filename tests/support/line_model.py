@@ -1,4 +1,5 @@
-"""Checks the model of the line, tests/proofs/line.pml, with Spin: every run of it, to the end.
+"""Checks the models in tests/proofs, the line and the ring of segments, with
+Spin: every run of them, to the end.
 
     python tests/support/line_model.py
 
@@ -17,7 +18,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-MODEL = Path(__file__).resolve().parents[2] / "tests/proofs/line.pml"
+MODELS = Path(__file__).resolve().parents[2] / "tests/proofs"
+RING = "ring.pml"
 COMMANDS = ("spin", "gcc")
 
 ERRORS = re.compile(r"errors: (\d+)")
@@ -32,6 +34,7 @@ class Variant:
     claim: str
     switches: tuple[str, ...] = ()
     cycles: bool = False  # looks for runs without an end instead of violated assertions
+    model: str = "line.pml"
 
 
 HOLD = (
@@ -40,6 +43,7 @@ HOLD = (
         "executed once, answered by its own answer, if answers come late", ("ACTIONS=2", "LATE")
     ),
     Variant("the master comes to an end", ("ACTIONS=2",), cycles=True),
+    Variant("each segment taken once, in order, whole; all of them in the end", model=RING),
 )
 FAIL = (
     Variant("planted: a unit that has started refuses nothing", ("ACTIONS=1", "PLANT_NO_REFUSAL")),
@@ -56,6 +60,13 @@ FAIL = (
         ("ACTIONS=2", "UNIT_STARTS=0", "PLANT_NO_VERSION", "PLANT_NO_REFUSAL"),
     ),
     Variant("planted: a broadcast leaves a long answer", ("ACTIONS=2", "PLANT_ANSWER_KEPT")),
+    Variant("planted: room for one more", ("PLANT_ROOM_FOR_ONE_MORE",), model=RING),
+    Variant("planted: seen before it is written", ("PLANT_SEEN_BEFORE_WRITTEN",), model=RING),
+    Variant("planted: taken before it is read", ("PLANT_TAKEN_TOO_SOON",), model=RING),
+    Variant("planted: a cut without hold", ("PLANT_CUT_WITHOUT_HOLD",), model=RING),
+    Variant("planted: a cut in the past", ("PLANT_NOT_LOOKED_AGAIN",), model=RING),
+    Variant("planted: not started again", ("PLANT_NOT_STARTED_AGAIN",), model=RING),
+    Variant("planted: a wrap inside the ring", ("PLANT_COUNTERS_WRAP_BETWEEN",), model=RING),
 )
 
 
@@ -83,8 +94,8 @@ def explore(variant: Variant, level: int = 2) -> Explored:
     """Builds a variant and searches all of its states, up to the first error."""
     kind = "-DNP" if variant.cycles else "-DSAFETY"
     with tempfile.TemporaryDirectory() as folder:
-        shutil.copy(MODEL, folder)
-        _run(["spin", *(f"-D{switch}" for switch in variant.switches), "-a", MODEL.name], folder)
+        shutil.copy(MODELS / variant.model, folder)
+        _run(["spin", *(f"-D{switch}" for switch in variant.switches), "-a", variant.model], folder)
         _run(["gcc", f"-O{level}", "-w", kind, "-DMEMLIM=4000", "-o", "pan", "pan.c"], folder)
         search = ["./pan", "-m100000", "-w24", *(["-l"] if variant.cycles else [])]
         output = _run(search, folder)
@@ -114,7 +125,7 @@ def main() -> int:
             right = verdict == ("holds" if must_hold else "fails")
             good = good and right
             print(
-                f"line.pml: {'' if right else 'WRONG: '}{verdict}: {variant.claim} "
+                f"{variant.model}: {'' if right else 'WRONG: '}{verdict}: {variant.claim} "
                 f"({explored.states} states, {time.monotonic() - started:.0f} s)",
                 flush=True,
             )
