@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -11,11 +12,11 @@ needs_provers = pytest.mark.skipif(bool(missing()), reason=f"not installed: {mis
 
 
 def planted(tmp_path: Path, source: str, right: str, wrong: str) -> Path:
-    """A root with one source, in which something is wrong."""
-    text = (ROOT / source).read_text()
-    assert right in text
+    """A root with the firmware, in which something is wrong."""
+    shutil.copytree(ROOT / "firmware", tmp_path / "firmware")
     path = tmp_path / source
-    path.parent.mkdir(parents=True)
+    text = path.read_text()
+    assert right in text
     path.write_text(text.replace(right, wrong))
     return tmp_path
 
@@ -47,6 +48,22 @@ def planted(tmp_path: Path, source: str, right: str, wrong: str) -> Path:
         (
             "interpreter_stacks", "run_call", "firmware/interpreter/interpreter_commands.c",
             "call_depth == INTERPRETER_CALLS_MAX", "call_depth > INTERPRETER_CALLS_MAX",
+        ),
+        (
+            "link_sender", "plain_byte", "firmware/link/link_sender.c",
+            "sender->message[place - PLACE_MESSAGE]", "sender->message[place - PLACE_NUMBER]",
+        ),
+        (
+            "step_channel", "cursor_begin_segment", "firmware/step/step_channel.c",
+            "cursor->left = segment->steps - 1U", "cursor->left = segment->steps",
+        ),
+        (
+            "step_generator", "search_shorten", "firmware/step/step_generator.c",
+            "ticks * (search->slope - gain)", "ticks * (search->slope + gain)",
+        ),
+        (
+            "step_generator", "step_generator_ramp", "firmware/step/step_generator.h",
+            "uint64_t slope = middle + gain;", "uint64_t slope = middle;",
         ),
     ],
 )  # fmt: skip
