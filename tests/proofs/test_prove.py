@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -59,7 +60,7 @@ def planted(tmp_path: Path, source: str, right: str, wrong: str) -> Path:
         ),
         (
             "step_generator", "search_shorten", "firmware/step/step_generator.c",
-            "ticks * (search->slope - gain)", "ticks * (search->slope + gain)",
+            "search->interval -= ticks;", "search->interval -= ticks + 1U;",
         ),
         (
             "step_generator", "step_generator_ramp", "firmware/step/step_generator.h",
@@ -85,6 +86,15 @@ def test_contracts_for_a_line_that_is_gone_do_not_fit(tmp_path: Path) -> None:
 
     with pytest.raises(Mismatch, match="tick_is_before"):
         put_together(PROOFS / "base_tick.acsl", root)
+
+
+@needs_provers
+def test_a_correction_of_the_search_fits_31_bits() -> None:
+    done = subprocess.run(
+        ["z3", PROOFS / "quotient.smt2"], check=True, stdout=subprocess.PIPE, text=True
+    )
+
+    assert done.stdout.split() == ["unsat", "sat"]
 
 
 @pytest.mark.parametrize(
