@@ -206,12 +206,27 @@ def python_style() -> Count:
     )
 
 
-def proofs(script: str) -> Count:
-    """One line for each proof; status 77 means that a tool is not installed."""
-    done = subprocess.run([sys.executable, ROOT / "tests/support" / script], cwd=ROOT)
-    if done.returncode == 77:
-        return Count(skipped=1)
-    return Count(passed=1) if done.returncode == 0 else Count(failed=1)
+def begin_proofs(script: str) -> Callable[[], Count]:
+    """Starts proofs, which take minutes of one core, beside what needs no more than another.
+
+    What it returns waits for their end: one line for each; status 77 means that a tool is missing.
+    """
+    BUILD.mkdir(exist_ok=True)
+    log = BUILD / f"{script}.log"
+    with log.open("w") as output:
+        process = subprocess.Popen(
+            ["nice", sys.executable, ROOT / "tests/support" / script], cwd=ROOT,
+            stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+        )  # fmt: skip
+
+    def end() -> Count:
+        status = process.wait()
+        print(log.read_text(), end="")
+        if status == 77:
+            return Count(skipped=1)
+        return Count(passed=1) if status == 0 else Count(failed=1)
+
+    return end
 
 
 def has_tiny_limits() -> bool:
@@ -225,6 +240,7 @@ def steps(quick: bool, fuzz_seconds: int = FUZZ_SECONDS) -> dict[str, Callable[[
     }
     if quick:
         return chosen
+    contracts, models = begin_proofs("prove.py"), begin_proofs("line_model.py")
     chosen["House limits"] = lambda: check(sys.executable, "tools/checks/house.py")
     chosen["Python style and types"] = python_style
     chosen["Static analysis (clang-tidy, complexity, MISRA)"] = lambda: (
@@ -235,7 +251,7 @@ def steps(quick: bool, fuzz_seconds: int = FUZZ_SECONDS) -> dict[str, Callable[[
     chosen["C tests from the second compiler (host-clang)"] = lambda: c_tests_again("host-clang")
     if has_tiny_limits():
         chosen["C tests with tiny limits (tiny)"] = lambda: c_tests_again("tiny")
-    chosen["Proofs"] = lambda: proofs("prove.py") + proofs("line_model.py")
+    chosen["Proofs"] = lambda: contracts() + models()
     chosen["Coverage of firmware/ (coverage)"] = coverage
     chosen["Branches and decisions (mcdc)"] = mcdc
     if fuzz_seconds > FUZZ_SECONDS:
