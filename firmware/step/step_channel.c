@@ -87,10 +87,12 @@ bool step_channel_push(struct step_channel *channel, const struct step_segment *
 
 void step_channel_run(struct step_channel *channel)
 {
+    hal_step_hold();
     atomic_store_explicit(&channel->running, true, memory_order_relaxed);
     if ((step_channel_next_isr(channel) & STEP_CHANNEL_ARM) != 0) {
         hal_step_arm(channel->motor, channel->cursor.generator.tick);
     }
+    hal_step_release();
 }
 
 bool step_channel_is_running(const struct step_channel *channel)
