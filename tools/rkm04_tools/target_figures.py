@@ -31,7 +31,7 @@ and in the cruise they are a quarter of a period apart."""
 
 FOREIGN_NODE = 7
 FOREIGN_FRAMES, FOREIGN_BYTES = 3, 30
-GET_POSITION, STORE_FLASH = b"\x040", b"\x03"
+OPENING, GET_POSITION, STORE_FLASH = b"\x01", b"\x040", b"\x03"
 ANSWER_BYTES = 46 + 6
 """Of Get Position for all motors, with its frame."""
 TURN_ROUND_MS = 2.5
@@ -123,7 +123,8 @@ def flood(begin_ms: float, end_ms: float) -> str:
     at, lines, number = begin_ms, "", 0
     while at < end_ms:
         number = number % 255 + 1
-        data = foreign + Frame(NODE, number, GET_POSITION).encode()
+        request = GET_POSITION if lines else OPENING
+        data = foreign + Frame(NODE, number, request).encode()
         lines += f"{at:.3f} {data.hex()}\n"
         at += (len(data) + ANSWER_BYTES) * BYTE_MS + TURN_ROUND_MS
     return lines
