@@ -77,6 +77,15 @@ void test_a_corner_in_the_middle_between_steps_is_rounded_up(void)
     assert_corners(expected, 3);
 }
 
+/* (102^2 - 100^2) / 10 is 40.4. */
+void test_a_corner_before_the_middle_between_steps_is_rounded_down_and_one_behind_it_up(void)
+{
+    const struct motion_corner expected[] = {{1, 100}, {40, 102}, {1000 - 40, 102}, {1000, 0}};
+    begin_single(1000, 100, 102, 5);
+
+    assert_corners(expected, 4);
+}
+
 /* Ramps that meet at v^2 = S^2 + A: 6.25 is 2.5^2, which is rounded up, and sqrt(6) = 2.45 is not. */
 void test_speeds_are_rounded_to_the_nearest(void)
 {
@@ -89,6 +98,22 @@ void test_speeds_are_rounded_to_the_nearest(void)
     TEST_ASSERT_EQUAL_UINT32(3, corners[1].speed_steps_per_s);
 }
 
+/* The square of a whole number and a half is a quarter off a whole one: at 200 000 steps/s, 0.6 millionths of a step/s. */
+void test_high_speeds_are_rounded_to_the_nearest(void)
+{
+    const uint64_t speed = 200000;
+    const struct motion_point below = {.step = 1, .speed2 = speed * speed + speed};
+    const struct motion_point above = {.step = 1, .speed2 = speed * speed + speed + 1U};
+    begin_single(1000000, 100, 300000, 8000000);
+    (void)motion_plan_change_speed(&plan, &below, 300000);
+    (void)motion_plan_corners(&plan, corners);
+    TEST_ASSERT_EQUAL_UINT32(speed, corners[1].speed_steps_per_s);
+
+    (void)motion_plan_change_speed(&plan, &above, 300000);
+    (void)motion_plan_corners(&plan, corners);
+    TEST_ASSERT_EQUAL_UINT32(speed + 1U, corners[1].speed_steps_per_s);
+}
+
 void test_the_borders_of_the_manuals_example(void)
 {
     const struct motion_corner expected[] = {
@@ -98,6 +123,20 @@ void test_the_borders_of_the_manuals_example(void)
     motion_plan_begin(&plan, &manual, 0);
 
     assert_corners(expected, 13);
+}
+
+void test_the_longest_move_with_an_end_has_all_its_corners(void)
+{
+    struct motion_order order = {.start_speed_steps_per_s = 100, .sections = MOTION_SECTIONS};
+    for (unsigned i = 0; i < MOTION_SECTIONS; i++) {
+        order.section[i] = (struct motion_section){MOTION_SECTION_STEPS_MAX, 100, 2000};
+    }
+    motion_plan_begin(&plan, &order, 0);
+
+    TEST_ASSERT_EQUAL_UINT(1 + MOTION_SECTIONS, motion_plan_corners(&plan, corners));
+
+    TEST_ASSERT_EQUAL_UINT64(MOTION_SECTIONS * MOTION_SECTION_STEPS_MAX, corners[MOTION_SECTIONS].step);
+    TEST_ASSERT_EQUAL_UINT32(0, corners[MOTION_SECTIONS].speed_steps_per_s);
 }
 
 void test_a_run_without_end_has_no_last_corner(void)
@@ -155,6 +194,17 @@ void test_a_change_of_speed_shows_where_it_began_and_what_follows(void)
     TEST_ASSERT_TRUE(motion_plan_change_speed(&plan, &at, 500));
 
     assert_corners(expected, 5);
+}
+
+void test_a_change_of_speed_at_the_first_pulse_shows_where_it_began(void)
+{
+    const struct motion_point at = {.step = 1, .speed2 = 10000 + 4000};
+    begin_single(5000, 100, 1000, 2000);
+    TEST_ASSERT_TRUE(motion_plan_change_speed(&plan, &at, 100));
+
+    TEST_ASSERT_EQUAL_UINT(4, motion_plan_corners(&plan, corners));
+    TEST_ASSERT_EQUAL_UINT64(1, corners[1].step);
+    TEST_ASSERT_EQUAL_UINT32(118, corners[1].speed_steps_per_s);
 }
 
 void test_ten_sections_have_at_most_the_corners_there_is_room_for(void)
