@@ -232,6 +232,17 @@ void test_a_segment_of_a_ramp_stands_on_its_first_pulse_whatever_the_guess(void)
     }
 }
 
+void test_only_a_cruise_has_a_pace(void)
+{
+    struct motion_leg even = cruise(999, 10);
+    struct motion_leg rising = ramp(100, 300);
+    motion_leg_set_end(&even);
+    motion_leg_set_end(&rising);
+
+    TEST_ASSERT_EQUAL_UINT32(TICK_HZ / 999U, motion_leg_segment(&even).pace_ticks);
+    TEST_ASSERT_EQUAL_UINT32(0, motion_leg_segment(&rising).pace_ticks);
+}
+
 void test_a_new_segment_is_not_marked(void)
 {
     struct motion_leg leg = cruise(1000, 10);

@@ -1,5 +1,7 @@
 #include "base_tick.h"
 #include "plan_rig.h"
+#include "segment_view.h"
+#include "step_scale.h"
 #include "unity.h"
 
 /* Runs beyond what a segment counts. */
@@ -52,6 +54,20 @@ void test_pieces_off_the_tick_do_not_drift(void)
         uint64_t ticks = pulses / 15999U * TICK_HZ + (pulses % 15999U * TICK_HZ + 15999U / 2U) / 15999U;
         TEST_ASSERT_EQUAL_UINT32((uint32_t)(1000U + ticks), segments[i].tick);
     }
+}
+
+/* Ramps of 247.5 steps and 0.45 s, and between them 2^30 steps at 84 000 ticks. */
+void test_a_cruise_of_just_a_piece_ends_between_steps_where_its_ramp_begins(void)
+{
+    begin(order_single(PIECE + 495U, 100, 1000, 2000));
+
+    TEST_ASSERT_EQUAL_UINT64(PIECE + 495U, take_segments());
+
+    TEST_ASSERT_EQUAL_UINT(3, count);
+    assert_segment(1, PIECE, 0);
+    uint32_t corner = (uint32_t)(PLAN_START + 450 * TICKS_PER_MS + UINT64_C(84000) * PIECE);
+    TEST_ASSERT_EQUAL_UINT64(STEP_QUANTA / 2U, seen_at(&segments[2], corner).residual);
+    TEST_ASSERT_EQUAL_UINT64(1000U * STEP_SLOPE_PER_SPEED, seen_at(&segments[2], corner).slope);
 }
 
 void test_the_longest_section_has_all_its_pulses_and_ends_with_its_ramp(void)

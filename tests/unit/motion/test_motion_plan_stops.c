@@ -116,6 +116,17 @@ void test_a_stop_that_reaches_S_just_at_a_border_ends_there(void)
     TEST_ASSERT_EQUAL_UINT64(100, take_segments());
 }
 
+/* 100 steps to S, and 102 to the border, which could be passed below S. */
+void test_a_stop_that_reaches_S_shortly_before_a_border_ends_where_it_does(void)
+{
+    begin_two(100, (struct motion_section){4000, 2000, 2000}, (struct motion_section){5000, 2000, 1000});
+
+    TEST_ASSERT_TRUE(stop_at(3898, 10000 + 400000));
+
+    TEST_ASSERT_EQUAL_UINT64(100, take_segments());
+    TEST_ASSERT_EQUAL_UINT64(10000, plan.exit_speed2[0]);
+}
+
 void test_a_stop_at_a_border_takes_the_acceleration_behind_it(void)
 {
     begin_two(100, (struct motion_section){4000, 2000, 2000}, (struct motion_section){5000, 2000, 1000});

@@ -58,6 +58,15 @@ void test_the_gain_is_limited_from_where_it_would_be_larger(void)
     TEST_ASSERT_EQUAL_UINT64(most, motion_gain(STEP_ACCEL_MAX, UINT64_MAX));
 }
 
+/* 2^60 is no multiple of 6. */
+void test_the_greatest_gain_below_the_limit_is_exact(void)
+{
+    const uint64_t most = UINT64_C(1) << 60;
+
+    TEST_ASSERT_EQUAL_UINT64(most - 4U, motion_gain(3, most / 6U));
+    TEST_ASSERT_EQUAL_UINT64(most, motion_gain(3, most / 6U + 1U));
+}
+
 void test_a_long_way_has_two_ramps_and_a_cruise(void)
 {
     struct motion_profile profile = motion_profile_lay(&way);

@@ -39,6 +39,34 @@ void test_a_move_makes_its_steps(void)
     mover_bench_assert_cause(&bench, HAL_TRACE_STOP_NONE);
 }
 
+void test_a_move_is_started_with_its_first_segment_and_main_lays_the_others(void)
+{
+    start(&mover_bench_trapezoid);
+
+    TEST_ASSERT_TRUE(step_channel_is_running(&bench.mover.channel));
+    TEST_ASSERT_TRUE(mover_feed(&bench.mover));
+    TEST_ASSERT_TRUE(mover_feed(&bench.mover));
+    TEST_ASSERT_FALSE(mover_feed(&bench.mover));
+    mover_bench_run(&bench);
+}
+
+void test_a_run_without_end_fills_the_queue(void)
+{
+    const struct motion_order endless = {
+        .section = {{MOTION_ENDLESS_STEPS, 1000, 2000}},
+        .start_speed_steps_per_s = 100,
+        .sections = 1,
+    };
+    start(&endless);
+
+    while (mover_feed(&bench.mover)) {
+    }
+
+    TEST_ASSERT_EQUAL_UINT32(0, step_channel_room(&bench.mover.channel));
+    mover_stop(&bench.mover, HAL_TRACE_STOP_COMMAND);
+    mover_bench_run(&bench);
+}
+
 void test_a_move_backward_counts_down(void)
 {
     mover_start(&bench.mover, &mover_bench_trapezoid, true, bench.machine.epoch, &no_guards);

@@ -133,6 +133,22 @@ void test_a_limit_ends_the_run_at_once(void)
     TEST_ASSERT_EQUAL_UINT64(bench.machine.epoch + 100 * TICKS_PER_MS, mover_end_tick(&bench.mover));
 }
 
+/* There is always more of it to be laid. */
+void test_a_limit_ends_a_run_without_end_for_good(void)
+{
+    const struct motion_order endless = {
+        .section = {{MOTION_ENDLESS_STEPS, 100, 2000}},
+        .start_speed_steps_per_s = 100,
+        .sections = 1,
+    };
+    mover_bench_set_inputs(&bench, N, LIMIT, 105);
+    start_guarded(&endless, (struct mover_guards){.halt_high = LIMIT});
+
+    mover_bench_run(&bench);
+
+    mover_bench_assert_steps(&bench, 10);
+}
+
 void test_an_input_that_guards_nothing_does_nothing(void)
 {
     mover_bench_set_inputs(&bench, N, LIMIT, 1000);

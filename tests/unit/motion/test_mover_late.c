@@ -416,7 +416,7 @@ void test_a_change_of_speed_that_cannot_be_planned_within_a_second_is_given_up(v
         .sections = 1,
     };
     start(&slow, 10);
-    lead_ticks = TICK_HZ / 2U;
+    lead_ticks = (TICK_HZ - TICKS_PER_US) / 2U;
     planning_ticks = 2U * (uint64_t)TICK_HZ;
 
     change_speed(50);
@@ -451,6 +451,15 @@ static void run_dry(void)
 
     change_speed(15999);
     TEST_ASSERT_FALSE(is_armed);
+}
+
+/* Pulse 2 is armed when the change comes. */
+void test_a_change_hands_over_two_segments_for_the_time_until_main_lays_the_others(void)
+{
+    run_dry();
+
+    TEST_ASSERT_EQUAL_UINT64(2 + 2, pulses);
+    run_to_the_end();
 }
 
 void test_a_queue_that_ran_dry_behind_a_cut_is_filled_and_goes_on(void)

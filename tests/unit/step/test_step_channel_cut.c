@@ -210,6 +210,18 @@ void test_a_cut_without_new_segments_ends_the_move_there(void)
     TEST_ASSERT_EQUAL_UINT(6, run_to_the_end());
 }
 
+void test_a_cut_hands_over_all_segments_that_are_to_follow(void)
+{
+    begin_two(4, 4);
+    struct step_cursor cursor = foresee_pulse(3);
+    const struct step_segment segments[] = {segment_behind(3, 2), segment_behind(5, 6)};
+
+    TEST_ASSERT_TRUE(step_channel_cut(&channel, &cursor, segments, 2));
+
+    TEST_ASSERT_EQUAL_UINT(3 + 2 + 6, run_to_the_end());
+    TEST_ASSERT_EQUAL_UINT32(START + 11 * INTERVAL, step_channel_end_tick(&channel));
+}
+
 void test_a_cut_gives_the_room_of_what_it_dropped_back(void)
 {
     step_channel_begin(&channel, START, false);

@@ -295,6 +295,39 @@ void test_a_pulse_that_lies_just_beyond_half_a_tick_is_the_one_before(void)
     TEST_ASSERT_EQUAL_UINT32(77 + interval, segment.tick);
 }
 
+/* A ramp that is a little more than half a tick's way off a whole step after GUESS ticks: behind it or before it. */
+enum { GUESS = 5000 };
+
+static struct step_generator ramp_off(int32_t accel, bool behind)
+{
+    struct step_generator ramp = {.slope = slope_of(16000), .accel = accel, .tick = 77};
+    uint64_t gain = wide_from_signed((int64_t)accel * GUESS);
+    uint64_t off = (ramp.slope + 2U * gain) / 2U + 1000U;
+    ramp.residual = STEP_QUANTA - GUESS * (ramp.slope + gain) + (behind ? off : 0U - off);
+    return ramp;
+}
+
+static void assert_found_after(struct step_generator ramp, uint32_t ticks)
+{
+    uint64_t accel = wide_from_signed(ramp.accel);
+    struct step_generator found = ramp;
+
+    TEST_ASSERT_EQUAL_UINT32(77 + ticks, step_generator_search(&found, GUESS));
+
+    TEST_ASSERT_EQUAL_UINT32(ticks, found.interval);
+    TEST_ASSERT_EQUAL_HEX64(ramp.slope + 2U * accel * ticks, found.slope);
+    TEST_ASSERT_EQUAL_HEX64(ramp.residual + ticks * (ramp.slope + accel * ticks) - STEP_QUANTA, found.residual);
+}
+
+/* By the speed at the right tick, which is higher, the guess would be near enough. */
+void test_a_pulse_of_a_ramp_that_lies_just_beyond_half_a_tick_is_a_tick_off_the_guess(void)
+{
+    const int32_t accel = 60000 * (int32_t)STEP_ACCEL_PER_ACCEL;
+
+    assert_found_after(ramp_off(-accel, true), GUESS - 1);
+    assert_found_after(ramp_off(accel, false), GUESS + 1);
+}
+
 /* The planner lays no such segment; the step interrupt would wait for it. */
 void test_the_search_for_a_pulse_that_never_comes_ends(void)
 {
