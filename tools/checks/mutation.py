@@ -1,9 +1,8 @@
 """Mutation tests: changes a module's sources in small ways; do its unit tests see each change?
 
-A mutant is compiled by itself and linked in front of the module's library, so that one takes a
-second at most. One whose object is that of the original is no change. Others that no test can see
-are in tests/mutation/equivalent.txt, with the reason; any other that survives is a failure in a
-module whose mutants have all been looked at.
+A mutant is compiled by itself and linked in front of the module's library, so that one takes half
+a second. One whose object is that of the original is no change. Others that no test can see are in
+tests/mutation/equivalent.txt, with the reason; any other that survives is a failure.
 """
 
 from __future__ import annotations
@@ -12,13 +11,18 @@ import argparse
 import hashlib
 import json
 import random
+import resource
 import shlex
 import subprocess
 import sys
 import time
 from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from queue import SimpleQueue
 
 from checks.mutation_operators import Mutant, mutants
 
@@ -28,7 +32,7 @@ WORK = ROOT / "build" / "mutation"
 EQUIVALENT = ROOT / "tests" / "mutation" / "equivalent.txt"
 MINUTES = 10
 SEED = 1
-SECONDS_MIN = 2.0  # that a test may take, and five times what it takes without a change
+SECONDS = 2  # of processor time that a test program may use; the longest needs a twentieth
 
 
 @dataclass(frozen=True)
@@ -64,23 +68,22 @@ MODULES = (
 )  # fmt: skip
 
 
-def run(command: list[str], seconds: float | None = None) -> int:
-    """The status of a command in the build folder; 124 if it took too long."""
-    try:
-        return subprocess.run(
-            command, cwd=BUILD, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL, timeout=seconds,
-        ).returncode  # fmt: skip
-    except subprocess.TimeoutExpired:
-        return 124
+def run(command: list[str], seconds: int = resource.RLIM_INFINITY) -> int:
+    """The status of a command in the build folder; it may use the processor for so long."""
+    process = subprocess.Popen(
+        command, cwd=BUILD, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    resource.prlimit(process.pid, resource.RLIMIT_CPU, (seconds, seconds))
+    return process.wait()
 
 
 class Bench:
-    """Builds and runs the test programs of a module with a mutant in them."""
+    """Builds and runs the test programs of a module with a mutant in them, one at a time."""
 
-    def __init__(self, module: Module) -> None:
+    def __init__(self, module: Module, number: int) -> None:
         self.module = module
-        self.folder = WORK / module.name
+        self.folder = WORK / module.name / str(number)
         self.source = ROOT / "firmware" / module.folder
         database = json.loads((BUILD / "compile_commands.json").read_text())
         self.compile = {Path(entry["file"]): shlex.split(entry["command"]) for entry in database}
@@ -90,7 +93,7 @@ class Bench:
         )
         self.programs = [f"{module.folder}.{name}" for name in names]
         self.link = {name: self.link_command(name) for name in self.programs}
-        self.seconds: dict[str, float] = {}
+        self.original: dict[str, bytes] = {}
         self.restore()
 
     def link_command(self, program: str) -> list[str]:
@@ -132,19 +135,26 @@ class Bench:
         command[1:1] = ["-w", f"-I{self.folder}"]
         return target if run(command) == 0 else None
 
-    def build(self, name: str) -> dict[Path, Path] | None:
-        """Compile what a file of the module goes into: a header, all of it and the tests too."""
-        units = {self.source / name: self.folder / name}
+    def compile_library(self, name: str) -> dict[Path, Path] | None:
+        """Compile what a file of the module goes into: a header, into all of it."""
+        names = [name]
         if name.endswith(".h"):
-            units = {path: self.folder / path.name for path in self.source.glob("*.c")}
-            units |= {path: path for path in map(self.test_source, self.programs)}
+            names = [path.name for path in self.source.glob("*.c")]
         objects = {}
-        for original, source in units.items():
-            target = self.compile_one(original, source)
+        for one in names:
+            target = self.compile_one(self.source / one, self.folder / one)
             if target is None:
                 return None
-            objects[original] = target
+            objects[self.source / one] = target
         return objects
+
+    def add_test(self, program: str, objects: dict[Path, Path]) -> bool:
+        """Compile the source of a test program too, as it includes the header that is changed."""
+        test = self.test_source(program)
+        target = self.compile_one(test, test)
+        if target is not None:
+            objects[test] = target
+        return target is not None
 
     def passes(self, program: str, objects: dict[Path, Path]) -> bool:
         """Link a test program with these objects, and run it."""
@@ -154,30 +164,61 @@ class Bench:
         test = self.test_source(program)
         own = next(i for i, word in enumerate(command) if word.endswith(f"{test.name}.o"))
         command[own : own + 1] = [
-            *([str(objects[test])] if test in objects else [command[own]]),
+            str(objects.get(test, command[own])),
             *(str(path) for original, path in objects.items() if original.parent == self.source),
         ]
         if run(command) != 0:
             return False
-        return run([str(target)], self.seconds.get(program)) == 0
+        return run([str(target)], SECONDS) == 0
 
-    def measure(self) -> bool:
-        """Whether all programs pass without a change; how long they may take."""
-        for program in self.programs:
-            started = time.monotonic()
-            if not self.passes(program, {}):
-                print(f"{program} does not pass without a change")
-                return False
-            self.seconds[program] = SECONDS_MIN + 5 * (time.monotonic() - started)
-        return True
+    def is_sound(self) -> bool:
+        """Whether all programs pass without a change."""
+        failing = [program for program in self.programs if not self.passes(program, {})]
+        for program in failing:
+            print(f"{program} does not pass without a change")
+        return not failing
 
-    def killer(self, objects: dict[Path, Path]) -> str:
-        """The first program that fails; those that have failed before are tried first."""
+    def kills(self, name: str, objects: dict[Path, Path]) -> bool:
+        """Whether a program fails; the one that failed last is tried first."""
         for place, program in enumerate(self.programs):
-            if not self.passes(program, objects):
+            seen = name.endswith(".h") and not self.add_test(program, objects)
+            if seen or not self.passes(program, objects):
                 self.programs.insert(0, self.programs.pop(place))
-                return program
-        return ""
+                return True
+        return False
+
+    def learn(self, name: str) -> None:
+        """Keep what a file is compiled to without a change."""
+        objects = self.compile_library(name)
+        assert objects is not None, f"{name} does not compile"
+        if name.endswith(".h"):
+            assert all(self.add_test(program, objects) for program in self.programs)
+        self.original[name] = digest(objects)
+
+    @contextmanager
+    def changed(self, name: str, mutant: Mutant) -> Iterator[None]:
+        """A file is a mutant."""
+        path = self.folder / name
+        original = path.read_text()
+        path.write_text(mutant.apply(original))
+        try:
+            yield
+        finally:
+            path.write_text(original)
+
+    def try_one(self, name: str, mutant: Mutant) -> str:
+        """What becomes of a mutant: killed, survived, same, broken."""
+        if name not in self.original:
+            self.learn(name)
+        with self.changed(name, mutant):
+            objects = self.compile_library(name)
+            if objects is None:
+                return "broken"
+            if digest(objects) == self.original[name]:
+                return "same"
+            if self.kills(name, objects):
+                return "killed"
+            return "same" if digest(objects) == self.original[name] else "survived"
 
 
 def digest(objects: dict[Path, Path]) -> bytes:
@@ -207,68 +248,68 @@ Key = tuple[str, str, str]
 
 
 def equivalents() -> set[Key]:
-    """The mutants that are listed: file, line, changed line; each with a reason."""
+    """The mutants that are listed: file, line, what it may be changed to; with a reason."""
     listed = set()
     for block in EQUIVALENT.read_text().split("\n\n"):
         lines = [line for line in block.splitlines() if not line.startswith("#")]
         if lines:
-            assert len(lines) >= 4, f"a file, a line, a changed line, a reason: {block}"
-            listed.add(
-                (lines[0], lines[1].removeprefix("- ").strip(), lines[2].removeprefix("+ ").strip())
-            )
+            new = [line.removeprefix("+ ").strip() for line in lines if line.startswith("+ ")]
+            good = lines[1].startswith("- ") and new and lines[2 + len(new) :]
+            assert good, f"a file, a line, changed lines, a reason: {block}"
+            listed |= {(lines[0], lines[1].removeprefix("- ").strip(), one) for one in new}
     return listed
 
 
-def try_one(bench: Bench, name: str, mutant: Mutant, originals: dict[str, bytes]) -> str:
-    """What becomes of a mutant: killed, survived, same, broken."""
-    path = bench.folder / name
-    original = path.read_text()
-    path.write_text(mutant.apply(original))
-    try:
-        objects = bench.build(name)
-        if objects is None:
-            return "broken"
-        if digest(objects) == originals[name]:
-            return "same"
-        return "killed" if bench.killer(objects) else "survived"
-    finally:
-        path.write_text(original)
+def key_of(module: Module, name: str, mutant: Mutant) -> Key:
+    """How a mutant is listed; a line that stands in several places has one key for all of them."""
+    return f"firmware/{module.folder}/{name}", mutant.old.strip(), mutant.new.strip()
 
 
-def mutate(module: Module, seed: int, seconds: float, listed: set[Key]) -> Score | None:
-    """Try the mutants of a module in an order that the seed makes, for a limited time."""
-    score = Score()
-    bench = Bench(module)
-    if not bench.measure():
-        return None
-    originals = {}
-    work = []
-    for name in module.files:
-        objects = bench.build(name)
-        assert objects is not None, f"{name} does not compile"
-        originals[name] = digest(objects)
-        work += [(name, mutant) for mutant in mutants((bench.source / name).read_text())]
+def mutants_of(module: Module, seed: int) -> list[tuple[str, Mutant]]:
+    """All mutants of a module, in an order that the seed makes."""
+    source = ROOT / "firmware" / module.folder
+    work = [
+        (name, mutant) for name in module.files for mutant in mutants((source / name).read_text())
+    ]
     random.Random(seed).shuffle(work)
-    end = time.monotonic() + seconds
-    for name, mutant in work:
+    return work
+
+
+def mutate(
+    module: Module, work: list[tuple[str, Mutant]], end: float, jobs: int, listed: set[Key]
+) -> Score | None:
+    """Try mutants of a module until an end, some at a time; survivors are shown as they appear."""
+    score = Score()
+    places = Counter(key_of(module, *one) for one in work)
+    benches: SimpleQueue[Bench] = SimpleQueue()
+    for number in range(jobs):
+        bench = Bench(module, number)
+        if not bench.is_sound():
+            return None
+        benches.put(bench)
+
+    def become(one: tuple[str, Mutant]) -> str:
+        key = key_of(module, *one)
+        if key in listed and places[key] == 1:
+            return "listed"
         if time.monotonic() > end:
-            score.counts["left"] += 1
-            continue
-        if (f"firmware/{module.folder}/{name}", mutant.old.strip(), mutant.new.strip()) in listed:
-            score.counts["listed"] += 1
-            continue
-        result = try_one(bench, name, mutant, originals)
-        score.counts[result] += 1
-        if result == "survived":
-            score.survivors.append((name, mutant))
+            return "left"
+        bench = benches.get()
+        try:
+            result = bench.try_one(*one)
+            return "listed" if result == "survived" and key in listed else result
+        finally:
+            benches.put(bench)
+
+    with ThreadPoolExecutor(jobs) as pool:
+        for (name, mutant), result in zip(work, pool.map(become, work), strict=True):
+            score.counts[result] += 1
+            if result == "survived":
+                score.survivors.append((name, mutant))
+                path, old, new = key_of(module, name, mutant)
+                print(f"\n{path}\n- {old}\n+ {new}\n(line {mutant.line + 1})")
+                sys.stdout.flush()
     return score
-
-
-def show(module: Module, score: Score) -> None:
-    for name, mutant in sorted(score.survivors, key=lambda one: (one[0], one[1].line)):
-        print(f"\nfirmware/{module.folder}/{name}\n- {mutant.old.strip()}\n+ {mutant.new.strip()}")
-        print(f"(line {mutant.line + 1})")
-    print(f"{module.name}: {score}", flush=True)
 
 
 def main() -> int:
@@ -287,6 +328,8 @@ def main() -> int:
     parser.add_argument(
         "--minutes", type=float, default=MINUTES, help="for all modules together (%(default)s)"
     )
+    parser.add_argument("--file", help="only mutants of this file")
+    parser.add_argument("--jobs", type=int, default=1, help="mutants at a time (%(default)s)")
     options = parser.parse_args()
     chosen = [one for one in MODULES if not options.modules or one.name in options.modules]
     if run(["ninja"]) != 0:
@@ -295,11 +338,17 @@ def main() -> int:
     print(f"seed {options.seed}")
     listed = equivalents()
     good = True
-    for module in chosen:
-        score = mutate(module, options.seed, options.minutes * 60 / len(chosen), listed)
+    end = time.monotonic() + options.minutes * 60
+    for place, module in enumerate(chosen):
+        work = mutants_of(module, options.seed)
+        if options.file:
+            work = [one for one in work if one[0] == options.file]
+        now = time.monotonic()
+        share = (end - now) / (len(chosen) - place)
+        score = mutate(module, work, now + share, options.jobs, listed)
         if score is None:
             return 1
-        show(module, score)
+        print(f"{module.name}: {score}, {(time.monotonic() - now) / 60:.1f} minutes", flush=True)
         good = good and not (module.strict and score.survivors)
     return 0 if good else 1
 
