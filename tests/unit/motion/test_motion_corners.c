@@ -98,7 +98,7 @@ void test_speeds_are_rounded_to_the_nearest(void)
     TEST_ASSERT_EQUAL_UINT32(3, corners[1].speed_steps_per_s);
 }
 
-/* The square of a whole number and a half is a quarter off a whole one: at 200 000 steps/s, 0.6 millionths of a step/s. */
+/* The square of a whole number and a half is a quarter off a whole one: 0.6 millionths of a step/s at 200 000. */
 void test_high_speeds_are_rounded_to_the_nearest(void)
 {
     const uint64_t speed = 200000;
