@@ -144,50 +144,78 @@ void test_a_look_before_the_first_pulse_of_a_move_tells_that_one(void)
     TEST_ASSERT_EQUAL_UINT64(1, step_cursor_pulse(&cursor));
 }
 
-void test_a_look_goes_back_over_the_border_of_two_segments(void)
+/* Pulses 1 to 10 on a ramp up from 1000 steps/s, and 11 to 20 on one down. */
+static void begin_up_and_down(void)
+{
+    step_channel_begin(&channel, START, false);
+    struct step_segment up = segment_behind(0, 10);
+    up.accel = ACCEL;
+    step_channel_push(&channel, &up);
+    struct step_segment down = {.slope = up.slope, .accel = -ACCEL, .tick = START + 10 * INTERVAL, .steps = 10};
+    step_generator_aim(&down, INTERVAL);
+    step_channel_push(&channel, &down);
+    step_channel_run(&channel);
+}
+
+void test_a_look_goes_back_to_any_pulse_and_over_the_border_of_two_segments(void)
 {
     struct step_cursor last;
     struct step_cursor cursor;
-    begin_two(MADE, MOVE);
-    make_pulses(MADE - 1);
-    TEST_ASSERT_TRUE(step_channel_look(&channel, armed_tick, &last));
-    make_pulses(1);
+    begin_up_and_down();
+    for (uint64_t pulse = 1; pulse < 20; pulse++) {
+        TEST_ASSERT_TRUE(step_channel_look(&channel, armed_tick, &last));
+        make_pulses(1);
 
-    TEST_ASSERT_TRUE(step_channel_look(&channel, LAST_TICK - 1, &cursor));
+        TEST_ASSERT_TRUE(step_channel_look(&channel, last.generator.tick - 1U, &cursor));
 
-    TEST_ASSERT_EQUAL_UINT64(MADE, step_cursor_pulse(&cursor));
-    TEST_ASSERT_EQUAL_UINT32(LAST_TICK, cursor.generator.tick);
-    TEST_ASSERT_EQUAL_UINT64(last.generator.residual, cursor.generator.residual);
-    TEST_ASSERT_EQUAL_UINT64(last.generator.slope, cursor.generator.slope);
+        TEST_ASSERT_EQUAL_UINT64(pulse, step_cursor_pulse(&cursor));
+        TEST_ASSERT_EQUAL_UINT32(last.generator.tick, cursor.generator.tick);
+        TEST_ASSERT_EQUAL_HEX64(last.generator.residual, cursor.generator.residual);
+        TEST_ASSERT_EQUAL_HEX64(last.generator.slope, cursor.generator.slope);
+        TEST_ASSERT_EQUAL_INT32(last.generator.accel, cursor.generator.accel);
+    }
 }
 
-static void begin_fast_move(void)
+static void begin_fast_move(uint32_t interval)
 {
-    enum { FAST = 3359 }; /* just above 25 000 steps/s */
     struct step_segment segment = {
-        .slope = STEP_QUANTA / FAST, .tick = START, .pace_ticks = FAST, .steps = 100};
-    step_generator_aim(&segment, FAST);
+        .slope = STEP_QUANTA / interval, .tick = START, .pace_ticks = interval, .steps = 100};
+    step_generator_aim(&segment, interval);
     step_channel_begin(&channel, START, false);
     step_channel_push(&channel, &segment);
     step_channel_run(&channel);
     make_pulses(MADE);
 }
 
-void test_a_look_at_fast_pulses_tells_the_armed_one(void)
+static struct step_cursor look_at_start(void)
 {
     struct step_cursor cursor;
-    begin_fast_move();
-
     TEST_ASSERT_TRUE(step_channel_look(&channel, START, &cursor));
+    return cursor;
+}
+
+void test_a_look_goes_back_at_up_to_25_000_steps_per_s(void)
+{
+    begin_fast_move(3360);
+
+    struct step_cursor cursor = look_at_start();
+
+    TEST_ASSERT_EQUAL_UINT64(MADE, step_cursor_pulse(&cursor));
+}
+
+void test_a_look_at_faster_pulses_tells_the_armed_one(void)
+{
+    begin_fast_move(3359);
+
+    struct step_cursor cursor = look_at_start();
 
     TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&cursor));
 }
 
 void test_a_brake_of_fast_pulses_takes_none_back(void)
 {
-    struct step_cursor at;
-    begin_fast_move();
-    TEST_ASSERT_TRUE(step_channel_look(&channel, START, &at));
+    begin_fast_move(3359);
+    struct step_cursor at = look_at_start();
     make_pulses(1);
 
     TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, MADE + GAP, &at));
@@ -312,6 +340,7 @@ void test_a_brake_at_rest_changes_nothing(void)
 {
     begin_move(3);
     (void)run_to_the_end();
+    push(3, 2);
     struct step_cursor at = {.end = 77};
     struct step_cursor before;
     (void)step_channel_look(&channel, armed_tick, &before);
@@ -339,6 +368,19 @@ void test_a_splice_behind_some_pulses_of_the_stop_gap_goes_on_as_planned(void)
 void test_a_splice_behind_a_stop_gap_that_ran_out_arms_the_next_pulse(void)
 {
     assert_spliced_behind(GAP + 1);
+}
+
+void test_a_splice_goes_on_as_planned_where_the_stop_gap_was_some_ticks_off(void)
+{
+    struct step_cursor at = brake_until(MADE + 1 + GAP);
+    struct step_cursor off = at;
+    off.generator.residual += 3U * off.generator.slope;
+
+    struct step_segment segment = planned_behind(&off, PLANNED);
+    step_channel_splice(&channel, &at, &segment);
+    record(PLANNED + 2);
+
+    assert_planned_ticks(&off);
 }
 
 void test_a_splice_goes_on_with_what_was_queued_behind_it(void)
