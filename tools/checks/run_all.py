@@ -262,13 +262,13 @@ def steps(quick: bool, fuzz_seconds: int = FUZZ_SECONDS) -> dict[str, Callable[[
 
 
 def long_steps() -> dict[str, Callable[[], Count]]:
-    def shown(module: str) -> Count:
-        good = succeeds(*PYTHON, module, show=True)
+    def shown(*module: str) -> Count:
+        good = succeeds(*PYTHON, *module, show=True)
         return Count(passed=1) if good else Count(failed=1)
 
     return {
         "Planted bugs (host, stm32)": lambda: shown("checks.planted"),
-        "Mutation (host)": lambda: shown("checks.mutation"),
+        "Mutation (host)": lambda: shown("checks.mutation", "--jobs", "2"),
     }
 
 

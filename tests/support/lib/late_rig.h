@@ -1,0 +1,183 @@
+/*
+ * The rig of a late mover: a mover on a backend whose clock runs while main works. Planning takes ticks, which pass
+ * before the step interrupt is held off to cut the queue, and in which the motor goes on.
+ *
+ * To be included by one test program alone, after the mocks.
+ */
+#ifndef LATE_RIG_H
+#define LATE_RIG_H
+
+#include "base_tick.h"
+#include "mock_hal_run.h"
+#include "mock_hal_step.h"
+#include "mock_hal_time.h"
+#include "mock_hal_trace.h"
+#include "mover.h"
+#include "unity.h"
+
+static struct mover mover;
+static uint64_t now;
+static uint64_t armed;
+static bool is_armed;
+static uint32_t lead_ticks;
+static uint64_t planning_ticks; /* that pass until the cut */
+static uint64_t handing_ticks;  /* that pass after the cut */
+static uint64_t looking_ticks;  /* that pass between the first look of a stop and its brake */
+static uint64_t braking_ticks;  /* that pass while a stop is planned */
+static unsigned holds;          /* since planning began: first to foresee, then to cut; a stop looks, brakes, joins */
+static bool stops;
+static bool changes;
+static unsigned cuts_tried;
+static uint64_t pulses;
+static uint64_t pulse_tick[3000];
+static unsigned changes_traced;
+
+/* Pulse k stands at k * 5250 ticks. */
+static const struct motion_order fast = {
+    .section = {{1000, 16000, 60000}},
+    .start_speed_steps_per_s = 16000,
+    .sections = 1,
+};
+
+static inline void make_pulses_until(uint64_t tick)
+{
+    while (is_armed && armed <= tick) {
+        now = armed > now ? armed : now;
+        is_armed = false;
+        pulse_tick[pulses] = armed;
+        pulses++;
+        (void)mover_pulse_isr(&mover);
+    }
+    now = tick > now ? tick : now;
+}
+
+static inline void arm_seen(unsigned motor, uint32_t tick, int calls)
+{
+    (void)motor;
+    (void)calls;
+    TEST_ASSERT_FALSE(is_armed);
+    armed = tick_extend(tick, now);
+    is_armed = true;
+}
+
+static inline bool disarm_seen(unsigned motor, int calls)
+{
+    (void)motor;
+    (void)calls;
+    bool taken = is_armed;
+    is_armed = false;
+    return taken;
+}
+
+static inline void hold_seen(int calls)
+{
+    (void)calls;
+    holds++;
+    if (stops) {
+        make_pulses_until(now + (holds == 2 ? looking_ticks : holds == 3 ? braking_ticks : 0));
+    } else if (changes && holds % 2U == 0) {
+        cuts_tried++;
+        make_pulses_until(now + planning_ticks);
+    }
+}
+
+static inline void release_seen(int calls)
+{
+    (void)calls;
+    if (changes && holds % 2U == 0 && handing_ticks != 0) {
+        make_pulses_until(now + handing_ticks);
+    }
+}
+
+static inline void traced(uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value, int calls)
+{
+    (void)tick;
+    (void)motor;
+    (void)value;
+    (void)calls;
+    changes_traced += event == HAL_TRACE_SPEED ? 1U : 0U;
+}
+
+static inline uint64_t tell_time(int calls)
+{
+    (void)calls;
+    return now;
+}
+
+static inline uint32_t tell_lead(int calls)
+{
+    (void)calls;
+    holds = 0;
+    return lead_ticks;
+}
+
+static inline void late_rig_init(void)
+{
+    now = UINT64_C(1) << 40;
+    is_armed = false;
+    lead_ticks = 0;
+    planning_ticks = 0;
+    handing_ticks = 0;
+    looking_ticks = 0;
+    braking_ticks = 0;
+    stops = false;
+    changes = false;
+    holds = 0;
+    cuts_tried = 0;
+    pulses = 0;
+    changes_traced = 0;
+    hal_step_set_direction_Ignore();
+    hal_step_arm_Stub(arm_seen);
+    hal_step_disarm_Stub(disarm_seen);
+    hal_step_hold_Stub(hold_seen);
+    hal_step_release_Stub(release_seen);
+    hal_step_lead_ticks_Stub(tell_lead);
+    hal_time_now_Stub(tell_time);
+    hal_run_hold_plan_Ignore();
+    hal_run_release_plan_Ignore();
+    hal_trace_Stub(traced);
+    mover_init(&mover, 0);
+}
+
+/* Starts and makes some pulses, so that the next one is due in 5250 ticks. */
+static inline void start(const struct motion_order *order, unsigned made)
+{
+    static const struct mover_guards none = {0};
+    mover_start(&mover, order, false, now, &none);
+    while (mover_feed(&mover)) {
+    }
+    for (unsigned i = 0; i < made; i++) {
+        make_pulses_until(armed);
+    }
+    TEST_ASSERT_EQUAL_UINT64(made, pulses);
+}
+
+static inline void stop(void)
+{
+    holds = 0;
+    stops = true;
+    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
+    stops = false;
+}
+
+static inline void change_speed(uint32_t speed_steps_per_s)
+{
+    changes = true;
+    mover_change_speed(&mover, speed_steps_per_s);
+    changes = false;
+}
+
+static inline void run_to_the_end(void)
+{
+    planning_ticks = 0;
+    handing_ticks = 0;
+    for (mover_poll(&mover); mover_is_moving(&mover); mover_poll(&mover)) {
+        TEST_ASSERT_TRUE(is_armed);
+        while (mover_feed(&mover)) {
+        }
+        make_pulses_until(armed);
+    }
+    TEST_ASSERT_EQUAL_UINT64(pulses, mover_steps_made(&mover));
+}
+
+#endif
