@@ -15,6 +15,9 @@ enum { MOTION_SECTIONS = 10 };
 /* The longest section that is not endless: a hundred times the way between the ends of the counter that `=` can set. */
 #define MOTION_SECTION_STEPS_MAX (UINT64_C(1) << 40)
 
+/* The longest move that is not endless. */
+#define MOTION_STEPS_MAX ((uint64_t)MOTION_SECTIONS * MOTION_SECTION_STEPS_MAX)
+
 struct motion_section {
     uint64_t steps;               /* 1 to MOTION_SECTION_STEPS_MAX, or MOTION_ENDLESS_STEPS as the only section */
     uint32_t speed_steps_per_s;   /* 1 to STEP_SPEED_MAX: never exceeded */

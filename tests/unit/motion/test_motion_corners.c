@@ -135,7 +135,7 @@ void test_the_longest_move_with_an_end_has_all_its_corners(void)
 
     TEST_ASSERT_EQUAL_UINT(1 + MOTION_SECTIONS, motion_plan_corners(&plan, corners));
 
-    TEST_ASSERT_EQUAL_UINT64(MOTION_SECTIONS * MOTION_SECTION_STEPS_MAX, corners[MOTION_SECTIONS].step);
+    TEST_ASSERT_EQUAL_UINT64(MOTION_STEPS_MAX, corners[MOTION_SECTIONS].step);
     TEST_ASSERT_EQUAL_UINT32(0, corners[MOTION_SECTIONS].speed_steps_per_s);
 }
 
