@@ -91,7 +91,7 @@ void test_a_move_behind_a_stopped_one_makes_all_its_steps(void)
     mover_bench_run_until(&bench, 1900 * TICKS_PER_MS);
 
     mover_start(&bench.mover, &mover_bench_trapezoid, false, MOVER_BENCH_EPOCH + 1900 * TICKS_PER_MS,
-                &(struct mover_guards){0}, 0);
+                &(struct mover_guards){0});
     mover_bench_run(&bench);
 
     mover_bench_assert_steps(&bench, 798 + 247 + 5000);
