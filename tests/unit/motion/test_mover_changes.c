@@ -81,20 +81,17 @@ void test_a_stop_at_rest_does_nothing(void)
     mover_bench_assert_cause(&bench, HAL_TRACE_STOP_NONE);
 }
 
-/* An input that changes at 2000 ms lets the tick interrupt look at the mover. */
-void test_a_move_behind_a_stopped_one_makes_all_its_steps(void)
+/* The plan interrupt comes for all motors when one of them is to be stopped. */
+void test_the_plan_interrupt_leaves_a_motor_alone_that_nothing_stops(void)
 {
-    mover_bench_set_inputs(&bench, 0, 1, 2000);
     start(&mover_bench_trapezoid);
     mover_bench_run_until(&bench, 1000 * TICKS_PER_MS);
-    mover_stop(&bench.mover, HAL_TRACE_STOP_COMMAND);
-    mover_bench_run_until(&bench, 1900 * TICKS_PER_MS);
 
-    mover_start(&bench.mover, &mover_bench_trapezoid, false, MOVER_BENCH_EPOCH + 1900 * TICKS_PER_MS,
-                &(struct mover_guards){0});
+    mover_plan_isr(&bench.mover);
+    mover_plan_isr(&bench.mover);
     mover_bench_run(&bench);
 
-    mover_bench_assert_steps(&bench, 798 + 247 + 5000);
+    mover_bench_assert_steps(&bench, 5000);
 }
 
 void test_a_run_without_end_is_stopped(void)

@@ -134,19 +134,36 @@ void test_a_limit_ends_the_run_at_once(void)
 }
 
 /* There is always more of it to be laid. */
+static const struct motion_order endless = {
+    .section = {{MOTION_ENDLESS_STEPS, 100, 2000}},
+    .start_speed_steps_per_s = 100,
+    .sections = 1,
+};
+
 void test_a_limit_ends_a_run_without_end_for_good(void)
 {
-    const struct motion_order endless = {
-        .section = {{MOTION_ENDLESS_STEPS, 100, 2000}},
-        .start_speed_steps_per_s = 100,
-        .sections = 1,
-    };
     mover_bench_set_inputs(&bench, N, LIMIT, 105);
     start_guarded(&endless, (struct mover_guards){.halt_high = LIMIT});
 
     mover_bench_run(&bench);
 
     mover_bench_assert_steps(&bench, 10);
+}
+
+void test_a_limit_ends_a_run_at_once_also_behind_a_move_that_was_stopped(void)
+{
+    mover_bench_set_inputs(&bench, N, LIMIT, 2105);
+    start_guarded(&mover_bench_trapezoid, (struct mover_guards){0});
+    mover_bench_run_until(&bench, 1000 * TICKS_PER_MS);
+    mover_stop(&bench.mover, HAL_TRACE_STOP_COMMAND);
+    mover_bench_run_until(&bench, 1900 * TICKS_PER_MS);
+
+    mover_start(&bench.mover, &endless, false, MOVER_BENCH_EPOCH + 1900 * TICKS_PER_MS,
+                &(struct mover_guards){.halt_high = LIMIT});
+    mover_bench_run(&bench);
+
+    mover_bench_assert_steps(&bench, 798 + 247 + 20);
+    TEST_ASSERT_EQUAL_INT(HAL_TRACE_STOP_LIMIT, mover_stop_cause(&bench.mover));
 }
 
 void test_an_input_that_guards_nothing_does_nothing(void)

@@ -352,6 +352,20 @@ void test_a_brake_at_rest_changes_nothing(void)
     TEST_ASSERT_EQUAL_UINT(3, arms);
 }
 
+void test_a_brake_closes_the_queue_until_a_splice(void)
+{
+    struct step_cursor at = brake_until(MADE + 1 + GAP);
+    struct step_segment segment = segment_behind(MOVE, 7);
+
+    TEST_ASSERT_FALSE(step_channel_push(&channel, &segment));
+    TEST_ASSERT_FALSE(step_channel_cut(&channel, &at, &segment, 1));
+    TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS, step_channel_room(&channel));
+
+    struct step_segment planned = planned_behind(&at, PLANNED);
+    step_channel_splice(&channel, &at, &planned);
+    TEST_ASSERT_TRUE(step_channel_push(&channel, &segment));
+}
+
 void test_a_splice_before_the_armed_pulse_is_made_has_all_its_pulses(void)
 {
     assert_spliced_behind(0);

@@ -270,6 +270,33 @@ void test_a_halt_drops_what_is_queued(void)
     TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS, step_channel_room(&channel));
 }
 
+void test_a_halt_closes_the_queue_until_the_next_move(void)
+{
+    const struct step_segment segment = segment_behind(1, 5);
+    begin_move(4);
+    step_channel_halt(&channel);
+
+    TEST_ASSERT_FALSE(step_channel_push(&channel, &segment));
+    TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS, step_channel_room(&channel));
+
+    begin_move(4);
+    TEST_ASSERT_EQUAL_UINT(4, run_to_the_end());
+}
+
+void test_a_halt_at_rest_drops_what_is_queued_and_closes_the_queue(void)
+{
+    const struct step_segment segment = segment_behind(5, 5);
+    begin_move(3);
+    (void)run_to_the_end();
+    push(3, 2);
+
+    step_channel_halt(&channel);
+
+    TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS, step_channel_room(&channel));
+    TEST_ASSERT_FALSE(step_channel_push(&channel, &segment));
+    TEST_ASSERT_EQUAL_UINT64(3, step_channel_pulses(&channel));
+}
+
 /* The hardware has made the edge when it is asked to take it back; its interrupt is due. */
 void test_a_halt_that_finds_the_pulse_made_ends_with_it(void)
 {
