@@ -158,7 +158,7 @@ void test_a_limit_ends_a_run_at_once_also_behind_a_move_that_was_stopped(void)
     mover_stop(&bench.mover, HAL_TRACE_STOP_COMMAND);
     mover_bench_run_until(&bench, 1900 * TICKS_PER_MS);
 
-    mover_start(&bench.mover, &endless, false, MOVER_BENCH_EPOCH + 1900 * TICKS_PER_MS,
+    mover_start(&bench.mover, &endless, false, bench.machine.epoch + 1900 * TICKS_PER_MS,
                 &(struct mover_guards){.halt_high = LIMIT});
     mover_bench_run(&bench);
 
