@@ -78,7 +78,7 @@ static void brake(struct mover *mover, uint64_t since)
 }
 
 /* False if the motor does not move, or is being stopped already. */
-static bool stop(struct mover *mover, enum hal_trace_stop cause, uint64_t since)
+static bool stop_move(struct mover *mover, enum hal_trace_stop cause, uint64_t since)
 {
     if (!mover_is_moving(mover) || !take_cause(mover, cause, since)) {
         return false;
@@ -130,13 +130,13 @@ bool mover_sense_isr(struct mover *mover, uint8_t inputs, uint64_t since)
 {
     enum hal_trace_stop cause = guard_cause(&mover->guards, inputs);
     atomic_store_explicit(&mover->inputs, inputs, memory_order_relaxed);
-    return cause != HAL_TRACE_STOP_NONE && stop(mover, cause, since);
+    return cause != HAL_TRACE_STOP_NONE && stop_move(mover, cause, since);
 }
 
 void mover_stop(struct mover *mover, enum hal_trace_stop cause)
 {
     hal_run_hold_plan();
-    (void)stop(mover, cause, hal_time_now());
+    (void)stop_move(mover, cause, hal_time_now());
     mover_plan_isr(mover);
     hal_run_release_plan();
 }
@@ -152,7 +152,7 @@ static void start(struct mover *mover, const struct motion_order *order, uint64_
     atomic_store_explicit(&mover->moving, true, memory_order_release);
     enum hal_trace_stop cause = guard_cause(&mover->guards, mover->inputs);
     if (cause != HAL_TRACE_STOP_NONE) {
-        (void)stop(mover, cause, hal_time_now());
+        (void)stop_move(mover, cause, hal_time_now());
     }
 }
 

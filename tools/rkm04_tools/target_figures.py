@@ -34,6 +34,7 @@ FOREIGN_FRAMES, FOREIGN_BYTES = 3, 30
 OPENING, GET_POSITION, STORE_FLASH = b"\x01", b"\x040", b"\x03"
 ANSWER_BYTES = 46 + 6
 """Of Get Position for all motors, with its frame."""
+OPENING_ANSWER_BYTES = 18 + 6
 TURN_ROUND_MS = 2.5
 """From a request to its answer, and from that to the next frame."""
 
@@ -120,11 +121,12 @@ def flood(begin_ms: float, end_ms: float) -> str:
     """The line at 100 %: frames for another node, requests to this one, room for its answers."""
     content = bytes(ord("a") + i % 26 for i in range(FOREIGN_BYTES))
     foreign = Frame(FOREIGN_NODE, 0, SET_COMMAND + b"1" + content).encode() * FOREIGN_FRAMES
-    at, lines, number = begin_ms, "", 0
+    opening = foreign + Frame(NODE, 255, OPENING).encode()
+    lines, number = f"{begin_ms:.3f} {opening.hex()}\n", 0
+    at = begin_ms + (len(opening) + OPENING_ANSWER_BYTES) * BYTE_MS + TURN_ROUND_MS
     while at < end_ms:
         number = number % 255 + 1
-        request = GET_POSITION if lines else OPENING
-        data = foreign + Frame(NODE, number, request).encode()
+        data = foreign + Frame(NODE, number, GET_POSITION).encode()
         lines += f"{at:.3f} {data.hex()}\n"
         at += (len(data) + ANSWER_BYTES) * BYTE_MS + TURN_ROUND_MS
     return lines

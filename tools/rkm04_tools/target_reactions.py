@@ -52,11 +52,11 @@ class Reaction:
     kind: str
     speed: int
     motors: int
-    busy: bool = False
-    """Whether the other motors begin moves all the time."""
     begins: list[float] = field(default_factory=list)
     changes: list[float] = field(default_factory=list)
     stack_used: int = 0
+    busy: bool = False
+    """Whether the other motors begin moves all the time."""
 
     @property
     def goal(self) -> int:
@@ -151,7 +151,7 @@ def _run(
 
 def guard(rig: Rig, speed: int, motors: int, *, busy: bool = False) -> Reaction:
     """Moves that a guard stops, one behind the other."""
-    reaction = Reaction("guard", speed, motors, busy)
+    reaction = Reaction("guard", speed, motors, busy=busy)
     text = GUARD % (START_SPEED, speed, ACCEL, round(PAUSE_MS))
     line = programs(
         {motor: text if motor <= motors else BUSY for motor in MOTORS if busy or motor <= motors}
