@@ -7,9 +7,11 @@ explores stays in build/fuzz/explored, so that the next exploration goes on from
 from __future__ import annotations
 
 import argparse
+import os
 import re
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,6 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "fuzz"
 CORPUS = ROOT / "tests" / "fuzz" / "corpus"
 NICE = 15
+WORKERS = min(os.cpu_count() or 1, 2)
 RUN_SECONDS_MAX = 5
 RUNS = re.compile(r"^stat::number_of_executed_units:\s*(\d+)", re.MULTILINE)
 
@@ -54,11 +57,18 @@ def run(name: str, seconds: int) -> Result:
     return Result(int(counted[1]) if counted else 0, done.stdout, done.returncode == 0)
 
 
+def replay_and_run(name: str, seconds: int) -> list[Result]:
+    """The corpus alone, then the exploration."""
+    return [run(name, each) for each in ((0, seconds) if seconds else (0,))]
+
+
 def explore(seconds: int) -> int:
-    """Run all fuzzers, one after the other; return how many have found something."""
+    """Run all fuzzers, two at a time; return how many have found something."""
     failed = total = 0
-    for name in INPUT_BYTES_MAX:
-        for result in [run(name, 0)] + ([run(name, seconds)] if seconds else []):
+    with ThreadPoolExecutor(WORKERS) as pool:
+        done = pool.map(replay_and_run, INPUT_BYTES_MAX, [seconds] * len(INPUT_BYTES_MAX))
+    for name, results in zip(INPUT_BYTES_MAX, done, strict=True):
+        for result in results:
             total += result.runs
             if not result.good:
                 failed += 1
