@@ -162,7 +162,6 @@ void mover_start(struct mover *mover, const struct motion_order *order, bool bac
     hal_run_hold_plan();
     mover->guards = *guards;
     atomic_store_explicit(&mover->cause, HAL_TRACE_STOP_NONE, memory_order_relaxed);
-    atomic_store_explicit(&mover->stopping, false, memory_order_relaxed);
     step_channel_begin(&mover->channel, (uint32_t)start_tick, backward);
     enum hal_trace_stop cause = guard_cause(guards, mover->inputs);
     if (cause != HAL_TRACE_STOP_NONE) {
