@@ -39,22 +39,23 @@ static struct {
 
 volatile bool stm32_event;
 
-static uint64_t extend_time(void)
+/* The unit's time at a count of the last milliseconds. */
+static uint64_t time_at(uint32_t count)
 {
-    return tick.time + (uint32_t)(TIM2_CNT - (uint32_t)tick.time);
+    return tick.time + (count - (uint32_t)tick.time);
 }
 
 uint64_t hal_time_now(void)
 {
     uint32_t mask = stm32_mask();
-    uint64_t now = extend_time();
+    uint64_t now = time_at(TIM2_CNT);
     stm32_unmask(mask);
     return now;
 }
 
 static void every_millisecond(void)
 {
-    tick.time = extend_time();
+    tick.time = time_at(TIM2_CNT);
     tick.milliseconds++;
     stm32_line_tick();
     stm32_watchdog_tick();
@@ -70,7 +71,7 @@ static void look_at_inputs(bool must_call, uint32_t entered)
     if (must_call || inputs != tick.inputs) {
         tick.inputs = inputs;
         stm32_event = true;
-        tick.client.tick_isr(tick.client.context, tick.time + (uint32_t)(entered - (uint32_t)tick.time) - ENTRY_TICKS);
+        tick.client.tick_isr(tick.client.context, time_at(entered) - ENTRY_TICKS);
     }
 }
 
