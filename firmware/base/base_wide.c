@@ -47,7 +47,8 @@ bool wide_is_at_least(struct wide a, struct wide b)
 static unsigned leading_zeros(uint64_t value)
 {
     uint32_t high = (uint32_t)(value >> HALF_BITS);
-    return high != 0 ? HALF_BITS - wide_bits(high) : WORD_BITS - wide_bits((uint32_t)value);
+    unsigned bits = wide_bits(high != 0 ? high : (uint32_t)value);
+    return (high != 0 ? HALF_BITS : WORD_BITS) - bits;
 }
 
 /* One digit of 32 bits of a long division: the quotient of rest * 2^32 + next, where rest < divisor and the divisor has

@@ -31,6 +31,14 @@ def planted(tmp_path: Path, source: str, right: str, wrong: str) -> Path:
             "tick_difference(a, b) < 0", "tick_difference(a, b) <= 0",
         ),
         (
+            "base_wide_digit", "divide_digit", "firmware/base/base_wide.c",
+            "left += high;", "left += high - 1U;",
+        ),
+        (
+            "base_wide_divide", "leading_zeros", "firmware/base/base_wide.c",
+            "HALF_BITS : WORD_BITS) - bits", "HALF_BITS : WORD_BITS) - bits + 1U",
+        ),
+        (
             "motion_time", "motion_time_add", "firmware/motion/motion_time.c",
             "time.ticks + ticks + (fraction", "time.ticks + ticks + 1U + (fraction",
         ),

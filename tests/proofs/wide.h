@@ -1,6 +1,6 @@
 /*
- * Contracts of base_wide.h, proved with base_wide.acsl and base_wide_divide.acsl: exact for all operands that the
- * header allows.
+ * Contracts of base_wide.h, proved with base_wide.acsl and base_wide_divide.acsl, the root excepted: exact for all
+ * operands that the header allows.
  */
 #ifndef WIDE_H
 #define WIDE_H
