@@ -28,6 +28,14 @@ static uint64_t slope_after(uint64_t slope, uint32_t accel, uint32_t fraction);
 */
 static void segment_from_start(const struct motion_leg *leg, struct step_segment *segment);
 
+/*@ requires \valid_read(leg) && \valid(segment) && \separated(leg, segment) && is_leg(leg) && is_timed(leg);
+    requires leg->to_slope < leg->from_slope && leg->accel >= 1;
+    assigns segment->tick, segment->residual, segment->slope, segment->accel;
+    ensures segment->accel == -leg->accel;
+    ensures \old(leg->to_slope) <= segment->slope <= \old(leg->from_slope) + 4 * \old(leg->accel);
+*/
+static void segment_from_end(const struct motion_leg *leg, struct step_segment *segment);
+
 /*@ requires \valid_read(leg) && \valid_read(segment) && is_leg(leg) && segment->slope >= 1;
     assigns \nothing;
 */

@@ -10,6 +10,8 @@
 /*@ logic integer fractions(struct motion_time time) = time.ticks * 0x100000000 + time.fraction;
     logic integer quanta(struct motion_place place) = place.step * STEP_QUANTA + place.quanta;
     predicate is_place(struct motion_place place) = place.quanta < STEP_QUANTA;
+    predicate is_nearest(integer place, integer x, integer denominator) =
+        place * denominator <= x * STEP_QUANTA + denominator / 2 < place * denominator + denominator;
 */
 
 /*@ requires 1 <= divisor <= 0x8000000000000000;
@@ -38,6 +40,7 @@ struct wide motion_place_way(struct motion_place a, struct motion_place b);
     assigns \nothing;
     ensures \result.step == step + numerator / denominator;
     ensures is_place(\result);
+    ensures is_nearest(quanta(\result), step * denominator + numerator, denominator);
 */
 struct motion_place motion_place_add(uint64_t step, uint64_t numerator, uint64_t denominator);
 
@@ -46,6 +49,7 @@ struct motion_place motion_place_add(uint64_t step, uint64_t numerator, uint64_t
     requires numerator <= step * denominator;
     assigns \nothing;
     ensures is_place(\result);
+    ensures is_nearest(quanta(\result), step * denominator - numerator, denominator);
     ensures \result.step <= step;
     ensures (step - \result.step) * denominator <= numerator + denominator;
 */

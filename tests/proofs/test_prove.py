@@ -47,6 +47,10 @@ def planted(tmp_path: Path, source: str, right: str, wrong: str) -> Path:
             "section + 1U < order->sections", "section + 1U <= order->sections",
         ),
         (
+            "motion_plan_look", "look_forward", "firmware/motion/motion_plan.c",
+            "lower(plan->exit_speed2[i], enter + gain)", "plan->exit_speed2[i]",
+        ),
+        (
             "link_receiver", "take_plain", "firmware/link/link_receiver.c",
             "if (place == (uint32_t)", "if (place > (uint32_t)",
         ),

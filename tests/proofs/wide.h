@@ -51,6 +51,8 @@ uint64_t wide_divide(struct wide value, uint64_t divisor, uint64_t *remainder);
     assigns \nothing;
     ensures value(value) + divisor / 2 < divisor * 0x10000000000000000 ==>
         2 * value(value) - divisor <= 2 * \result * divisor <= 2 * value(value) + divisor;
+    ensures value(value) + divisor / 2 < divisor * 0x10000000000000000 ==>
+        \result * divisor <= value(value) + divisor / 2 < \result * divisor + divisor;
 */
 uint64_t wide_divide_nearest(struct wide value, uint64_t divisor);
 

@@ -1,0 +1,162 @@
+/*
+ * Contracts of what motion_plan.c keeps for itself: proved with motion_plan.acsl (the look backward, the brake) and
+ * motion_plan_look.acsl (the look forward and what lays a plan).
+ */
+#ifndef PLANS_H
+#define PLANS_H
+
+#include "motion_plan.h"
+#include "motion_leg.h"
+#include "step_scale.h"
+#include "wide.h"
+
+/* Of a gain the planner needs only that it is what motion_gain returns, proved in motion_profile.acsl. */
+/*@ axiomatic Gain { logic integer gain_of(integer accel, integer steps); } */
+#include "profiles.h"
+
+/*@ logic integer steps_of(struct motion_order *order, integer section, integer place) =
+        place < section ? order->section[place].steps : 0;
+    logic integer begin_of(struct motion_order *order, integer section) =
+        steps_of(order, section, 0) + steps_of(order, section, 1) + steps_of(order, section, 2) +
+        steps_of(order, section, 3) + steps_of(order, section, 4) + steps_of(order, section, 5) +
+        steps_of(order, section, 6) + steps_of(order, section, 7) + steps_of(order, section, 8) +
+        steps_of(order, section, 9);
+    predicate is_order(struct motion_order *order) =
+        1 <= order->sections <= MOTION_SECTIONS && 1 <= order->start_speed_steps_per_s <= STEP_SPEED_MAX &&
+        \forall integer i; 0 <= i < MOTION_SECTIONS ==> i < order->sections ==>
+            1 <= order->section[i].steps <= MOTION_ENDLESS_STEPS &&
+            1 <= order->section[i].speed_steps_per_s <= STEP_SPEED_MAX &&
+            1 <= order->section[i].accel_steps_per_s2 <= STEP_ACCEL_MAX;
+    predicate is_plan(struct motion_plan *plan) =
+        is_order(&plan->order) && plan->first < plan->order.sections &&
+        begin_of(&plan->order, plan->first) <= plan->origin.step <
+            begin_of(&plan->order, plan->first) + plan->order.section[plan->first].steps &&
+        speed2_in_range(plan->origin.speed2);
+    predicate has_exits(struct motion_plan *plan) =
+        \forall integer i; plan->first <= i < plan->order.sections ==> speed2_in_range(plan->exit_speed2[i]);
+    logic integer way_steps(struct motion_plan *plan, integer section) =
+        section == plan->first ?
+            begin_of(&plan->order, section) + plan->order.section[section].steps - plan->origin.step :
+            plan->order.section[section].steps;
+    logic integer way_gain(struct motion_plan *plan, integer section) =
+        gain_of(plan->order.section[section].accel_steps_per_s2, way_steps(plan, section));
+    logic integer full_gain(struct motion_order *order, integer section) =
+        gain_of(order->section[section].accel_steps_per_s2, order->section[section].steps);
+    logic integer enter_of(struct motion_plan *plan, integer section) =
+        section == plan->first ? plan->origin.speed2 : plan->exit_speed2[section - 1];
+    predicate can_stop(struct motion_plan *plan) =
+        plan->exit_speed2[plan->order.sections - 1] <=
+            plan->order.start_speed_steps_per_s * plan->order.start_speed_steps_per_s &&
+        \forall integer i; plan->first <= i < plan->order.sections ==>
+            enter_of(plan, i) - way_gain(plan, i) <= plan->exit_speed2[i];
+*/
+
+/* Squares of speeds: of a section's limit, and of what follows it; borders as the look backward leaves them. */
+/*@ logic integer limit_of(struct motion_order *order, integer i) = square_of(order->section[i].speed_steps_per_s);
+    logic integer start_of(struct motion_order *order) = square_of(order->start_speed_steps_per_s);
+    logic integer next_limit(struct motion_order *order, integer i) =
+        i + 1 == order->sections ? start_of(order) : limit_of(order, i + 1);
+    predicate is_backed(struct motion_plan *plan, integer i) =
+        speed2_in_range(plan->exit_speed2[i]) && plan->exit_speed2[i] <= limit_of(&plan->order, i) &&
+        plan->exit_speed2[i] <= next_limit(&plan->order, i) &&
+        (i + 1 < plan->order.sections ==>
+            plan->exit_speed2[i] <= plan->exit_speed2[i + 1] + full_gain(&plan->order, i + 1));
+*/
+
+/* The conditions of a profile. */
+/*@ logic integer jumps_of(struct motion_plan *plan, integer i) = plan->changed && i == plan->first ? 1 : 0;
+    predicate is_reached(struct motion_plan *plan, integer i) =
+        in_reach(jumps_of(plan, i), enter_of(plan, i), plan->exit_speed2[i], limit_of(&plan->order, i),
+            start_of(&plan->order), way_gain(plan, i));
+    predicate is_laid(struct motion_plan *plan) =
+        \forall integer i; plan->first <= i < plan->order.sections ==> is_reached(plan, i);
+    predicate fits_next(struct motion_plan *plan, integer i, integer speed2) =
+        speed2 <= next_limit(&plan->order, i) &&
+        (i + 1 < plan->order.sections ==> speed2 <= plan->exit_speed2[i + 1] + full_gain(&plan->order, i + 1));
+    predicate can_begin(struct motion_plan *plan, integer i, integer enter, integer gain) =
+        plan->changed ?
+            enter - gain <= plan->exit_speed2[i] ||
+                (plan->exit_speed2[i] == limit_of(&plan->order, i) && fits_next(plan, i, enter - gain)) :
+            enter <= limit_of(&plan->order, i) && enter - gain <= plan->exit_speed2[i];
+*/
+
+/*@ assigns \nothing;
+    ensures \result == least(a, b);
+*/
+static uint64_t lower(uint64_t a, uint64_t b);
+
+/*@ requires \valid_read(plan) && is_order(&plan->order) && section <= plan->order.sections;
+    assigns \nothing;
+    ensures \result == begin_of(&plan->order, section) && \result <= 10 * MOTION_ENDLESS_STEPS;
+*/
+static uint64_t section_begin(const struct motion_plan *plan, unsigned section);
+
+/*@ requires \valid_read(plan) && is_plan(plan) && plan->first <= section < plan->order.sections;
+    assigns \nothing;
+    ensures \result.steps == way_steps(plan, section) && 1 <= \result.steps <= MOTION_ENDLESS_STEPS;
+    ensures \result.accel_steps_per_s2 == plan->order.section[section].accel_steps_per_s2;
+    ensures \result.speed_steps_per_s == plan->order.section[section].speed_steps_per_s;
+    ensures \result.start_speed_steps_per_s == plan->order.start_speed_steps_per_s;
+    ensures speed_in_range(\result.speed_steps_per_s) && speed_in_range(\result.start_speed_steps_per_s);
+    ensures 1 <= \result.accel_steps_per_s2 <= STEP_ACCEL_MAX;
+    ensures \result.begin <= 10 * MOTION_ENDLESS_STEPS;
+    ensures \result.jumps == jumps_of(plan, section);
+    ensures \result.enter_speed2 == enter_speed2 && \result.exit_speed2 == plan->exit_speed2[section];
+*/
+static struct motion_way section_way(const struct motion_plan *plan, unsigned section, uint64_t enter_speed2);
+
+/*@ requires \valid_read(plan) && plan->first <= section < MOTION_SECTIONS;
+    assigns \nothing;
+    ensures \result == enter_of(plan, section);
+*/
+static uint64_t section_enter(const struct motion_plan *plan, unsigned section);
+
+/*@ requires \valid_read(order) && is_order(order) && section < order->sections;
+    assigns \nothing;
+    ensures \result == least(limit_of(order, section), next_limit(order, section));
+    ensures speed2_in_range(\result);
+*/
+static uint64_t border_cap(const struct motion_order *order, unsigned section);
+
+/*@ requires \valid_read(plan) && is_order(&plan->order) && section < plan->order.sections;
+    requires speed2_in_range(plan->exit_speed2[section]);
+    assigns \nothing;
+    ensures \result == plan->exit_speed2[section] + full_gain(&plan->order, section);
+    ensures \result >= plan->exit_speed2[section];
+*/
+static uint64_t brakeable(const struct motion_plan *plan, unsigned section);
+
+/*@ requires \valid(plan) && is_order(&plan->order) && plan->first < plan->order.sections;
+    assigns plan->exit_speed2[plan->first .. plan->order.sections - 1];
+    ensures \forall integer i; plan->first <= i < plan->order.sections ==> is_backed(plan, i);
+*/
+static void look_backward(struct motion_plan *plan);
+
+/*@ requires \valid(plan) && is_plan(plan);
+    requires \forall integer i; plan->first <= i < plan->order.sections ==> is_backed(plan, i);
+    requires can_begin(plan, plan->first, plan->origin.speed2, way_gain(plan, plan->first));
+    assigns plan->exit_speed2[plan->first .. plan->order.sections - 1];
+    ensures has_exits(plan) && is_laid(plan);
+*/
+static void look_forward(struct motion_plan *plan);
+
+/*@ requires \valid(plan);
+    assigns plan->progress;
+*/
+static void rewind_to_origin(struct motion_plan *plan);
+
+/*@ requires \valid_read(plan) && is_order(&plan->order);
+    assigns \nothing;
+    ensures \result <= plan->order.sections;
+    ensures \result < plan->order.sections ==> begin_of(&plan->order, \result) <= step <
+        begin_of(&plan->order, \result) + plan->order.section[\result].steps;
+*/
+static unsigned section_behind(const struct motion_plan *plan, uint64_t step);
+
+/*@ requires \valid(plan) && is_plan(plan) && has_exits(plan) && can_stop(plan);
+    assigns plan->exit_speed2[plan->first .. plan->order.sections - 1], plan->order.sections;
+    ensures plan->order.sections <= \old(plan->order.sections);
+*/
+static void plan_brake(struct motion_plan *plan);
+
+#endif
