@@ -3,7 +3,7 @@
  *
  * Comes in: segments, in a ring that the planner fills (main) and the step interrupt empties. Goes out: compare ticks
  * to hal_step, one pulse ahead, and the position. Because the channel is never more than one pulse ahead, a stop or a
- * change of speed cuts the queue at the pulse that is armed and nothing has to be taken back.
+ * change of speed cuts the queue at the pulse that is armed, and a stop that is seen late takes back that one pulse.
  * Functions named _isr run in the step interrupt; step_channel_look, _brake, _halt and _pulses in any context below it,
  * all others in main or the plan interrupt, never in both at once.
  */

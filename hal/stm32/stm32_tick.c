@@ -39,23 +39,23 @@ static struct {
 
 volatile bool stm32_event;
 
-/* The unit's time at a count of the last milliseconds. */
-static uint64_t time_at(uint32_t count)
+static uint64_t time_now(void)
 {
-    return tick.time + (count - (uint32_t)tick.time);
+    uint32_t since = TIM2_CNT - (uint32_t)tick.time;
+    return tick.time + since;
 }
 
 uint64_t hal_time_now(void)
 {
     uint32_t mask = stm32_mask();
-    uint64_t now = time_at(TIM2_CNT);
+    uint64_t now = time_now();
     stm32_unmask(mask);
     return now;
 }
 
 static void every_millisecond(void)
 {
-    tick.time = time_at(TIM2_CNT);
+    tick.time = time_now();
     tick.milliseconds++;
     stm32_line_tick();
     stm32_watchdog_tick();
@@ -64,14 +64,14 @@ static void every_millisecond(void)
     }
 }
 
-/* `entered` is the counter where the interrupt began. */
-static void look_at_inputs(bool must_call, uint32_t entered)
+/* `entered` is the time at which the interrupt began. */
+static void look_at_inputs(bool must_call, uint64_t entered)
 {
     uint8_t inputs = hal_io_read_inputs();
     if (must_call || inputs != tick.inputs) {
         tick.inputs = inputs;
         stm32_event = true;
-        tick.client.tick_isr(tick.client.context, time_at(entered) - ENTRY_TICKS);
+        tick.client.tick_isr(tick.client.context, entered - ENTRY_TICKS);
     }
 }
 
@@ -111,7 +111,7 @@ static bool lengthen_clock(void)
 
 void stm32_tick_interrupt(void)
 {
-    uint32_t entered = TIM2_CNT;
+    uint64_t entered = time_now();
     bool millisecond = true;
     if (tick.shortened) {
         millisecond = lengthen_clock();
@@ -129,7 +129,7 @@ void stm32_tick_interrupt(void)
 
 void stm32_edge_interrupt(void)
 {
-    uint32_t entered = TIM2_CNT;
+    uint64_t entered = time_now();
     uint32_t rest = find_rest();
     stm32_edge_hold();
     shorten_clock(rest, tick.hold);
