@@ -24,7 +24,7 @@ NODE = 16
 FLAG, ESCAPE, ESCAPED = 0x7E, 0x7D, 0x20
 SP, PC = 13, 15
 TIMEOUT_SECONDS = 1
-INTERRUPTED = "T02"
+INTERRUPTED, TRAPPED = "T02", "T05"
 
 # The emulated line has no rate of its own and gives the program a byte when it has taken the one
 # before; the emulated timer counts twelve times too fast. So a request goes out in one piece, and
@@ -107,7 +107,19 @@ class Gdb:
     def stop(self) -> None:
         """Stop the processor where it is; there may be older news to be read first."""
         self._socket.sendall(b"\x03")
-        while not self.receive().startswith(INTERRUPTED):
+        self._await(INTERRUPTED)
+
+    def stop_at(self, function: int) -> None:
+        """Stop the processor where a function begins."""
+        self.stop()
+        place = f"{function & ~1:x},2"  # an odd address says that it is Thumb code
+        assert self.call(f"Z0,{place}") == "OK"
+        self.go()
+        self._await(TRAPPED)
+        assert self.call(f"z0,{place}") == "OK"
+
+    def _await(self, reason: str) -> None:
+        while not self.receive().startswith(reason):
             pass
 
     def go(self) -> None:

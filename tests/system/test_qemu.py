@@ -44,9 +44,9 @@ def fault_record(unit: Emulator, image: Path) -> list[int]:
     return record
 
 
-def provoke(unit: Emulator, register: int, value: int) -> None:
-    """Change a register of the running program, which is in main."""
-    unit.gdb.stop()
+def provoke(unit: Emulator, image: Path, register: int, value: int) -> None:
+    """Change a register where main has nothing to do and is about to sleep."""
+    unit.gdb.stop_at(emulator.symbols(image)["stm32_event_sleep"])
     unit.gdb.set_register(register, value)
     unit.gdb.go()
 
@@ -79,7 +79,7 @@ def test_there_is_no_fault_when_all_is_well(unit: Emulator, image: Path) -> None
 def test_a_stack_overflow_ends_in_the_handler_and_the_unit_starts_again(
     unit: Emulator, image: Path
 ) -> None:
-    provoke(unit, SP, emulator.symbols(image)["stm32_stack_bottom"] + 8)
+    provoke(unit, image, SP, emulator.symbols(image)["stm32_stack_bottom"] + 8)
 
     assert unit.ask_until_answered(VERSION) == ANSWER
     _, cause, exception, status, _, _, pc, count = fault_record(unit, image)
@@ -91,7 +91,7 @@ def test_a_stack_overflow_ends_in_the_handler_and_the_unit_starts_again(
 def test_a_bus_fault_ends_in_the_handler_and_the_unit_starts_again(
     unit: Emulator, image: Path
 ) -> None:
-    provoke(unit, PC, UNMAPPED)
+    provoke(unit, image, PC, UNMAPPED)
 
     assert unit.ask_until_answered(VERSION) == ANSWER
     _, cause, exception, status, hard, _, pc, count = fault_record(unit, image)
@@ -103,7 +103,7 @@ def test_a_bus_fault_ends_in_the_handler_and_the_unit_starts_again(
 
 def test_faults_are_counted(unit: Emulator, image: Path) -> None:
     for _ in range(2):
-        provoke(unit, PC, UNMAPPED)
+        provoke(unit, image, PC, UNMAPPED)
         assert unit.ask_until_answered(VERSION) == ANSWER
 
     assert fault_record(unit, image)[-1] == 2
