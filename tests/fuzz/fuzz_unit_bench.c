@@ -6,7 +6,6 @@
 
 #include "base_tick.h"
 #include "fuzz_stream.h"
-#include "judge_unit.h"
 
 enum {
     COPIED_BYTES = offsetof(struct fuzz_unit, machine) + offsetof(struct host_machine, flash),
@@ -27,24 +26,6 @@ static struct fuzz_unit live;
 static uint8_t fresh[FUZZ_EPOCHS][COPIED_BYTES];
 static bool made;
 
-static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
-{
-    struct fuzz_unit *fuzz = context;
-    judge_unit_step(&fuzz->judge, tick, motor, backward);
-}
-
-static void on_direction(void *context, uint64_t tick, unsigned motor, bool backward)
-{
-    struct fuzz_unit *fuzz = context;
-    judge_unit_direction(&fuzz->judge, &fuzz->unit, tick, motor, backward);
-}
-
-static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
-{
-    struct fuzz_unit *fuzz = context;
-    judge_unit_trace(&fuzz->judge, &fuzz->unit, tick, motor, event, value);
-}
-
 static void on_line(void *context, uint64_t tick, uint8_t value)
 {
     struct fuzz_unit *fuzz = context;
@@ -56,10 +37,8 @@ static void on_line(void *context, uint64_t tick, uint8_t value)
 static uint64_t main_pass(void *context)
 {
     struct fuzz_unit *fuzz = context;
-    uint64_t wake = unit_poll(&fuzz->unit);
     fuzz->passes++;
-    judge_unit_pass(&fuzz->judge, &fuzz->unit);
-    return wake;
+    return judge_unit_pass(fuzz);
 }
 
 bool fuzz_unit_is_over(const struct fuzz_unit *fuzz)
@@ -81,19 +60,11 @@ static void switch_on(void)
 
 static void make_fresh(unsigned which)
 {
-    const struct judge_limits limits = judge_default_limits();
     memset(&live, 0, sizeof live);
-    judge_init(&live.judge, &limits);
-    host_machine_init(&live.machine, epochs[which]);
+    live.judged = (struct judged_unit){.unit = &live.unit, .judge = &live.judge, .machine = &live.machine};
+    judge_unit_begin(&live.judged, epochs[which]);
     host_machine_set_byte_ticks(&live.machine, LINE_BYTE_TICKS);
-    host_machine_select(&live.machine);
-    live.machine.listener = (struct host_listener){
-        .context = &live,
-        .step = on_step,
-        .direction = on_direction,
-        .trace = on_trace,
-        .line = on_line,
-    };
+    live.machine.listener.line = on_line;
     switch_on();
     memcpy(fresh[which], &live, COPIED_BYTES);
 }
@@ -131,13 +102,7 @@ void fuzz_unit_restart(struct fuzz_unit *fuzz)
 
 void fuzz_unit_end(struct fuzz_unit *fuzz)
 {
-    char text[JUDGE_TEXT_BYTES + 32];
+    uint64_t end = fuzz_unit_is_over(fuzz) ? UINT64_MAX : fuzz->machine.now;
     FUZZ_REQUIRE(fuzz->machine.late_steps == 0);
-    judge_flash(&fuzz->judge, fuzz->machine.flash_rewrites);
-    judge_finish(&fuzz->judge, fuzz_unit_is_over(fuzz) ? UINT64_MAX : fuzz->machine.now);
-    for (uint32_t i = 0; i < fuzz->judge.complaints; i++) {
-        judge_tell(&fuzz->judge, i, text);
-        (void)fprintf(stderr, "judge: %s\n", text);
-    }
-    FUZZ_REQUIRE(fuzz->judge.complaints == 0);
+    FUZZ_REQUIRE(judge_unit_end(&fuzz->judged, end, stderr, "judge: ") == 0);
 }

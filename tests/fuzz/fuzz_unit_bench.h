@@ -12,7 +12,7 @@
 #include <stdint.h>
 
 #include "host_machine.h"
-#include "judge.h"
+#include "judge_unit.h"
 #include "unit.h"
 
 enum {
@@ -23,6 +23,7 @@ enum {
 };
 
 struct fuzz_unit {
+    struct judged_unit judged;
     struct unit unit;
     struct judge judge;
     uint8_t answer[PROTOCOL_ANSWER_BYTES_MAX];

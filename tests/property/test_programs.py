@@ -1,6 +1,6 @@
 """Random programs, and random messages at random times, against the model of the language.
 
-`RKM04_PROGRAMS=10000` compares that many scripts instead of a few hundred; RKM04_SEED=... repeats
+`RKM04_PROGRAMS=11000` draws that many scripts instead of a few hundred; RKM04_SEED=... repeats
 a run.
 """
 

@@ -103,18 +103,12 @@ static void print_done(long grown_kb)
            soak.machine.flash_operations, grown_kb, soak_unit_digest(&soak));
 }
 
-static bool complain(void)
+static bool is_lawful(void)
 {
-    char text[JUDGE_TEXT_BYTES + 32];
-    bool good = soak.judge.complaints == 0 && master.trouble == NULL;
-    for (uint32_t i = 0; i < soak.judge.complaints; i++) {
-        judge_tell(&soak.judge, i, text);
-        printf("judge: %s\n", text);
-    }
     if (master.trouble != NULL) {
         printf("broken at tick %" PRIu64 ": %s\n", master.trouble_tick, master.trouble);
     }
-    return good;
+    return soak.judge.complaints == 0 && master.trouble == NULL;
 }
 
 static bool run(const struct call *call)
@@ -129,14 +123,13 @@ static bool run(const struct call *call)
         resident = soak.machine.now < end / TENTHS || resident == 0 ? resident_kb() : resident;
     }
     soak_master_end(&master);
-    judge_flash(&soak.judge, soak.machine.flash_rewrites);
-    judge_finish(&soak.judge, soak.machine.now);
+    (void)judge_unit_end(&soak.judged, soak.machine.now, stdout, "judge: ");
     long grown_kb = resident_kb() - resident;
     soak_require(&master, soak.machine.late_steps == 0, "no step is late");
     soak_require(&master, soak_unit_is_whole(&soak), "what is around the unit and what never changes is as it was");
     soak_require(&master, grown_kb <= GROWTH_KB_MAX, "the process does not grow");
     print_done(grown_kb);
-    return complain();
+    return is_lawful();
 }
 
 int main(int count, char **arguments)

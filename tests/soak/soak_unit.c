@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "judge_unit.h"
-
 enum {
     CANARY = 0xA5,
     LATE_TICKS = 5 * TICKS_PER_US, /* the tick interrupt behind an edge, as on a board */
@@ -26,13 +24,7 @@ static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
     struct soak_unit *soak = context;
     soak->position[motor] += backward ? -1 : 1;
     soak->pulses[motor]++;
-    judge_unit_step(&soak->judge, tick, motor, backward);
-}
-
-static void on_direction(void *context, uint64_t tick, unsigned motor, bool backward)
-{
-    struct soak_unit *soak = context;
-    judge_unit_direction(&soak->judge, &soak->unit, tick, motor, backward);
+    judge_unit_step(soak, tick, motor, backward);
 }
 
 static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
@@ -40,7 +32,7 @@ static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trac
     struct soak_unit *soak = context;
     soak->moves += event == HAL_TRACE_MOVE ? 1U : 0U;
     soak->errors += event == HAL_TRACE_ERROR ? 1U : 0U;
-    judge_unit_trace(&soak->judge, &soak->unit, tick, motor, event, value);
+    judge_unit_trace(soak, tick, motor, event, value);
 }
 
 static void on_line(void *context, uint64_t tick, uint8_t value)
@@ -57,10 +49,8 @@ static void on_line(void *context, uint64_t tick, uint8_t value)
 static uint64_t main_pass(void *context)
 {
     struct soak_unit *soak = context;
-    uint64_t wake = unit_poll(&soak->unit);
     soak->passes++;
-    judge_unit_pass(&soak->judge, &soak->unit);
-    return wake;
+    return judge_unit_pass(soak);
 }
 
 /* The pointers and numbers that a unit gets at its start and keeps. */
@@ -84,22 +74,16 @@ static uint64_t digest_constants(const struct soak_unit *soak)
 
 void soak_unit_begin(struct soak_unit *soak, uint64_t epoch)
 {
-    const struct judge_limits limits = judge_default_limits();
     memset(soak, 0, sizeof *soak);
     memset(soak->before, CANARY, sizeof soak->before);
     memset(soak->after, CANARY, sizeof soak->after);
     soak->sent_digest = FNV_START;
-    judge_init(&soak->judge, &limits);
-    host_machine_init(&soak->machine, epoch);
+    soak->judged = (struct judged_unit){.unit = &soak->unit, .judge = &soak->judge, .machine = &soak->machine};
+    judge_unit_begin(&soak->judged, epoch);
     soak->machine.faults.late_tick_ticks = LATE_TICKS;
-    host_machine_select(&soak->machine);
-    soak->machine.listener = (struct host_listener){
-        .context = soak,
-        .step = on_step,
-        .direction = on_direction,
-        .trace = on_trace,
-        .line = on_line,
-    };
+    soak->machine.listener.step = on_step;
+    soak->machine.listener.trace = on_trace;
+    soak->machine.listener.line = on_line;
     unit_init(&soak->unit);
     unit_start(&soak->unit);
     soak->constants = digest_constants(soak);

@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 #include "host_machine.h"
-#include "judge.h"
+#include "judge_unit.h"
 #include "unit.h"
 
 enum {
@@ -18,6 +18,7 @@ enum {
 };
 
 struct soak_unit {
+    struct judged_unit judged;
     uint8_t before[SOAK_CANARY_BYTES];
     struct unit unit;
     uint8_t after[SOAK_CANARY_BYTES];

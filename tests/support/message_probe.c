@@ -24,36 +24,11 @@ static _Noreturn void complain(const char *what)
 }
 
 struct probe {
+    struct judged_unit judged;
     struct host_machine machine;
     struct unit unit;
     struct judge judge;
 };
-
-static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
-{
-    struct probe *probe = context;
-    judge_unit_step(&probe->judge, tick, motor, backward);
-}
-
-static void on_direction(void *context, uint64_t tick, unsigned motor, bool backward)
-{
-    struct probe *probe = context;
-    judge_unit_direction(&probe->judge, &probe->unit, tick, motor, backward);
-}
-
-static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
-{
-    struct probe *probe = context;
-    judge_unit_trace(&probe->judge, &probe->unit, tick, motor, event, value);
-}
-
-static uint64_t main_pass(void *context)
-{
-    struct probe *probe = context;
-    uint64_t wake = unit_poll(&probe->unit);
-    judge_unit_pass(&probe->judge, &probe->unit);
-    return wake;
-}
 
 static void run(struct probe *probe, const char *number)
 {
@@ -63,7 +38,7 @@ static void run(struct probe *probe, const char *number)
     if (*end != '\0' || ms > RUN_MS_MAX) {
         complain("no number of milliseconds");
     }
-    host_machine_run(machine, machine->now + (uint64_t)ms * TICKS_PER_MS, main_pass, NULL, probe);
+    host_machine_run(machine, machine->now + (uint64_t)ms * TICKS_PER_MS, judge_unit_pass, NULL, probe);
 }
 
 static uint32_t read_bytes(const char *line, uint8_t bytes[PROTOCOL_REQUEST_BYTES_MAX])
@@ -93,31 +68,11 @@ static void ask(struct probe *probe, const char *line)
 
 static void begin(struct probe *probe, const char *version, uint64_t epoch)
 {
-    const struct judge_limits limits = judge_default_limits();
-    judge_init(&probe->judge, &limits);
-    host_machine_init(&probe->machine, epoch);
-    host_machine_select(&probe->machine);
-    probe->machine.listener = (struct host_listener){
-        .context = probe,
-        .step = on_step,
-        .direction = on_direction,
-        .trace = on_trace,
-    };
+    probe->judged = (struct judged_unit){.unit = &probe->unit, .judge = &probe->judge, .machine = &probe->machine};
+    judge_unit_begin(&probe->judged, epoch);
     unit_init(&probe->unit);
     probe->unit.protocol.version = version;
     unit_start(&probe->unit);
-}
-
-/* Whether nothing is wrong with what the unit did. */
-static bool is_lawful(struct probe *probe)
-{
-    char text[JUDGE_TEXT_BYTES + 32];
-    judge_finish(&probe->judge, probe->machine.now);
-    for (uint32_t i = 0; i < probe->judge.complaints; i++) {
-        judge_tell(&probe->judge, i, text);
-        (void)fprintf(stderr, "judge: %s\n", text);
-    }
-    return probe->judge.complaints == 0;
 }
 
 int main(int argc, char **argv)
@@ -134,5 +89,5 @@ int main(int argc, char **argv)
             ask(&probe, line);
         }
     }
-    return is_lawful(&probe) ? 0 : 1;
+    return judge_unit_end(&probe.judged, probe.machine.now, stderr, "judge: ") == 0 ? 0 : 1;
 }

@@ -27,6 +27,7 @@
 enum { PULSES_MAX = 400000, INPUTS_MAX = 1000, LINE_BYTES_MAX = 2 * PROTOCOL_REQUEST_BYTES_MAX + 64 };
 
 struct probe {
+    struct judged_unit judged;
     struct host_machine machine;
     struct unit unit;
     struct judge judge;
@@ -50,42 +51,21 @@ static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
         complain("too many pulses");
     }
     probe->pulse[motor][probe->pulse_count[motor]++] = backward ? -(int64_t)tick : (int64_t)tick;
-    judge_unit_step(&probe->judge, tick, motor, backward);
-}
-
-static void on_direction(void *context, uint64_t tick, unsigned motor, bool backward)
-{
-    struct probe *probe = context;
-    judge_unit_direction(&probe->judge, &probe->unit, tick, motor, backward);
+    judge_unit_step(probe, tick, motor, backward);
 }
 
 static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
 {
-    struct probe *probe = context;
-    judge_unit_trace(&probe->judge, &probe->unit, tick, motor, event, value);
+    judge_unit_trace(context, tick, motor, event, value);
     (void)printf("event %" PRIu64 " %u %u %" PRId64 "\n", tick, motor, (unsigned)event, value);
-}
-
-static uint64_t main_pass(void *context)
-{
-    struct probe *probe = context;
-    uint64_t wake = unit_poll(&probe->unit);
-    judge_unit_pass(&probe->judge, &probe->unit);
-    return wake;
 }
 
 static void begin(struct probe *probe, uint64_t epoch)
 {
-    const struct judge_limits limits = judge_default_limits();
-    judge_init(&probe->judge, &limits);
-    host_machine_init(&probe->machine, epoch);
-    host_machine_select(&probe->machine);
-    probe->machine.listener = (struct host_listener){
-        .context = probe,
-        .step = on_step,
-        .direction = on_direction,
-        .trace = on_trace,
-    };
+    probe->judged = (struct judged_unit){.unit = &probe->unit, .judge = &probe->judge, .machine = &probe->machine};
+    judge_unit_begin(&probe->judged, epoch);
+    probe->machine.listener.step = on_step;
+    probe->machine.listener.trace = on_trace;
     memset(probe->pulse_count, 0, sizeof probe->pulse_count);
     probe->input_count = 0;
     probe->running = false;
@@ -101,7 +81,7 @@ static void run_until(struct probe *probe, uint64_t tick)
         probe->running = true;
     }
     if (tick > probe->machine.now) {
-        host_machine_run(&probe->machine, tick, main_pass, NULL, probe);
+        host_machine_run(&probe->machine, tick, judge_unit_pass, NULL, probe);
     }
 }
 
@@ -139,20 +119,9 @@ static void send_request(struct probe *probe, const char *text)
     (void)printf("\n");
 }
 
-static void report_complaints(struct judge *judge, const struct host_machine *machine)
-{
-    char text[JUDGE_TEXT_BYTES + 32];
-    judge_flash(judge, machine->flash_rewrites);
-    judge_finish(judge, machine->now);
-    for (uint32_t i = 0; i < judge->complaints; i++) {
-        judge_tell(judge, i, text);
-        (void)printf("judge %s\n", text);
-    }
-}
-
 static void report(struct probe *probe)
 {
-    report_complaints(&probe->judge, &probe->machine);
+    (void)judge_unit_end(&probe->judged, probe->machine.now, stdout, "judge ");
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         if (probe->pulse_count[motor] > 0) {
             (void)printf("pulses %u", motor + 1U);

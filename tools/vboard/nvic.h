@@ -22,7 +22,6 @@ enum nvic_exception {
     NVIC_DEBUG = 12,
     NVIC_PENDSV = 14,
     NVIC_SYSTICK = 15,
-    NVIC_IRQ0 = 16,
 };
 
 enum nvic_irq { /* RM0090 table 61 */
@@ -42,10 +41,11 @@ enum nvic_irq { /* RM0090 table 61 */
     NVIC_IRQ_USART3 = 39,
     NVIC_IRQ_EXTI15_10 = 40,
     NVIC_IRQ_TIM5 = 50,
-    NVIC_IRQS = 82,
 };
 
 enum {
+    NVIC_IRQ0 = 16,
+    NVIC_IRQS = 82,
     NVIC_EXCEPTIONS = NVIC_IRQ0 + NVIC_IRQS,
     NVIC_WORDS = 2,
     NVIC_PRIORITY_IDLE = 256, /* of thread mode without masks */

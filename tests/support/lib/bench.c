@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "epoch.h"
-#include "judge_unit.h"
 #include "unity.h"
 
 #define IDLE_LIMIT_TICKS (UINT64_C(60) * TICK_HZ)
@@ -18,13 +17,7 @@ static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
         (struct bench_pulse){.tick = tick, .motor = (uint8_t)(motor + 1U), .backward = backward};
     bench->pulse_count++;
     bench->made[motor + 1U]++;
-    judge_unit_step(&bench->judge, tick, motor, backward);
-}
-
-static void on_direction(void *context, uint64_t tick, unsigned motor, bool backward)
-{
-    struct bench *bench = context;
-    judge_unit_direction(&bench->judge, &bench->unit, tick, motor, backward);
+    judge_unit_step(bench, tick, motor, backward);
 }
 
 static void add_edge(struct bench *bench, uint64_t tick, unsigned motor, uint8_t value)
@@ -53,7 +46,7 @@ static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trac
             (struct bench_event){.tick = tick, .value = value, .motor = (uint8_t)motor, .event = event};
         bench->event_count++;
     }
-    judge_unit_trace(&bench->judge, &bench->unit, tick, motor, event, value);
+    judge_unit_trace(bench, tick, motor, event, value);
 }
 
 static bool step_isr(void *context, unsigned motor)
@@ -85,19 +78,13 @@ static void start_unit(struct bench *bench)
 
 void bench_init_at(struct bench *bench, uint64_t epoch)
 {
-    const struct judge_limits limits = judge_default_limits();
     memset(bench, 0, sizeof *bench);
-    judge_init(&bench->judge, &limits);
-    host_machine_init(&bench->machine, epoch);
-    host_machine_select(&bench->machine);
-    bench->machine.listener = (struct host_listener){
-        .context = bench,
-        .step = on_step,
-        .direction = on_direction,
-        .led = on_led,
-        .output = on_output,
-        .trace = on_trace,
-    };
+    bench->judged = (struct judged_unit){.unit = &bench->unit, .judge = &bench->judge, .machine = &bench->machine};
+    judge_unit_begin(&bench->judged, epoch);
+    bench->machine.listener.step = on_step;
+    bench->machine.listener.trace = on_trace;
+    bench->machine.listener.led = on_led;
+    bench->machine.listener.output = on_output;
     host_machine_set_script(&bench->machine, bench->script, 0);
     start_unit(bench);
 }
@@ -165,14 +152,6 @@ uint8_t *bench_find_in_flash(struct bench *bench, const char *text)
     return NULL;
 }
 
-static uint64_t main_pass(void *context)
-{
-    struct bench *bench = context;
-    uint64_t wake = unit_poll(&bench->unit);
-    judge_unit_pass(&bench->judge, &bench->unit);
-    return wake;
-}
-
 static bool is_idle(void *context)
 {
     const struct bench *bench = context;
@@ -187,7 +166,7 @@ static bool has_pulses(void *context)
 
 void bench_run_ticks(struct bench *bench, uint64_t ticks)
 {
-    host_machine_run(&bench->machine, bench->machine.now + ticks, main_pass, NULL, bench);
+    host_machine_run(&bench->machine, bench->machine.now + ticks, judge_unit_pass, NULL, bench);
 }
 
 void bench_run_ms(struct bench *bench, uint32_t milliseconds)
@@ -197,7 +176,7 @@ void bench_run_ms(struct bench *bench, uint32_t milliseconds)
 
 void bench_run_idle(struct bench *bench)
 {
-    host_machine_run(&bench->machine, bench->machine.now + IDLE_LIMIT_TICKS, main_pass, is_idle, bench);
+    host_machine_run(&bench->machine, bench->machine.now + IDLE_LIMIT_TICKS, judge_unit_pass, is_idle, bench);
     TEST_ASSERT_TRUE_MESSAGE(unit_is_idle(&bench->unit), "still busy after a minute");
 }
 
@@ -205,7 +184,7 @@ void bench_run_pulses(struct bench *bench, unsigned motor, uint32_t pulses)
 {
     bench->wanted_motor = motor;
     bench->wanted_pulses = pulses;
-    host_machine_run(&bench->machine, bench->machine.now + IDLE_LIMIT_TICKS, main_pass, has_pulses, bench);
+    host_machine_run(&bench->machine, bench->machine.now + IDLE_LIMIT_TICKS, judge_unit_pass, has_pulses, bench);
     TEST_ASSERT_EQUAL_UINT32_MESSAGE(pulses, bench_pulses(bench, motor), "pulses not made within a minute");
 }
 

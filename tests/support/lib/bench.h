@@ -15,7 +15,7 @@
 #include "base_tick.h"
 #include "hal_trace.h"
 #include "host_machine.h"
-#include "judge.h"
+#include "judge_unit.h"
 #include "unit.h"
 
 enum {
@@ -47,6 +47,7 @@ struct bench_edge {
 };
 
 struct bench {
+    struct judged_unit judged;
     struct host_machine machine;
     struct unit unit;
     struct bench_pulse pulses[BENCH_PULSES_MAX];

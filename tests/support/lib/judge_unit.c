@@ -1,39 +1,73 @@
 #include "judge_unit.h"
 
-void judge_unit_step(struct judge *judge, uint64_t tick, unsigned motor, bool backward)
+void judge_unit_begin(struct judged_unit *judged, uint64_t epoch)
 {
-    judge_pulse(judge, tick, motor + 1U, backward);
+    const struct judge_limits limits = judge_default_limits();
+    judge_init(judged->judge, &limits);
+    host_machine_init(judged->machine, epoch);
+    host_machine_select(judged->machine);
+    judged->machine->listener = (struct host_listener){
+        .context = judged,
+        .step = judge_unit_step,
+        .direction = judge_unit_direction,
+        .trace = judge_unit_trace,
+    };
+}
+
+void judge_unit_step(void *judged, uint64_t tick, unsigned motor, bool backward)
+{
+    struct judged_unit *self = judged;
+    judge_pulse(self->judge, tick, motor + 1U, backward);
 }
 
 /* T41 takes DIR from its pins and gives it back: those are edges, too. */
-void judge_unit_direction(struct judge *judge, const struct unit *unit, uint64_t tick, unsigned motor, bool backward)
+void judge_unit_direction(void *judged, uint64_t tick, unsigned motor, bool backward)
 {
-    if (unit->io.simulating) {
-        judge_hide(judge);
+    struct judged_unit *self = judged;
+    if (self->unit->io.simulating) {
+        judge_hide(self->judge);
     }
-    judge_direction(judge, tick, motor + 1U, backward);
+    judge_direction(self->judge, tick, motor + 1U, backward);
 }
 
-void judge_unit_trace(struct judge *judge, const struct unit *unit, uint64_t tick, unsigned motor,
-                      enum hal_trace_event event, int64_t value)
+void judge_unit_trace(void *judged, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
 {
+    struct judged_unit *self = judged;
+    struct unit *unit = self->unit;
     if (event == HAL_TRACE_DONE) { /* before the program can write the counter */
-        judge_position(judge, motor, mover_position_steps(&unit->mover[motor - 1U]));
+        judge_position(self->judge, motor, mover_position_steps(&unit->mover[motor - 1U]));
     }
-    judge_event(judge, tick, motor, event, value);
+    judge_event(self->judge, tick, motor, event, value);
     if (event == HAL_TRACE_MOVE) {
-        judge_order(judge, motor, &unit->interpreter[motor - 1U].order, mover_position_steps(&unit->mover[motor - 1U]));
+        judge_order(self->judge, motor, &unit->interpreter[motor - 1U].order,
+                    mover_position_steps(&unit->mover[motor - 1U]));
     }
 }
 
-void judge_unit_pass(struct judge *judge, const struct unit *unit)
+uint64_t judge_unit_pass(void *judged)
 {
-    if (unit->io.simulating) {
-        judge_hide(judge);
+    struct judged_unit *self = judged;
+    uint64_t wake = unit_poll(self->unit);
+    if (self->unit->io.simulating) {
+        judge_hide(self->judge);
     }
     for (unsigned i = 0; i < UNIT_MOTORS; i++) {
-        judge_position(judge, i + 1U, mover_position_steps(&unit->mover[i]));
-        judge_interpreter(judge, i + 1U, &unit->interpreter[i]);
+        judge_position(self->judge, i + 1U, mover_position_steps(&self->unit->mover[i]));
+        judge_interpreter(self->judge, i + 1U, &self->unit->interpreter[i]);
     }
-    judge_pass(judge);
+    judge_pass(self->judge);
+    return wake;
+}
+
+uint32_t judge_unit_end(struct judged_unit *judged, uint64_t tick, FILE *file, const char *mark)
+{
+    char text[JUDGE_TEXT_BYTES + 32];
+    struct judge *judge = judged->judge;
+    judge_flash(judge, judged->machine->flash_rewrites);
+    judge_finish(judge, tick);
+    for (uint32_t i = 0; i < judge->complaints; i++) {
+        judge_tell(judge, i, text);
+        (void)fprintf(file, "%s%s\n", mark, text);
+    }
+    return judge->complaints;
 }
