@@ -1,6 +1,6 @@
-"""Branch and MC/DC coverage of the stages that decide what moves.
+"""Branch and MC/DC coverage of the firmware.
 
-Runs the tests of the preset `mcdc`, which must have been built, and prints a line a folder. It
+Runs the tests of the preset `mcdc`, which must have been built, and prints a line a stage. It
 fails when a branch that can be reached was not, or when fewer conditions than MCDC_PERCENT were
 shown to decide on their own. What cannot be reached is in unreachable.txt beside this file, with
 its reason; assertions count nowhere.
@@ -22,8 +22,8 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build/mcdc"
 PROFILES = BUILD / "profiles"
+IMAGE_ONLY = ROOT / "firmware/main.c"  # what the tests have a main of their own for
 LIST = Path(__file__).with_name("unreachable.txt")
-FOLDERS = ("motion", "step", "link", "program", "interpreter", "store")
 MCDC_PERCENT = 95.0
 VERSION = 19  # of clang and llvm
 
@@ -37,7 +37,7 @@ class Branch:
 
 
 @dataclass
-class Folder:
+class Stage:
     branches: dict[Place, Branch] = field(default_factory=dict)
     decisions: dict[Place, list[bool]] = field(default_factory=dict)
 
@@ -103,24 +103,29 @@ def read_files(merged: Path) -> list[dict[str, Any]]:
     return files
 
 
-def collect(files: Iterable[dict[str, Any]], sources: dict[str, str]) -> dict[str, Folder]:
-    """The branches and decisions of our folders, without assertions; copies of a line are one."""
-    folders = {name: Folder() for name in FOLDERS}
+def stage_of(name: str) -> str:
+    """The folder of a source; what stands above them all puts the unit together."""
+    return name.split("/")[0] if "/" in name else "unit"
+
+
+def collect(files: Iterable[dict[str, Any]], sources: dict[str, str]) -> dict[str, Stage]:
+    """The branches and decisions of our sources, without assertions; copies of a line are one."""
+    stages = {stage_of(name): Stage() for name in sources}
     for file in files:
         name = os.path.relpath(file["filename"], ROOT / "firmware")
         if name not in sources:
             continue
-        folder = folders[name.split("/")[0]]
+        stage = stages[stage_of(name)]
         asserted = assertion_lines(sources[name])
         for line, column, _, _, taken, passed, *_ in file.get("branches", []):
             if line not in asserted:
-                branch = folder.branches.setdefault((name, line, column), Branch())
+                branch = stage.branches.setdefault((name, line, column), Branch())
                 branch.taken += taken
                 branch.passed += passed
         for line, column, *_, shown in file.get("mcdc_records", []):
             if line not in asserted:
-                merge_decision(folder.decisions, (name, line, column), shown)
-    return folders
+                merge_decision(stage.decisions, (name, line, column), shown)
+    return stages
 
 
 def never_linked(files: Iterable[dict[str, Any]], sources: dict[str, str]) -> list[str]:
@@ -134,19 +139,19 @@ def merge_decision(decisions: dict[Place, list[bool]], place: Place, shown: list
     decisions[place] = [a or b for a, b in zip(known, shown, strict=True)]
 
 
-def missing_branches(folder: Folder) -> list[tuple[Place, str]]:
+def missing_branches(stage: Stage) -> list[tuple[Place, str]]:
     return [
         (place, side)
-        for place, branch in sorted(folder.branches.items())
+        for place, branch in sorted(stage.branches.items())
         for side, count in (("true", branch.taken), ("false", branch.passed))
         if count == 0
     ]
 
 
-def missing_conditions(folder: Folder) -> list[tuple[Place, int]]:
+def missing_conditions(stage: Stage) -> list[tuple[Place, int]]:
     return [
         (place, index + 1)
-        for place, shown in sorted(folder.decisions.items())
+        for place, shown in sorted(stage.decisions.items())
         for index, good in enumerate(shown)
         if not good
     ]
@@ -160,28 +165,28 @@ def read_sources() -> dict[str, str]:
     firmware = ROOT / "firmware"
     return {
         str(path.relative_to(firmware)): path.read_text()
-        for folder in FOLDERS
-        for path in sorted((firmware / folder).glob("*.[ch]"))
+        for path in sorted(firmware.rglob("*.[ch]"))
+        if path != IMAGE_ONLY
     }
 
 
-def report(folders: dict[str, Folder], sources: dict[str, str], excuses: list[Excuse]) -> bool:
-    """Prints a line a folder and what is missing. Whether it is enough."""
+def report(stages: dict[str, Stage], sources: dict[str, str], excuses: list[Excuse]) -> bool:
+    """Prints a line a stage and what is missing. Whether it is enough."""
     good = True
     unused = list(excuses)  # a row excuses one side
-    print(f"{'folder':12} {'branches':>8} {'reached':>8} {'excused':>8}   conditions  shown")
-    for name, folder in folders.items():
+    print(f"{'stage':12} {'branches':>8} {'reached':>8} {'excused':>8}   conditions  shown")
+    for name, stage in stages.items():
         unexcused = []
-        missing = missing_branches(folder)
+        missing = missing_branches(stage)
         for place, side in missing:
             excuse = find_excuse(unused, place[0], line_of(place, sources), side)
             if excuse is None:
                 unexcused.append((place, side))
             else:
                 unused.remove(excuse)
-        branches = 2 * len(folder.branches)
-        conditions = sum(map(len, folder.decisions.values()))
-        hidden = missing_conditions(folder)
+        branches = 2 * len(stage.branches)
+        conditions = sum(map(len, stage.decisions.values()))
+        hidden = missing_conditions(stage)
         percent = 100.0 * (conditions - len(hidden)) / conditions if conditions else 100.0
         print(
             f"{name:12} {branches:8} {branches - len(missing):8} {len(missing) - len(unexcused):8}"

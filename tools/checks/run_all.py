@@ -20,13 +20,10 @@ from types import MappingProxyType
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
-BRANCHES_PERCENT = 95  # of firmware/, that the C tests must reach
 FUZZ_SECONDS = 15  # of exploration, each fuzzer
 LONG_MINUTES = 8  # the same with --long
 SOAK_MINUTES = 24 * 60  # of unit time, with --long
 SWEEPS = {"RKM04_LONG": "1", "RKM04_PROGRAMS": "11000"}  # with --long; 10 000 compared
-# What no test can reach: the other side of an assertion.
-UNREACHABLE = r".*\b(static_)?assert\(.*"
 
 UNITY_SUMMARY = re.compile(r"^(\d+) Tests (\d+) Failures (\d+) Ignored", re.MULTILINE)
 UNITY_SKIP = re.compile(r"^(?:.*/)?(.+:\d+:.+:IGNORE.*)$", re.MULTILINE)
@@ -118,22 +115,6 @@ def c_tests_once(preset: str) -> Count:
 def c_tests_again(preset: str) -> Count:
     count = c_tests(preset)
     return Count(passed=1) if count.failed == 0 else Count(failed=count.failed)
-
-
-def coverage() -> Count:
-    for old in (BUILD / "coverage").rglob("*.gcda"):
-        old.unlink()
-    count = c_tests_again("coverage")
-    if not any((BUILD / "coverage").rglob("*.gcda")):
-        print("skipped: branch coverage, as no C test ran")
-        return count + Count(skipped=1)
-    enough = succeeds(
-        *PYTHON, "gcovr", "--root", ROOT, "--filter", "firmware/", "--txt-metric", "branch",
-        "--exclude-lines-by-pattern", UNREACHABLE, "--merge-mode-functions", "separate",
-        "--txt", "--print-summary", "--fail-under-branch", str(BRANCHES_PERCENT),
-        BUILD / "coverage/firmware", show=True,
-    )  # fmt: skip
-    return count + (Count(passed=1) if enough else Count(failed=1))
 
 
 def arm_check() -> Count:
@@ -252,7 +233,6 @@ def steps(quick: bool, fuzz_seconds: int = FUZZ_SECONDS) -> dict[str, Callable[[
     if has_tiny_limits():
         chosen["C tests with tiny limits (tiny)"] = lambda: c_tests_again("tiny")
     chosen["Proofs"] = lambda: contracts() + models()
-    chosen["Coverage of firmware/ (coverage)"] = coverage
     chosen["Branches and decisions (mcdc)"] = mcdc
     if fuzz_seconds > FUZZ_SECONDS:
         chosen["Sweeps at every place"] = sweeps

@@ -156,6 +156,13 @@ void test_commands_that_have_come_and_not_begun_are_running(void)
     assert_motor(4, PROTOCOL_STATUS_RUNNING);
 }
 
+void test_a_loop_without_a_wait_is_running(void)
+{
+    take(4, "@1J1");
+    run_ms(10);
+    assert_motor(4, PROTOCOL_STATUS_RUNNING);
+}
+
 void test_waits_for_a_time_a_level_and_a_bracket_are_waiting(void)
 {
     static const char *const programs[] = {"W1000", "O1", "[F1R"};
