@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from frames import ESCAPE, ESCAPED, FLAG, fcs16, frame
+from frames import FLAG, fcs16, frame, unescape
 
 ANSWER = 0x80
 GOOD_FCS = 0xF0B8 ^ 0xFFFF
@@ -25,11 +25,6 @@ class Answer:
 def ask(ms: float, message: bytes, node: int = 1, number: int = 0) -> str:
     """A line of a script for the line: one request."""
     return f"{ms:.3f} {frame(node, number, message).hex()}\n"
-
-
-def unescape(data: bytes) -> bytes:
-    parts = data.split(bytes([ESCAPE]))
-    return parts[0] + b"".join(bytes([part[0] ^ ESCAPED]) + part[1:] for part in parts[1:])
 
 
 def answers(rows: Iterable[str]) -> list[Answer]:

@@ -17,11 +17,11 @@ from pathlib import Path
 
 from elftools.elf.elffile import ELFFile
 from elftools.elf.sections import SymbolTableSection
+from frames import FLAG, fcs16, frame, unescape
 
 MACHINE = "netduinoplus2"
 PROGRAM = "qemu-system-arm"
 NODE = 16
-FLAG, ESCAPE, ESCAPED = 0x7E, 0x7D, 0x20
 SP, PC = 13, 15
 TIMEOUT_SECONDS = 1
 INTERRUPTED, TRAPPED = "T02", "T05"
@@ -47,38 +47,11 @@ def symbols(image: Path) -> dict[str, int]:
         return {symbol.name: int(symbol["st_value"]) for symbol in table.iter_symbols()}
 
 
-def fcs(data: bytes) -> int:
-    """FCS-16 of RFC 1662."""
-    register = 0xFFFF
-    for byte in data:
-        register ^= byte
-        for _ in range(8):
-            register = register >> 1 ^ (0x8408 if register & 1 else 0)
-    return register ^ 0xFFFF
-
-
-def frame(node: int, number: int, message: bytes) -> bytes:
-    """A request as the line carries it."""
-    inner = bytes([node, number]) + message
-    inner += fcs(inner).to_bytes(2, "little")
-    escaped = bytearray()
-    for byte in inner:
-        escaped += bytes([ESCAPE, byte ^ ESCAPED]) if byte in (FLAG, ESCAPE) else bytes([byte])
-    return bytes([FLAG, *escaped, FLAG])
-
-
 def unframe(received: bytes) -> bytes:
     """The message of an answer, whose FCS must be right."""
-    inner = bytearray()
-    escaping = False
-    for byte in received.strip(bytes([FLAG])):
-        if byte == ESCAPE:
-            escaping = True
-            continue
-        inner.append(byte ^ ESCAPED if escaping else byte)
-        escaping = False
-    assert fcs(bytes(inner[:-2])) == int.from_bytes(inner[-2:], "little")
-    return bytes(inner[2:-2])
+    inner = unescape(received.strip(bytes([FLAG])))
+    assert fcs16(inner[:-2]) == int.from_bytes(inner[-2:], "little")
+    return inner[2:-2]
 
 
 class Gdb:

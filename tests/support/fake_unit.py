@@ -17,7 +17,7 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
-from frames import ESCAPE, ESCAPED, FLAG, fcs16, frame
+from frames import FLAG, fcs16, frame, unescape
 from statuses import GET_STATUS, VECTORS
 
 VERSION = b"01.02,06.03.2009"
@@ -55,17 +55,6 @@ def mixed(answer: bytes) -> bytes:
 def twice(answer: bytes) -> bytes:
     """Two units answer one behind the other."""
     return answer + answer
-
-
-def unescaped(body: bytes) -> bytes:
-    content, escaping = bytearray(), False
-    for byte in body:
-        if byte == ESCAPE:
-            escaping = True
-        else:
-            content.append(byte ^ ESCAPED if escaping else byte)
-            escaping = False
-    return bytes(content)
 
 
 @dataclass
@@ -242,7 +231,7 @@ class FakeLine:
             yield b""
 
     def _handle(self, body: bytes) -> None:
-        content = unescaped(body)
+        content = unescape(body)
         if len(content) < 5 or fcs16(content[:-2]).to_bytes(2, "little") != content[-2:]:
             return
         address, number, message = content[0], content[1], content[2:-2]

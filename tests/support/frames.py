@@ -80,6 +80,17 @@ def escape(data: bytes) -> bytes:
     )
 
 
+def unescape(body: bytes) -> bytes:
+    content, escaping = bytearray(), False
+    for byte in body:
+        if byte == ESCAPE:
+            escaping = True
+        else:
+            content.append(byte ^ ESCAPED if escaping else byte)
+            escaping = False
+    return bytes(content)
+
+
 def with_fcs(data: bytes) -> bytes:
     return data + fcs16(data).to_bytes(2, "little")
 

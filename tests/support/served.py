@@ -15,12 +15,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from fake_unit import unescaped
-from frames import FLAG, fcs16, frame
+from frames import FLAG, fcs16, frame, unescape
 
 ROOT = Path(__file__).resolve().parents[2]
 COMMAND = [sys.executable, "-P", "-m", "rkm04_tools", "serve"]
-PATIENCE_SECONDS = 10.0
+PATIENCE_SECONDS = 15.0
 ANSWER = 0x80
 
 
@@ -63,7 +62,7 @@ class Talker:
             body, flag, rest = self._came.partition(bytes([FLAG]))
             if flag:
                 self._came = rest
-                content = unescaped(body)
+                content = unescape(body)
                 if len(content) > 4 and fcs16(content[:-2]).to_bytes(2, "little") == content[-2:]:
                     return content[0], content[1], content[2:-2]
                 continue
@@ -168,15 +167,20 @@ class Served:
             with contextlib.suppress(OSError):
                 close()
         self._open.clear()
-        if self.process.poll() is None:
-            self.process.send_signal(number)
-        try:
-            _, complaint = self.process.communicate(timeout=PATIENCE_SECONDS)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.communicate()
-            raise
-        return self.process.returncode, complaint
+        return end_process(self.process, number)
+
+
+def end_process(process: subprocess.Popen[str], number: int) -> tuple[int, str]:
+    """Send a signal to what still runs; return its status and what it said on standard error."""
+    if process.poll() is None:
+        process.send_signal(number)
+    try:
+        _, complaint = process.communicate(timeout=PATIENCE_SECONDS)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.communicate()
+        raise
+    return process.returncode, complaint
 
 
 def connect(place: str) -> socket.socket:

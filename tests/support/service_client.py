@@ -16,11 +16,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from served import PATIENCE_SECONDS, end_process
 from websockets import Origin
 from websockets.sync.client import ClientConnection, connect
 
 ROOT = Path(__file__).resolve().parents[2]
-PATIENCE_SECONDS = 15.0
 PAGE = "<!doctype html><title>a page</title>"
 
 
@@ -162,12 +162,4 @@ class Service:
         return self.wait(number)
 
     def wait(self, number: int = signal.SIGINT) -> tuple[int, str]:
-        if self.process.poll() is None:
-            self.process.send_signal(number)
-        try:
-            _, complaint = self.process.communicate(timeout=PATIENCE_SECONDS)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.communicate()
-            raise
-        return self.process.returncode, complaint
+        return end_process(self.process, number)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from fake_unit import unescaped
-from frames import FLAG, frame
+from frames import FLAG, frame, unescape
 from rkm04_tools import board
 from rkm04_tools.status import parse_status
 from virtual_board import NODE, Message, VirtualBoard, script
@@ -20,7 +19,7 @@ def last_answer(folder: Path) -> bytes:
     """The message of the last frame that the board has sent."""
     lines = (folder / "log.txt").read_text().splitlines()
     sent = b"".join(bytes.fromhex(line.split()[1]) for line in lines)
-    return unescaped(sent.rstrip(bytes([FLAG])).rpartition(bytes([FLAG]))[2])[2:-2]
+    return unescape(sent.rstrip(bytes([FLAG])).rpartition(bytes([FLAG]))[2])[2:-2]
 
 
 @pytest.fixture
