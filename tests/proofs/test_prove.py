@@ -7,7 +7,17 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from prove import PROOFS, ROOT, Mismatch, Result, missing, prove, put_together
+from prove import (
+    PROOFS,
+    ROOT,
+    Contracts,
+    Mismatch,
+    Result,
+    missing,
+    prove,
+    prove_lemmas,
+    put_together,
+)
 
 needs_provers = pytest.mark.skipif(bool(missing()), reason=f"not installed: {missing()}")
 
@@ -91,6 +101,24 @@ def test_a_planted_error_leaves_goals_unproved(
     assert 0 < result.proved < result.goals
     assert not result.is_good()
     assert any(f"typed_{function}_" in complaint for complaint in result.complaints)
+
+
+@needs_provers
+def test_a_wrong_lemma_is_not_believed() -> None:
+    contracts = put_together(PROOFS / "base_tick.acsl")
+    contracts.name = "planted_lemma"
+    contracts.text = "/*@ lemma wrong: \\forall integer x; x * x == 3 * x; */\n" + contracts.text
+
+    result = prove(contracts, 2)
+
+    assert result.proved == result.goals - 1
+    assert any("typed_lemma_wrong" in complaint for complaint in result.complaints)
+
+
+def test_the_lemmas_of_a_header_are_proved_where_they_stand() -> None:
+    contracts = Contracts("no_lemmas", text='#include "shifts.h"\n')
+
+    assert prove_lemmas(contracts) == Result("no_lemmas")
 
 
 def test_contracts_for_a_line_that_is_gone_do_not_fit(tmp_path: Path) -> None:

@@ -2,12 +2,14 @@
 
     python tests/support/prove.py [NAME...]
 
-A file of contracts is C text, then parts that begin with a `%` line:
+and the lemmas of the headers there. A file of contracts is C text, then parts that begin with a
+`%` line:
 
     % trust FUNCTION...   the contract is used, the body is not proved
     % prove FUNCTION...   a function of a header that is to be proved; else those are trusted
     % unsigned            unsigned numbers must not wrap either
     % option OPTION...    one more for Frama-C
+    % provers NAME...     these suffice for the code: a second one doubles the time
     % source PATH         a source of the firmware; what follows goes into a copy of it
     % before LINE         the text below goes before the next line that reads like this
     % after LINE          or behind it
@@ -26,13 +28,13 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PROOFS = ROOT / "tests/proofs"
 BUILD = ROOT / "build/proofs"
-PROVERS = ("z3", "cvc4")
+PROVERS = ("cvc4", "z3")
 SECONDS = 60  # for a goal and a prover; an idle machine needs 2
 VERSION = "25."  # of Frama-C: what it leaves to the provers differs from one to the next
 COMMANDS = ("frama-c", "why3", "z3", "cvc4")
@@ -41,6 +43,7 @@ FOLDERS = (*sorted(path for path in (ROOT / "firmware").iterdir() if path.is_dir
 
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 INLINE = re.compile(r"^static inline [^;{]*?(\w+)\([^;{]*\)\n\{", re.MULTILINE)
+LEMMA = re.compile(r"(?<!admit )\blemma (\w+)")
 PROVED = re.compile(r"^\[wp\] Proved goals:\s+(\d+) / (\d+)$", re.MULTILINE)
 UNPROVED = re.compile(r"^\[wp\] \[(?:Failed|Timeout|Unknown|Stepout)[^\n]*$", re.MULTILINE)
 # Whatever makes WP assume more than it was told: each would hide a hole in a proof.
@@ -64,6 +67,7 @@ class Contracts:
     proved: list[str] = field(default_factory=list)
     unsigned: bool = False
     options: list[str] = field(default_factory=list)
+    provers: Sequence[str] = PROVERS
     text: str = ""
 
 
@@ -72,10 +76,16 @@ class Result:
     """What WP said of one file."""
 
     name: str
-    proved: int
-    goals: int
-    complaints: tuple[str, ...]
-    seconds: float
+    proved: int = 0
+    goals: int = 0
+    complaints: tuple[str, ...] = ()
+    seconds: float = 0.0
+
+    def __add__(self, other: Result) -> Result:
+        return Result(
+            self.name, self.proved + other.proved, self.goals + other.goals,
+            self.complaints + other.complaints, self.seconds + other.seconds,
+        )  # fmt: skip
 
     def is_good(self) -> bool:
         return self.goals > 0 and self.proved == self.goals and not self.complaints
@@ -115,6 +125,9 @@ def put_together(path: Path, root: Path = ROOT) -> Contracts:
             done.append(text)
         elif word == "option":
             contracts.options += argument.split()
+            done.append(text)
+        elif word == "provers":
+            contracts.provers = argument.split()
             done.append(text)
         elif word == "source":
             done += ["\n".join(source), text]
@@ -157,21 +170,53 @@ def why3_configuration() -> Path:
 
 
 def prove(contracts: Contracts, seconds: int = SECONDS, extra: Sequence[str] = ()) -> Result:
-    """Lets WP prove one file."""
+    """Lets WP prove one file: the code, then its lemmas, which WP leaves out where it skips."""
+    trusted = not_proved(contracts)
+    skip = [f"-wp-skip-fct={','.join(trusted)}"] if trusted else []
+    provers = f"-wp-prover={','.join(contracts.provers)}"
+    code, said = _run(contracts, seconds, [provers, "-wp-prop=-@lemma", *skip, *extra])
+    assumed = tuple(each for each in ASSUMED.findall(said) if _matters(each, contracts))
+    code = replace(code, complaints=code.complaints + assumed)
+    return code if extra else code + prove_lemmas(contracts, seconds)
+
+
+def prove_lemmas(contracts: Contracts, seconds: int = SECONDS) -> Result:
+    """The lemmas of one file, without those of the headers, which are proved where they stand."""
+    if not LEMMA.search(contracts.text):
+        return Result(contracts.name)
+    known = LEMMA.findall("".join(_headers(contracts.text, {}).values()))
+    only = ",".join(["-wp-prop=@lemma", *(f"-{name}" for name in known)])
+    lemmas = replace(contracts, name=f"{contracts.name}.lemmas")
+    result, _ = _run(lemmas, seconds, [f"-wp-prover={','.join(PROVERS)}", only])
+    return replace(result, name=contracts.name)
+
+
+def prove_file(path: Path, seconds: int = SECONDS, extra: Sequence[str] = ()) -> Result:
+    """One file of contracts, or the lemmas of a header."""
+    if path.suffix == ".h":
+        return prove_lemmas(Contracts(path.name, text=path.read_text()), seconds)
+    return prove(put_together(path), seconds, extra)
+
+
+def files(names: Sequence[str] = ()) -> list[Path]:
+    """What there is to prove: headers that have lemmas, files of contracts; of these names."""
+    headers = [path for path in sorted(PROOFS.glob("*.h")) if LEMMA.search(path.read_text())]
+    contracts = sorted(PROOFS.glob("*.acsl"))
+    return [path for path in [*headers, *contracts] if not names or path.stem in names]
+
+
+def _run(contracts: Contracts, seconds: int, extra: Sequence[str]) -> tuple[Result, str]:
     BUILD.mkdir(parents=True, exist_ok=True)
     path = BUILD / f"{contracts.name}.c"
     path.write_text(contracts.text)
-    trusted = not_proved(contracts)
-    trust = [f"-wp-skip-fct={','.join(trusted)}"] if trusted else []
-    if contracts.unsigned:
-        trust.append("-warn-unsigned-overflow")
     includes = " ".join(f"-I{folder}" for folder in FOLDERS)
+    unsigned = ["-warn-unsigned-overflow"] if contracts.unsigned else []
     command = [
         "frama-c", "-session", str(BUILD / "session"), "-no-autoload-plugins",
         "-load-module", "wp,rtegen", "-c11", "-machdep", "gcc_x86_32", "-wp", "-wp-rte",
-        "-wp-prover", ",".join(PROVERS), "-wp-timeout", str(seconds),
+        "-wp-timeout", str(seconds),
         "-wp-par", str(min(os.cpu_count() or 1, 2)), "-wp-cache", "update",
-        f"-cpp-extra-args={includes}", *trust, *contracts.options, *extra, str(path),
+        f"-cpp-extra-args={includes}", *unsigned, *contracts.options, *extra, str(path),
     ]  # fmt: skip
     environment = {**os.environ, "WHY3CONFIG": str(why3_configuration())}
     started = time.monotonic()
@@ -181,12 +226,12 @@ def prove(contracts: Contracts, seconds: int = SECONDS, extra: Sequence[str] = (
     )  # fmt: skip
     (BUILD / f"{contracts.name}.log").write_text(done.stdout)
     counts = PROVED.search(done.stdout)
-    assumed = [each for each in ASSUMED.findall(done.stdout) if _matters(each, contracts)]
-    complaints = [*UNPROVED.findall(done.stdout), *assumed]
+    complaints = UNPROVED.findall(done.stdout)
     if not counts:
         complaints += done.stdout.splitlines()[-8:]
     proved, goals = map(int, counts.groups()) if counts else (0, 0)
-    return Result(contracts.name, proved, goals, tuple(complaints), time.monotonic() - started)
+    spent = time.monotonic() - started
+    return Result(contracts.name, proved, goals, tuple(complaints), spent), done.stdout
 
 
 def _matters(complaint: str, contracts: Contracts) -> bool:
@@ -207,7 +252,7 @@ def missing() -> list[str]:
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="prove.py", description="Proves the contracts.")
-    parser.add_argument("names", nargs="*", help="files of contracts, without .acsl; all if none")
+    parser.add_argument("names", nargs="*", help="files, without .acsl or .h; all if none")
     parser.add_argument("--seconds", type=int, default=SECONDS, help="for each goal and prover")
     parser.add_argument("--wp", action="append", default=[], help="one more option for Frama-C")
     options = parser.parse_args()
@@ -215,11 +260,9 @@ def main() -> int:
         print(f"not installed: {', '.join(absent)}")
         return 77
     good = True
-    for path in sorted(PROOFS.glob("*.acsl")):
-        if options.names and path.stem not in options.names:
-            continue
+    for path in files(options.names):
         try:
-            result = prove(put_together(path), options.seconds, options.wp)
+            result = prove_file(path, options.seconds, options.wp)
         except Mismatch as error:
             print(f"{path.name}: {error}")
             good = False
