@@ -103,7 +103,7 @@ static void rewind_to_origin(struct motion_plan *plan)
     };
 }
 
-void motion_plan_begin(struct motion_plan *plan, const struct motion_order *order, uint64_t start_tick)
+static void take_order(struct motion_plan *plan, const struct motion_order *order, uint64_t start_tick)
 {
     uint64_t speed2 = lower(motion_square(order->start_speed_steps_per_s),
                             motion_square(order->section[0].speed_steps_per_s));
@@ -111,8 +111,13 @@ void motion_plan_begin(struct motion_plan *plan, const struct motion_order *orde
         .order = *order,
         .origin = {.time = {.ticks = start_tick}, .speed2 = speed2},
     };
+}
+
+void motion_plan_begin(struct motion_plan *plan, const struct motion_order *order, uint64_t start_tick)
+{
+    take_order(plan, order, start_tick);
     look_backward(plan);
-    plan->origin.speed2 = lower(speed2, brakeable(plan, 0));
+    plan->origin.speed2 = lower(plan->origin.speed2, brakeable(plan, 0));
     plan->begin_speed2 = plan->origin.speed2;
     look_forward(plan);
     rewind_to_origin(plan);

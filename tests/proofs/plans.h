@@ -27,6 +27,7 @@
             1 <= order->section[i].steps <= MOTION_ENDLESS_STEPS &&
             1 <= order->section[i].speed_steps_per_s <= STEP_SPEED_MAX &&
             1 <= order->section[i].accel_steps_per_s2 <= STEP_ACCEL_MAX;
+    predicate has_order(struct motion_plan *plan) = plan->order.sections == 0 || is_order(&plan->order);
     predicate is_plan(struct motion_plan *plan) =
         is_order(&plan->order) && plan->first < plan->order.sections &&
         begin_of(&plan->order, plan->first) <= plan->origin.step <
@@ -44,11 +45,6 @@
         gain_of(order->section[section].accel_steps_per_s2, order->section[section].steps);
     logic integer enter_of(struct motion_plan *plan, integer section) =
         section == plan->first ? plan->origin.speed2 : plan->exit_speed2[section - 1];
-    predicate can_stop(struct motion_plan *plan) =
-        plan->exit_speed2[plan->order.sections - 1] <=
-            plan->order.start_speed_steps_per_s * plan->order.start_speed_steps_per_s &&
-        \forall integer i; plan->first <= i < plan->order.sections ==>
-            enter_of(plan, i) - way_gain(plan, i) <= plan->exit_speed2[i];
 */
 
 /* Squares of speeds: of a section's limit, and of what follows it; borders as the look backward leaves them. */
@@ -61,6 +57,22 @@
         plan->exit_speed2[i] <= next_limit(&plan->order, i) &&
         (i + 1 < plan->order.sections ==>
             plan->exit_speed2[i] <= plan->exit_speed2[i + 1] + full_gain(&plan->order, i + 1));
+*/
+
+/* With which square of the speed a section may be left: with one from which each section that follows can brake to its
+ * limit, and the last to S. It is said with what all sections before a border could gain; nothing of it depends on the
+ * section itself, on those before it or on exit speeds. */
+/*@ logic integer gained_in(struct motion_order *order, integer section, integer place) =
+        place < section ? full_gain(order, place) : 0;
+    logic integer gained_to(struct motion_order *order, integer section) =
+        gained_in(order, section, 0) + gained_in(order, section, 1) + gained_in(order, section, 2) +
+        gained_in(order, section, 3) + gained_in(order, section, 4) + gained_in(order, section, 5) +
+        gained_in(order, section, 6) + gained_in(order, section, 7) + gained_in(order, section, 8) +
+        gained_in(order, section, 9);
+    predicate can_leave(struct motion_order *order, integer i, integer speed2) =
+        speed2 + gained_to(order, i + 1) <= start_of(order) + gained_to(order, order->sections) &&
+        \forall integer k; i < k < order->sections ==>
+            speed2 + gained_to(order, i + 1) <= limit_of(order, k) + gained_to(order, k);
 */
 
 /* The conditions of a profile. */
@@ -78,6 +90,12 @@
             enter - gain <= plan->exit_speed2[i] ||
                 (plan->exit_speed2[i] == limit_of(&plan->order, i) && fits_next(plan, i, enter - gain)) :
             enter <= limit_of(&plan->order, i) && enter - gain <= plan->exit_speed2[i];
+    predicate is_highest(struct motion_plan *plan, integer i) =
+        \forall integer speed2; can_leave(&plan->order, i, speed2) ==> fits_next(plan, i, speed2) &&
+            (speed2 <= plan->exit_speed2[i] || plan->exit_speed2[i] == limit_of(&plan->order, i));
+    predicate can_leave_all(struct motion_plan *plan) =
+        \forall integer i; plan->first <= i < plan->order.sections ==>
+            can_leave(&plan->order, i, plan->exit_speed2[i]);
 */
 
 /*@ assigns \nothing;
@@ -129,34 +147,29 @@ static uint64_t brakeable(const struct motion_plan *plan, unsigned section);
 /*@ requires \valid(plan) && is_order(&plan->order) && plan->first < plan->order.sections;
     assigns plan->exit_speed2[plan->first .. plan->order.sections - 1];
     ensures \forall integer i; plan->first <= i < plan->order.sections ==> is_backed(plan, i);
+    ensures \forall integer i; plan->first <= i < plan->order.sections ==> is_highest(plan, i);
+    ensures can_leave_all(plan);
 */
 static void look_backward(struct motion_plan *plan);
 
 /*@ requires \valid(plan) && is_plan(plan);
     requires \forall integer i; plan->first <= i < plan->order.sections ==> is_backed(plan, i);
     requires can_begin(plan, plan->first, plan->origin.speed2, way_gain(plan, plan->first));
+    requires can_leave(&plan->order, plan->first, plan->origin.speed2 - way_gain(plan, plan->first));
+    requires can_leave_all(plan);
     assigns plan->exit_speed2[plan->first .. plan->order.sections - 1];
     ensures has_exits(plan) && is_laid(plan);
+    ensures can_leave_all(plan);
 */
 static void look_forward(struct motion_plan *plan);
 
-/*@ requires \valid(plan);
-    assigns plan->progress;
-*/
-static void rewind_to_origin(struct motion_plan *plan);
-
-/*@ requires \valid_read(plan) && is_order(&plan->order);
+/*@ requires \valid_read(plan) && has_order(plan);
     assigns \nothing;
     ensures \result <= plan->order.sections;
+    ensures \result == plan->order.sections <==> begin_of(&plan->order, plan->order.sections) <= step;
     ensures \result < plan->order.sections ==> begin_of(&plan->order, \result) <= step <
         begin_of(&plan->order, \result) + plan->order.section[\result].steps;
 */
 static unsigned section_behind(const struct motion_plan *plan, uint64_t step);
-
-/*@ requires \valid(plan) && is_plan(plan) && has_exits(plan) && can_stop(plan);
-    assigns plan->exit_speed2[plan->first .. plan->order.sections - 1], plan->order.sections;
-    ensures plan->order.sections <= \old(plan->order.sections);
-*/
-static void plan_brake(struct motion_plan *plan);
 
 #endif

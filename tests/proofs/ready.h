@@ -6,20 +6,53 @@
 
 #include "plans.h"
 
-/*@ predicate is_braked(struct motion_plan *plan) =
-        \forall integer i; plan->first <= i < plan->order.sections ==>
-            speed2_in_range(plan->exit_speed2[i]) && plan->exit_speed2[i] <= enter_of(plan, i) &&
-            enter_of(plan, i) - plan->exit_speed2[i] <= way_gain(plan, i);
+/*@ predicate is_braked_at(struct motion_plan *plan, integer i) =
+        speed2_in_range(plan->exit_speed2[i]) && plan->exit_speed2[i] <= enter_of(plan, i) &&
+        enter_of(plan, i) - plan->exit_speed2[i] <= way_gain(plan, i);
+    predicate is_braked(struct motion_plan *plan) =
+        \forall integer i; plan->first <= i < plan->order.sections ==> is_braked_at(plan, i);
     predicate is_ready(struct motion_plan *plan) =
         plan->first <= plan->order.sections <= MOTION_SECTIONS &&
         (plan->first < plan->order.sections ==>
             is_plan(plan) && has_exits(plan) && (plan->stopping ? is_braked(plan) : is_laid(plan)));
-    predicate is_rewound(struct motion_plan *plan) =
-        plan->progress.time.ticks == plan->origin.time.ticks &&
-        plan->progress.time.fraction == plan->origin.time.fraction &&
-        plan->progress.place.step == plan->origin.step && plan->progress.place.quanta == 0 &&
+    predicate lies_on(struct motion_order *order, integer step, integer speed2) =
+        speed2_in_range(speed2) && \forall integer i; 0 <= i < order->sections &&
+            begin_of(order, i) <= step < begin_of(order, i) + order->section[i].steps ==>
+                can_leave(order, i, speed2 - gain_of(order->section[i].accel_steps_per_s2,
+                    begin_of(order, i) + order->section[i].steps - step));
+    predicate is_brakeable(struct motion_plan *plan) = can_leave_all(plan) &&
+        can_leave(&plan->order, plan->first, plan->origin.speed2 - way_gain(plan, plan->first));
+    predicate is_rewound_to(struct motion_plan *plan, integer ticks, integer fraction, integer step, integer section) =
+        plan->progress.time.ticks == ticks && plan->progress.time.fraction == fraction &&
+        plan->progress.place.step == step && plan->progress.place.quanta == 0 &&
         plan->progress.twice_speed2 == 0 && plan->progress.slope == 0 &&
-        plan->progress.section == plan->first && plan->progress.leg == 0;
+        plan->progress.section == section && plan->progress.leg == 0;
+    predicate is_rewound(struct motion_plan *plan) =
+        is_rewound_to(plan, plan->origin.time.ticks, plan->origin.time.fraction, plan->origin.step, plan->first);
 */
+
+/*@ requires \valid(plan);
+    assigns plan->progress;
+    ensures is_rewound_to(plan, \old(plan->origin.time.ticks), \old(plan->origin.time.fraction),
+        \old(plan->origin.step), \old(plan->first));
+*/
+static void rewind_to_origin(struct motion_plan *plan);
+
+/*@ requires \valid(plan) && is_plan(plan);
+    requires can_leave(&plan->order, plan->first, plan->origin.speed2 - way_gain(plan, plan->first));
+    assigns plan->exit_speed2[plan->first .. plan->order.sections - 1], plan->order.sections;
+    ensures plan->first <= plan->order.sections <= \old(plan->order.sections);
+    ensures plan->first < plan->order.sections ==> is_plan(plan) && has_exits(plan) && is_braked(plan);
+*/
+static void plan_brake(struct motion_plan *plan);
+
+/*@ requires \valid(plan) && \valid_read(order) && \separated(plan, order) && is_order(order);
+    assigns *plan;
+    ensures is_order(&plan->order) && plan->first == 0 && !plan->stopping && !plan->changed;
+    ensures plan->origin.time.ticks == start_tick && plan->origin.time.fraction == 0 && plan->origin.step == 0;
+    ensures plan->origin.speed2 == least(start_of(&plan->order), limit_of(&plan->order, 0));
+    ensures speed2_in_range(plan->origin.speed2);
+*/
+static void take_order(struct motion_plan *plan, const struct motion_order *order, uint64_t start_tick);
 
 #endif
