@@ -1,5 +1,5 @@
 ; search_quotient of firmware/step/step_generator.c, bit by bit, for z3: no quotient of a distance of at most 2^63 is
-; above 2^31 - 1 (unsat); one of 2^31 - 1 there is (sat).
+; above 2^31 - 1, and the bits are as step_generator_search.acsl admits (unsat); a quotient of 2^31 - 1 there is (sat).
 (set-logic QF_BV)
 (declare-const distance (_ BitVec 64))
 (declare-const slope (_ BitVec 64))
@@ -14,8 +14,16 @@
 (define-fun sum () (_ BitVec 32) (bvadd (low_half (bvlshr distance shift)) (bvlshr divisor (_ bv1 32))))
 (define-fun quotient () (_ BitVec 32) (bvudiv sum divisor))
 (assert (bvule distance #x8000000000000000))
+(define-fun distance_high () (_ BitVec 64) (bvlshr distance shift))
+(define-fun slope_high () (_ BitVec 64) (bvlshr slope shift))
+(define-fun divisor_64 () (_ BitVec 64) (concat #x00000000 divisor))
+(define-fun bits () Bool (and (bvule shift (_ bv30 64))
+    (bvult distance_high #x0000000080000000) (bvult slope_high #x0000000080000000)
+    (or (= shift (_ bv0 64)) (bvuge distance_high #x0000000040000000) (bvuge slope_high #x0000000040000000))
+    (bvule slope_high divisor_64) (bvule divisor_64 (bvadd slope_high (_ bv1 64)))))
 (push)
-(assert (bvugt quotient #x7FFFFFFF))
+(assert (or (bvugt quotient #x7FFFFFFF)
+    (and (bvult distance #x2000000000000000) (bvult slope #x0400000000000000) (not bits))))
 (check-sat)
 (pop)
 (assert (= quotient #x7FFFFFFF))
