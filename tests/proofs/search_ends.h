@@ -8,8 +8,6 @@
 
 /*@ predicate is_closer(integer r, integer s) = -(9 * s) <= 4 * r <= 9 * s;
     predicate is_closest(integer r, integer s) = -(19 * s) <= 20 * r <= 19 * s;
-    predicate is_near(integer r, integer s) = -(s / 2) <= r <= s - s / 2;
-
     predicate ends(integer q, integer r, integer s) =
         s < 0x400000000000000 && 1 <= q && s <= 2 * r && is_close(r, s) && is_quotient(q, r, s);
     lemma ends_4: \forall integer q, r, s; 0 < s && ends(q, r, s) ==> q <= 4;

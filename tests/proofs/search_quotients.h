@@ -4,17 +4,8 @@
 #ifndef SEARCH_QUOTIENTS_H
 #define SEARCH_QUOTIENTS_H
 
-/* Products. */
-/*@ predicate is_less_squared(integer x, integer y) = x * x <= y * y;
-    lemma less_squared: \forall integer x, y; 0 <= x <= y ==> is_less_squared(x, y);
-    predicate is_less_scaled(integer x, integer y, integer z) = x * z <= y * z;
-    lemma less_scaled: \forall integer x, y, z; 0 <= z && x <= y ==> is_less_scaled(x, y, z);
-    lemma less_root: \forall integer x, y; 0 <= x && 0 <= y && is_less_squared(x, y) ==> x <= y;
-    lemma less_divided: \forall integer x, y, z; 1 <= z && x * z <= y * z ==> x <= y;
-    predicate is_gain(integer q, integer a, integer n) = 0 <= a * q <= n * a && 0 <= a * q * q <= n * n * a;
-    lemma gain_2: \forall integer q, a; 0 <= q <= 2 && 0 <= a ==> is_gain(q, a, 2);
-    lemma gain_4: \forall integer q, a; 0 <= q <= 4 && 0 <= a ==> is_gain(q, a, 4);
-*/
+#include "search_guesses.h"
+
 /* How near q is to r / s: always; at a steeper slope; within a few ticks. */
 /*@ predicate is_quotient(integer q, integer r, integer s) =
         1 <= q && 8 * (q * s - r) <= 4 * s + r && 8 * (r - q * s) <= 4 * s + r &&

@@ -6,14 +6,6 @@
 
 #include "search_ends.h"
 
-/* Position and slope `ticks` ticks later. */
-/*@ logic integer position(integer residual, integer slope, integer accel, integer ticks) =
-        residual + ticks * (slope + accel * ticks);
-    logic integer speed(integer slope, integer accel, integer ticks) = slope + 2 * accel * ticks;
-    lemma position_sum: \forall integer r, s, a, t, u; position(position(r, s, a, t), speed(s, a, t), a, u) ==
-        position(r, s, a, t + u);
-    lemma speed_sum: \forall integer s, a, t, u; speed(speed(s, a, t), a, u) == speed(s, a, t + u);
-*/
 /*@ predicate is_bettered(integer r, integer s, integer a, integer r2, integer s2) =
         is_guess(r2, s2, a) && s2 <= s + 0x800000000000 &&
         (!is_close(r, s) ==> is_tame(r2, s2, a)) &&

@@ -9,34 +9,13 @@
 
 #include "search_quotients.h"
 
-/* A residual of a few ticks. */
-/*@ predicate is_close(integer r, integer s) = -(4 * s) <= r <= 4 * s;
-    predicate is_accel(integer a) = -1024000000 <= a <= 1024000000;
-    predicate is_far_in_reach(integer r, integer s, integer a) = a * r * r <= 0x800000000000000 * (s * s) &&
-        -(a * r * r) <= 0x800000000000000 * (s * s);
-    lemma close_above: \forall integer r, s; 0 <= r && is_close(r, s) ==> is_less_squared(r, 4 * s);
-    lemma close_below: \forall integer r, s; r < 0 && is_close(r, s) ==> is_less_squared(-r, 4 * s);
-    lemma close_square: \forall integer r, s; is_close(r, s) ==> r * r <= 16 * (s * s);
-    lemma close_accel: \forall integer r, a; is_accel(a) ==>
-        is_less_scaled(a, 1024000000, r * r) && is_less_scaled(-a, 1024000000, r * r);
-    lemma close_in_reach: \forall integer r, s, a; is_close(r, s) && is_accel(a) ==> is_far_in_reach(r, s, a);
-*/
-/*@ logic integer size(integer x) = x < 0 ? -x : x;
-    logic integer curve(integer r, integer s, integer a) = s * s - 4 * a * r;
-    predicate is_crossing(integer r, integer s, integer a) = 21000000000 * 21000000000 <= curve(r, s, a);
-    predicate is_guess(integer r, integer s, integer a) = is_accel(a) && -0x2000000000000000 < r < 0x2000000000000000 &&
-        0x280000000 <= s && 10 * a <= s && -(10 * a) <= s && is_crossing(r, s, a) && is_far_in_reach(r, s, a);
-    predicate is_tame(integer r, integer s, integer a) = -(9 * a * r) <= s * s;
-    predicate is_beyond(integer r, integer s) = 4 * s < r;
-*/
 /*@ predicate is_corrected(integer q, integer r, integer s, integer a, integer r2, integer s2) =
         r2 == r - q * s + a * q * q && s2 == s - 2 * a * q;
 */
 
-/*@ lemma same_slope: \forall integer q, s, a, s2; s2 == s - 2 * a * q ==>
-        s2 * s2 == s * s - 4 * (a * q * s) + 4 * (a * a * q * q);
-    lemma same_residual: \forall integer q, r, s, a, r2; r2 == r - q * s + a * q * q ==>
-        a * r2 == a * r - a * q * s + a * a * q * q;
+/*@ lemma same_parabola: \forall integer q, r, s, a; curve(r - q * s + a * q * q, s - 2 * a * q, a) == curve(r, s, a);
+    lemma corrected_curve: \forall integer q, r, s, a, r2, s2; is_corrected(q, r, s, a, r2, s2) ==>
+        curve(r2, s2, a) == curve(r - q * s + a * q * q, s - 2 * a * q, a);
     lemma same_curve: \forall integer q, r, s, a, r2, s2; is_corrected(q, r, s, a, r2, s2) ==>
         curve(r2, s2, a) == curve(r, s, a);
 */
@@ -88,6 +67,9 @@
         (16 * (b * q * q)) * (s * s) <= (25 * 0x800000000000000) * (s * s);
     lemma wild_gain_way: \forall integer q, r, s, b; is_wild(q, r, s, b) ==>
         16 * (b * q * q) <= 25 * 0x800000000000000;
+    lemma wild_far: \forall integer q, r, s, b; is_wild(q, r, s, b) ==> is_far(r, s, b);
+    lemma wild_product: \forall integer q, r, s, b; is_wild(q, r, s, b) ==> b * r <= 0x200000000000 * s;
+    lemma wild_product_way: \forall integer q, r, s, b; is_wild(q, r, s, b) ==> 4 * ((b * q) * s) <= 5 * (b * r);
     lemma growth_scaled: \forall integer q, r, s, b; is_wild(q, r, s, b) ==>
         (4 * (b * q)) * s <= (5 * 0x200000000000) * s;
     lemma growth_gain: \forall integer q, r, s, b; is_wild(q, r, s, b) ==> 4 * (b * q) <= 5 * 0x200000000000;
