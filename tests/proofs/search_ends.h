@@ -21,13 +21,15 @@
     lemma end_up_4_gain: \forall integer q, r, s, a, r2, s2; ends_up(q, r, s, a, r2, s2) ==> is_gain(q, a, 4);
     lemma end_up_4: \forall integer q, r, s, a, r2, s2; ends_up(q, r, s, a, r2, s2) ==>
         3 * s <= 5 * s2 && s2 <= s && is_closer(r2, s2);
-    lemma end_up_2_gain: \forall integer q, r, s, a, r2, s2; ends_up(q, r, s, a, r2, s2) && is_closer(r, s) ==> is_gain(q, a, 2);
+    lemma end_up_2_gain: \forall integer q, r, s, a, r2, s2; ends_up(q, r, s, a, r2, s2) && is_closer(r, s) ==>
+        is_gain(q, a, 2);
     lemma end_up_2: \forall integer q, r, s, a, r2, s2; ends_up(q, r, s, a, r2, s2) && is_closer(r, s) ==>
         is_closest(r2, s2);
     lemma end_up_1: \forall integer q, r, s, a, r2, s2; ends_up(q, r, s, a, r2, s2) && is_closest(r, s) ==>
         r2 == r - s + a && s2 == s - 2 * a && r2 <= 0;
     lemma end_down_4_gain: \forall integer q, r, s, b, r2, s2; ends_down(q, r, s, b, r2, s2) ==> is_gain(q, b, 4);
-    lemma end_down_2_gain: \forall integer q, r, s, b, r2, s2; ends_down(q, r, s, b, r2, s2) && is_closer(r, s) ==> is_gain(q, b, 2);
+    lemma end_down_2_gain: \forall integer q, r, s, b, r2, s2; ends_down(q, r, s, b, r2, s2) && is_closer(r, s) ==>
+        is_gain(q, b, 2);
     lemma end_down_4: \forall integer q, r, s, b, r2, s2; ends_down(q, r, s, b, r2, s2) ==>
         s <= s2 <= 2 * s && s2 <= s + 0x800000000000 && is_closer(r2, s2);
     lemma end_down_2: \forall integer q, r, s, b, r2, s2; ends_down(q, r, s, b, r2, s2) && is_closer(r, s) ==>

@@ -69,7 +69,8 @@
     lemma found_way: \forall integer r, s, a, t; 2 * position(r, s, a, t) == 2 * r + t * (s + speed(s, a, t));
     lemma found_sum: \forall integer r, s, a, t; is_found(r, s, a, t) ==>
         -2 * speed(s, a, t) <= 2 * (r - STEP_QUANTA) + t * (s + speed(s, a, t)) <= 2 * speed(s, a, t);
-    lemma found_later: \forall integer r, s, a, t; 0 < s < 0x400000000000000 && is_near(r, s) && is_found(r, s, a, t) ==>
+    lemma found_later: \forall integer r, s, a, t; 0 < s < 0x400000000000000 && is_near(r, s) &&
+        is_found(r, s, a, t) ==>
         1 <= t;
     lemma found_soon: \forall integer r, s, a, t; 0 < s < 0x400000000000000 && is_near(r, s) && is_found(r, s, a, t) ==>
         t <= 0x20000000;

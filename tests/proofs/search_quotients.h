@@ -28,7 +28,8 @@
     lemma short_divisor_unit: \forall integer distance, slope, unit, high, low, divisor;
         is_short(distance, slope, unit, high, low, divisor) ==>
             slope - unit <= divisor * unit <= slope + unit;
-    predicate is_rounded(integer x, integer y, integer q) = 0 <= q && 1 <= y && 2 * (q * y - x) <= y && 2 * (x - q * y) <= y;
+    predicate is_rounded(integer x, integer y, integer q) = 0 <= q && 1 <= y && 2 * (q * y - x) <= y &&
+        2 * (x - q * y) <= y;
     lemma rounded: \forall integer x, y; 0 <= x && 1 <= y ==> is_rounded(x, y, (x + y / 2) / y);
     predicate is_cut(integer distance, integer slope, integer unit, integer high, integer low, integer divisor,
         integer q) = is_short(distance, slope, unit, high, low, divisor) && is_rounded(high, divisor, q);
