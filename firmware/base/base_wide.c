@@ -124,14 +124,14 @@ struct root {
  * and one less if that rest is negative. */
 static struct root root_of_two_words(uint64_t value)
 {
-    enum { DIGIT_BITS = 16, DIGIT_MASK = 0xFFFF };
+    enum { DIGIT = 0x10000 };
     uint32_t high = (uint32_t)(value >> HALF_BITS);
     uint32_t root = root_of_word(high);
-    uint64_t left = ((uint64_t)(high - root * root) << DIGIT_BITS) | ((value >> DIGIT_BITS) & DIGIT_MASK);
-    uint32_t half = (uint32_t)(left >> 1U);
+    uint64_t left = (uint64_t)(high - root * root) * DIGIT + value / DIGIT % DIGIT;
+    uint32_t half = (uint32_t)(left / 2U);
     uint64_t digit = half / root;
-    uint64_t rest = (((uint64_t)(half % root) << 1U | (left & 1U)) << DIGIT_BITS) | (value & DIGIT_MASK);
-    struct root result = {.root = ((uint64_t)root << DIGIT_BITS) + digit, .rest = rest - digit * digit};
+    uint64_t rest = ((uint64_t)(half % root) * 2U + left % 2U) * DIGIT + value % DIGIT;
+    struct root result = {.root = (uint64_t)root * DIGIT + digit, .rest = rest - digit * digit};
     if (rest < digit * digit) {
         result.root--;
         result.rest += 2U * result.root + 1U;
@@ -152,17 +152,30 @@ static uint64_t root_of_four_words(struct wide value)
     return wide_is_at_least(rest, wide_multiply(digit, digit)) ? root : root - 1U;
 }
 
-/* Shifted left until one of the top two bits is set, by an even number of bits, and the root back by half of it. Then
- * up if the next whole number is nearer: (root + 1/2)^2 = root^2 + root + 1/4, so the rest decides. */
+/* The root of a value of more than one word, rounded down: shifted left until one of the top two bits is set, by an even
+ * number of bits, and the root back by half of it. */
+static uint64_t root_of_long(struct wide value)
+{
+    unsigned zeros = leading_zeros(value.high);
+    unsigned half = zeros / 2U;
+    struct wide shifted = wide_shift_left(value, 2U * half);
+    uint64_t root = root_of_four_words(shifted);
+    return root >> half;
+}
+
+/* Up if the next whole number is nearer: (root + 1/2)^2 = root^2 + root + 1/4, so the rest decides. */
 uint64_t wide_root_nearest(struct wide value)
 {
     if (value.high == 0 && value.low == 0) {
         return 0;
     }
-    unsigned zeros = value.high != 0 ? leading_zeros(value.high) : WORD_BITS + leading_zeros(value.low);
-    unsigned half = zeros / 2U;
-    struct wide shifted = zeros >= WORD_BITS ? (struct wide){.high = value.low} : value;
-    uint64_t root = root_of_four_words(wide_shift_left(shifted, 2U * half % WORD_BITS)) >> half;
+    uint64_t root = 0;
+    if (value.high != 0) {
+        root = root_of_long(value);
+    } else {
+        root = root_of_long((struct wide){.high = value.low});
+        root >>= HALF_BITS;
+    }
     uint64_t rest = value.low - root * root;
     return rest > root ? root + 1U : root;
 }

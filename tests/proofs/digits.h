@@ -1,5 +1,5 @@
 /*
- * Shifts by 1, 16, 17, 31 and 33 bits, and masks of 1 and 16 bits.
+ * Shifts by 1, 16, 17, 31 and 33 bits, the mask of 1 bit, sums of bits, and wraps of 64 bits.
  */
 #ifndef DIGITS_H
 #define DIGITS_H
@@ -45,5 +45,12 @@
     lemma halves_join: \forall integer x; 0 <= x ==> (((x / 2) << 1) | (x % 2)) == x;
     lemma halves_last: \forall integer half, last; 0 <= half && 0 <= last <= 1 ==> (((half << 1) | last) & 1) == last;
     lemma mask_1: \forall integer x; 0 <= x ==> (x & 1) == x % 2;
+*/
+
+/*@ predicate sums(integer n, integer m, integer sum) = 0 <= n && 0 <= m && n + m == sum;
+    lemma sums: \forall integer n, m, sum; sums(n, m, sum) ==> power(n) * power(m) == power(sum);
+    predicate is_wrapped(integer x, integer wraps, integer rest) =
+        x == wraps * 0x10000000000000000 + rest && 0 <= rest < 0x10000000000000000;
+    lemma is_wrapped: \forall integer x, wraps, rest; is_wrapped(x, wraps, rest) ==> (uint64_t)x == rest;
 */
 #endif

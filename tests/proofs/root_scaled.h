@@ -34,6 +34,16 @@
     lemma unscaled: \forall integer v, p, high, root, rest; unscaled(v, p, high, root, rest) ==>
         root_found(v, root);
 
+    predicate scaled(integer v, integer up, integer x) = x == v * up;
+    lemma scaled_found: \forall integer v, up, x, high; scaled(v, up, x) && root_found(x, high) ==>
+        root_found(up * v, high);
+    predicate scaled_root(integer v, integer p, integer x, integer high) =
+        0 <= v && 1 <= p && 0 <= high && scaled(v, square(p), x) && root_found(x, high);
+    lemma scaled_parts: \forall integer v, p, x, high, root, rest; scaled_root(v, p, x, high) &&
+        split(high, p, root, rest) ==> unscaled(v, p, high, root, rest);
+    lemma scaled_back: \forall integer v, p, x, high, root, rest; scaled_root(v, p, x, high) &&
+        split(high, p, root, rest) ==> root_found(v, root);
+
     predicate beyond(integer v, integer root, integer limit) =
         0 <= limit && 0 <= root && v < square(limit) && square(root) <= v;
     lemma beyond_ordered: \forall integer v, root, limit; beyond(v, root, limit) && limit <= root ==>
@@ -61,12 +71,13 @@
         0 <= low * up <= 0x10000000000000000 * up - up;
     lemma room_sum: \forall integer high, low, up, down; room(high, low, up, down) ==>
         (high * 0x10000000000000000 + low) * up == 0x10000000000000000 * (high * up) + low * up;
-    lemma room: \forall integer high, low, up, down; room(high, low, up, down) ==>
-        0x80000000000000000000000000000000 <= (high * 0x10000000000000000 + low) * up <
-        0x100000000000000000000000000000000;
+    predicate large(integer v, integer up) =
+        0 <= v && 0x80000000000000000000000000000000 <= v * up < 0x100000000000000000000000000000000;
+    lemma large: \forall integer high, low, up, down; room(high, low, up, down) ==>
+        large(high * 0x10000000000000000 + low, up);
     predicate even(integer up, integer even_up) = 1 <= even_up && (up == even_up || up == 2 * even_up);
-    lemma even: \forall integer x, up, even_up; even(up, even_up) && 0 <= x &&
-        0x80000000000000000000000000000000 <= x * up < 0x100000000000000000000000000000000 ==>
-        0x40000000000000000000000000000000 <= x * even_up < 0x100000000000000000000000000000000;
+    predicate large_even(integer v, integer up) =
+        0x40000000000000000000000000000000 <= v * up < 0x100000000000000000000000000000000;
+    lemma large_even: \forall integer v, up, even_up; large(v, up) && even(up, even_up) ==> large_even(v, even_up);
 */
 #endif
