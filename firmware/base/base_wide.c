@@ -152,8 +152,8 @@ static uint64_t root_of_four_words(struct wide value)
     return wide_is_at_least(rest, wide_multiply(digit, digit)) ? root : root - 1U;
 }
 
-/* The root of a value of more than one word, rounded down: shifted left until one of the top two bits is set, by an even
- * number of bits, and the root back by half of it. */
+/* The root of a value of more than one word, rounded down: shifted left until one of the top two bits is set, by an
+ * even number of bits, and the root back by half of it. */
 static uint64_t root_of_long(struct wide value)
 {
     unsigned zeros = leading_zeros(value.high);
