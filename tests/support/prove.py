@@ -35,6 +35,21 @@ ROOT = Path(__file__).resolve().parents[2]
 PROOFS = ROOT / "tests/proofs"
 BUILD = ROOT / "build/proofs"
 PROVERS = ("cvc4", "z3")
+# Z3 with its older arithmetic, for contracts with `% provers cvc4 z3-simplex`: where there are
+# divisions, its newer one spends minutes on what Why3 says of them.
+SIMPLEX_OPTIONS = "sat.random_seed=42 smt.random_seed=42 auto_config=false smt.arith.solver=2"
+SIMPLEX = """
+[prover]
+name = "Z3"
+alternative = "simplex"
+version = "{version}"
+command = "{path} -smt2 -T:%t {options} %f"
+driver = "z3_471"
+editor = ""
+in_place = false
+interactive = false
+shortcut = "z3-simplex"
+"""
 SECONDS = 60  # for a goal and a prover; an idle machine needs 2
 VERSION = "25."  # of Frama-C: what it leaves to the provers differs from one to the next
 COMMANDS = ("frama-c", "why3", "z3", "cvc4")
@@ -46,6 +61,7 @@ INLINE = re.compile(r"^static inline [^;{]*?(\w+)\([^;{]*\)\n\{", re.MULTILINE)
 LEMMA = re.compile(r"(?<!admit )\blemma (\w+)")
 PROVED = re.compile(r"^\[wp\] Proved goals:\s+(\d+) / (\d+)$", re.MULTILINE)
 UNPROVED = re.compile(r"^\[wp\] \[(?:Failed|Timeout|Unknown|Stepout)[^\n]*$", re.MULTILINE)
+DETECTED = re.compile(r'name = "Z3"\npath = "(.+)"\nversion = "(.+)"')
 # Whatever makes WP assume more than it was told: each would hide a hole in a proof.
 ASSUMED = re.compile(
     r"^.*(?:Missing RTE|No 'assigns'|Missing assigns|No code nor|Cast with incompatible|"
@@ -166,6 +182,11 @@ def why3_configuration() -> Path:
             ["why3", "config", "detect", "-C", path],
             check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )  # fmt: skip
+    text = path.read_text()
+    found = DETECTED.search(text)
+    if found and "z3-simplex" not in text:
+        entry = SIMPLEX.format(path=found[1], version=found[2], options=SIMPLEX_OPTIONS)
+        path.write_text(text + entry)
     return path
 
 
