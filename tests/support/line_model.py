@@ -61,12 +61,25 @@ FAIL = (
     ),
     Variant("planted: a broadcast leaves a long answer", ("ACTIONS=2", "PLANT_ANSWER_KEPT")),
     Variant("planted: room for one more", ("PLANT_ROOM_FOR_ONE_MORE",), model=RING),
-    Variant("planted: seen before it is written", ("PLANT_SEEN_BEFORE_WRITTEN",), model=RING),
-    Variant("planted: taken before it is read", ("PLANT_TAKEN_TOO_SOON",), model=RING),
+    Variant(
+        "planted: seen before it is written",
+        ("BRAKES=0", "PLANT_PUSH_WITHOUT_HOLD", "PLANT_SEEN_BEFORE_WRITTEN"),
+        model=RING,
+    ),
+    Variant(
+        "planted: taken before it is read",
+        ("BRAKES=0", "PLANT_PUSH_WITHOUT_HOLD", "PLANT_TAKEN_TOO_SOON"),
+        model=RING,
+    ),
     Variant("planted: a cut without hold", ("PLANT_CUT_WITHOUT_HOLD",), model=RING),
     Variant("planted: a cut in the past", ("PLANT_NOT_LOOKED_AGAIN",), model=RING),
     Variant("planted: not started again", ("PLANT_NOT_STARTED_AGAIN",), model=RING),
     Variant("planted: a wrap inside the ring", ("PLANT_COUNTERS_WRAP_BETWEEN",), model=RING),
+    Variant("planted: a push into a closed ring", ("PLANT_CLOSED_NOT_SEEN",), model=RING),
+    Variant("planted: a push without hold", ("PLANT_PUSH_WITHOUT_HOLD",), model=RING),
+    Variant("planted: closed seen before the hold", ("PLANT_CLOSED_SEEN_BEFORE_HOLD",), model=RING),
+    Variant("planted: a cut behind a brake", ("PLANT_CUT_BEHIND_BRAKE",), model=RING),
+    Variant("planted: a splice that does not open", ("PLANT_NOT_OPENED",), model=RING),
 )
 
 
