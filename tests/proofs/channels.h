@@ -118,6 +118,7 @@ static inline uint64_t step_cursor_pulse(const struct step_cursor *cursor);
     ensures \result != STEP_CHANNEL_LOOK ==> channel->running == \old(channel->running) &&
         pulse_of(&channel->cursor) == \old(pulse_of(&channel->cursor)) + 1;
     ensures queued(channel) <= \old(queued(channel));
+    ensures \old(queued(channel)) == 0 ==> channel->cursor.end == \old(channel->cursor.end);
 */
 static inline unsigned step_channel_next_isr(struct step_channel *channel);
 
@@ -173,6 +174,7 @@ static void channel_push(struct step_channel *channel, const struct step_segment
     ensures is_moving(channel);
     ensures made_by(channel) == \old(pulse_of(&channel->cursor));
     ensures queued(channel) <= \old(queued(channel));
+    ensures \old(queued(channel)) == 0 ==> channel->cursor.end == \old(channel->cursor.end);
 */
 void step_channel_run(struct step_channel *channel);
 
