@@ -25,6 +25,7 @@
         distance((uint32_t)(x + 1), y) == distance(x, y) + 1;
     lemma distance_down: \forall integer x, y; is_count(x) && is_count(y) && distance(x, y) > 0 ==>
         distance(x, (uint32_t)(y + 1)) == distance(x, y) - 1;
+    lemma distance_none: \forall integer x, y; is_count(x) && is_count(y) && distance(x, y) == 0 ==> x == y;
     lemma slot_range: \forall integer tail, i; 0 <= tail && 0 <= i ==> 0 <= slot(tail, i) < 32;
     lemma slot_first: \forall integer tail; slot(tail, 0) == tail % 32;
     lemma slot_last: \forall integer x, y; is_count(x) && is_count(y) ==> slot(y, distance(x, y)) == x % 32;
