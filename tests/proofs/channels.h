@@ -185,4 +185,45 @@ void step_channel_run(struct step_channel *channel);
 */
 bool step_channel_is_running(const struct step_channel *channel);
 
+/*@ requires \valid_read(cursor) && cursor_is_sound(cursor);
+    assigns \nothing;
+    ensures \result ==> pulse_of(cursor) > 1;
+*/
+static bool cursor_can_go_back(const struct step_cursor *cursor);
+
+/*@ requires \valid(cursor) && cursor_is_sound(cursor);
+    requires pulse_of(cursor) > 1 && cursor->left < UINT32_MAX;
+    assigns *cursor;
+    ensures cursor_is_sound(cursor) && pulse_of(cursor) == \old(pulse_of(cursor)) - 1;
+    ensures cursor->left == \old(cursor->left) + 1 && cursor->end == \old(cursor->end);
+    ensures cursor->tail == \old(cursor->tail);
+*/
+static void cursor_go_back(struct step_cursor *cursor);
+
+/*@ requires is_moving(channel) && \valid(cursor) && \separated(cursor, channel);
+    assigns *cursor;
+    ensures \result <==> channel->running;
+    ensures cursor_is_sound(cursor) && cursor->end == channel->cursor.end && cursor->tail == channel->cursor.tail;
+    ensures pulse_of(cursor) == pulse_of(&channel->cursor) ||
+        (\result && pulse_of(cursor) == pulse_of(&channel->cursor) - 1);
+    ensures \result ==> pulse_of(cursor) >= 1;
+*/
+bool step_channel_look(const struct step_channel *channel, uint32_t since, struct step_cursor *cursor);
+
+/*@ requires is_sound(channel) && is_numbered(channel) && pulse_of(&channel->cursor) <= pulse;
+    requires \exists integer i; is_within(channel, pulse, i);
+    assigns channel->cursor.left, channel->cursor.end, channel->queue[0 .. 31].steps, channel->head;
+    ensures is_sound(channel) && pulse_of(&channel->cursor) == \old(pulse_of(&channel->cursor));
+    ensures queued(channel) <= \old(queued(channel));
+    ensures first: \forall integer i; 0 <= i <= \old(queued(channel)) && pulse <= last_on(i) ==> queued(channel) <= i;
+    ensures present: queued(channel) == 0 ==> channel->cursor.end == pulse;
+    ensures others: queued(channel) > 0 ==> channel->cursor.end == \old(channel->cursor.end);
+    ensures kept: \forall integer i; 0 <= i < queued(channel) - 1 ==>
+        channel->queue[slot(channel->cursor.tail, i)].steps ==
+            \old(channel->queue[slot(channel->cursor.tail, i)].steps);
+    ensures last: queued(channel) > 0 ==>
+        channel->queue[slot(channel->cursor.tail, queued(channel) - 1)].steps == pulse - last_on(queued(channel) - 1);
+*/
+static void channel_truncate(struct step_channel *channel, uint64_t pulse);
+
 #endif
