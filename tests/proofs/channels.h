@@ -163,10 +163,15 @@ static bool cursor_advance(struct step_cursor *cursor, const struct step_channel
     assigns channel->queue[channel->head % 32], channel->head;
     ensures is_sound(channel) && queued(channel) == \old(queued(channel)) + 1;
     ensures channel->head == (uint32_t)(\old(channel->head) + 1);
+    ensures channel->cursor.tail == \old(channel->cursor.tail) && channel->cursor.left == \old(channel->cursor.left) &&
+        channel->cursor.end == \old(channel->cursor.end);
     ensures channel->queue[\old(channel->head) % 32].steps == \old(segment->steps);
     ensures slot(channel->cursor.tail, \old(queued(channel))) == \old(channel->head) % 32;
     ensures \forall integer i; 0 <= i < \old(queued(channel)) ==>
         slot(channel->cursor.tail, i) != \old(channel->head) % 32;
+    ensures kept: \forall integer i; 0 <= i < \old(queued(channel)) ==>
+        channel->queue[slot(channel->cursor.tail, i)].steps ==
+            \old(channel->queue[slot(channel->cursor.tail, i)].steps);
 */
 static void channel_push(struct step_channel *channel, const struct step_segment *segment);
 
