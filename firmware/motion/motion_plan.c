@@ -13,6 +13,8 @@ static const uint64_t PIECE_PULSES = UINT64_C(1) << 30;
 /* Times up to the end of a ramp, V^2/2A pulses, stay below that with any speed and acceleration. */
 static_assert((uint64_t)STEP_SPEED_MAX * STEP_SPEED_MAX / 2U < (UINT64_C(1) << 37), "a ramp's way must be countable");
 
+/* The last ramp of a run without end lies behind that, the end of any other move before it. */
+static const uint64_t ENDLESS_RAMP_STEP = MOTION_ENDLESS_STEPS - (UINT64_C(1) << 37);
 static_assert(MOTION_STEPS_MAX < MOTION_ENDLESS_STEPS - (UINT64_C(1) << 37),
               "the last ramp of a run without end must lie behind the end of any other move");
 
@@ -371,7 +373,7 @@ static unsigned section_corners(const struct motion_profile *profile, struct mot
 static unsigned close_corners(struct motion_corner corners[MOTION_CORNERS_MAX], unsigned count)
 {
     corners[count - 1U].speed_steps_per_s = 0;
-    while (corners[count - 1U].step > MOTION_STEPS_MAX) {
+    while (corners[count - 1U].step >= ENDLESS_RAMP_STEP) {
         count--;
     }
     return count;

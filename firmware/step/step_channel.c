@@ -163,7 +163,8 @@ bool step_channel_cut(struct step_channel *channel, const struct step_cursor *at
 {
     hal_step_hold();
     bool in_time = step_channel_is_running(channel) && !channel->closed &&
-                   step_cursor_pulse(&channel->cursor) <= step_cursor_pulse(at);
+                   step_cursor_pulse(&channel->cursor) <= step_cursor_pulse(at) &&
+                   at->tail - channel->cursor.tail + count <= STEP_QUEUE_SEGMENTS;
     if (in_time) {
         channel_truncate(channel, step_cursor_pulse(at));
         for (unsigned i = 0; i < count; i++) {

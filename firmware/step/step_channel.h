@@ -91,7 +91,8 @@ void step_channel_splice(struct step_channel *channel, const struct step_cursor 
                          const struct step_segment *segment);
 
 /* From the pulse `at` on, nothing that was queued is left, and `count` new segments follow. False, and nothing is
- * changed, if the motor has gone past that pulse in the meantime, or brakes. */
+ * changed, if the motor has gone past that pulse in the meantime, or brakes, or if the queue has no room for so many
+ * behind it. */
 bool step_channel_cut(struct step_channel *channel, const struct step_cursor *at, const struct step_segment *segments,
                       unsigned count);
 

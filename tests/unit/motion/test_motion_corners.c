@@ -166,6 +166,18 @@ void test_a_stop_shows_where_it_began_and_where_it_ends(void)
     assert_corners(expected, 3);
 }
 
+/* After most of a year at 400 000 steps/s. */
+void test_a_late_stop_of_a_run_without_end_is_shown_too(void)
+{
+    const uint64_t late = MOTION_STEPS_MAX + 1U;
+    const struct motion_corner expected[] = {{1, 100}, {late, 1000}, {late + 247U, 0}};
+    const struct motion_point at = {.step = late, .speed2 = 1000000};
+    begin_single(MOTION_ENDLESS_STEPS, 100, 1000, 2000);
+    TEST_ASSERT_TRUE(motion_plan_stop(&plan, &at));
+
+    assert_corners(expected, 3);
+}
+
 void test_a_stop_at_the_start_speed_ends_where_it_began(void)
 {
     const struct motion_corner expected[] = {{1, 100}, {1000, 0}};

@@ -222,6 +222,24 @@ void test_a_cut_hands_over_all_segments_that_are_to_follow(void)
     TEST_ASSERT_EQUAL_UINT32(START + 11 * INTERVAL, step_channel_end_tick(&channel));
 }
 
+void test_a_cut_that_finds_no_room_behind_its_pulse_changes_nothing(void)
+{
+    step_channel_begin(&channel, START, false);
+    push(0, 1);
+    step_channel_run(&channel);
+    for (uint32_t i = 1; i <= STEP_QUEUE_SEGMENTS; i++) {
+        push(i, 1);
+    }
+    struct step_cursor last = foresee_pulse(STEP_QUEUE_SEGMENTS + 1);
+    struct step_cursor before = foresee_pulse(STEP_QUEUE_SEGMENTS);
+
+    TEST_ASSERT_FALSE(cut_at(&last));
+    TEST_ASSERT_EQUAL_UINT32(0, step_channel_room(&channel));
+    TEST_ASSERT_TRUE(cut_at(&before));
+
+    TEST_ASSERT_EQUAL_UINT(STEP_QUEUE_SEGMENTS + 2, run_to_the_end());
+}
+
 void test_a_cut_gives_the_room_of_what_it_dropped_back(void)
 {
     step_channel_begin(&channel, START, false);
