@@ -14,9 +14,8 @@ static const uint64_t PIECE_PULSES = UINT64_C(1) << 30;
 static_assert((uint64_t)STEP_SPEED_MAX * STEP_SPEED_MAX / 2U < (UINT64_C(1) << 37), "a ramp's way must be countable");
 
 /* The last ramp of a run without end lies behind that, the end of any other move before it. */
-static const uint64_t ENDLESS_RAMP_STEP = MOTION_ENDLESS_STEPS - (UINT64_C(1) << 37);
-static_assert(MOTION_STEPS_MAX < MOTION_ENDLESS_STEPS - (UINT64_C(1) << 37),
-              "the last ramp of a run without end must lie behind the end of any other move");
+#define ENDLESS_RAMP_STEP (MOTION_ENDLESS_STEPS - (UINT64_C(1) << 37))
+static_assert(MOTION_STEPS_MAX < ENDLESS_RAMP_STEP, "a move's end must be told from that of a run without end");
 
 static uint64_t lower(uint64_t a, uint64_t b)
 {

@@ -74,8 +74,8 @@
         1 <= t;
     predicate is_within_step(integer t, integer w) = (t - 2) * w <= 2 * STEP_QUANTA;
     lemma soon: \forall integer t, w; 0x280000000 <= w && is_within_step(t, w) ==> t <= 0x20000000;
-    lemma found_within: \forall integer r, s, a, t; 0 < s < 0x400000000000000 && is_near(r, s) && is_found(r, s, a, t) ==>
-        is_within_step(t, s + speed(s, a, t));
+    lemma found_within: \forall integer r, s, a, t; 0 < s < 0x400000000000000 && is_near(r, s) &&
+        is_found(r, s, a, t) ==> is_within_step(t, s + speed(s, a, t));
     lemma found_soon: \forall integer r, s, a, t; 0 < s < 0x400000000000000 && is_near(r, s) && is_found(r, s, a, t) ==>
         t <= 0x20000000;
 */
