@@ -39,6 +39,8 @@
         section == plan->first ?
             begin_of(&plan->order, section) + plan->order.section[section].steps - plan->origin.step :
             plan->order.section[section].steps;
+    logic integer way_begin(struct motion_plan *plan, integer section) =
+        section == plan->first ? plan->origin.step : begin_of(&plan->order, section);
     logic integer way_gain(struct motion_plan *plan, integer section) =
         gain_of(plan->order.section[section].accel_steps_per_s2, way_steps(plan, section));
     logic integer full_gain(struct motion_order *order, integer section) =
@@ -117,7 +119,7 @@ static uint64_t section_begin(const struct motion_plan *plan, unsigned section);
     ensures \result.start_speed_steps_per_s == plan->order.start_speed_steps_per_s;
     ensures speed_in_range(\result.speed_steps_per_s) && speed_in_range(\result.start_speed_steps_per_s);
     ensures 1 <= \result.accel_steps_per_s2 <= STEP_ACCEL_MAX;
-    ensures \result.begin <= 10 * MOTION_ENDLESS_STEPS;
+    ensures \result.begin == way_begin(plan, section) && \result.begin <= 10 * MOTION_ENDLESS_STEPS;
     ensures \result.jumps == jumps_of(plan, section);
     ensures \result.enter_speed2 == enter_speed2 && \result.exit_speed2 == plan->exit_speed2[section];
 */
