@@ -46,8 +46,8 @@ static inline void search_shorten(struct search *search, uint32_t ticks, int32_t
     search->interval -= ticks;
 }
 
-/* distance / slope rounded to the nearest, at least 1. Both are shifted until they fit 31 bits, which leaves it an eighth
- * off at most. */
+/* distance / slope rounded to the nearest, at least 1. Both are shifted until they fit 31 bits, which leaves it an
+ * eighth off at most. */
 static inline uint32_t search_quotient(uint64_t distance, uint64_t slope)
 {
     unsigned shift = wide_bits((uint32_t)((distance | slope) >> 31U));

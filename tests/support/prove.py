@@ -60,7 +60,11 @@ INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 INLINE = re.compile(r"^static inline [^;{]*?(\w+)\([^;{]*\)\n\{", re.MULTILINE)
 LEMMA = re.compile(r"(?<!admit )\blemma (\w+)")
 PROVED = re.compile(r"^\[wp\] Proved goals:\s+(\d+) / (\d+)$", re.MULTILINE)
-UNPROVED = re.compile(r"^\[wp\] \[(?:Failed|Timeout|Unknown|Stepout)[^\n]*$", re.MULTILINE)
+# With one prover, what it said stands behind the goal.
+UNPROVED = re.compile(
+    r"^\[wp\] \[(?:(?:Failed|Timeout|Unknown|Stepout)|[^]\n]*\] Goal \w+ : (?!Valid))[^\n]*$",
+    re.MULTILINE,
+)
 DETECTED = re.compile(r'name = "Z3"\npath = "(.+)"\nversion = "(.+)"')
 # Whatever makes WP assume more than it was told: each would hide a hole in a proof.
 ASSUMED = re.compile(
