@@ -100,6 +100,31 @@
             can_leave(&plan->order, i, plan->exit_speed2[i]);
 */
 
+/* What a plan keeps between two places of the code. */
+/*@ predicate keeps_steps{A, B}(struct motion_order *order) =
+        \forall integer k; 0 <= k < MOTION_SECTIONS ==>
+            \at(order->section[k].steps, A) == \at(order->section[k].steps, B);
+    predicate keeps_accel{A, B}(struct motion_order *order) =
+        \forall integer k; 0 <= k < MOTION_SECTIONS ==>
+            \at(order->section[k].accel_steps_per_s2, A) == \at(order->section[k].accel_steps_per_s2, B);
+    predicate keeps_speeds{A, B}(struct motion_order *order) =
+        \forall integer k; 0 <= k < MOTION_SECTIONS ==>
+            \at(order->section[k].speed_steps_per_s, A) == \at(order->section[k].speed_steps_per_s, B);
+    predicate keeps_order{A, B}(struct motion_order *order) =
+        \at(order->sections, A) == \at(order->sections, B) &&
+        \at(order->start_speed_steps_per_s, A) == \at(order->start_speed_steps_per_s, B) &&
+        keeps_steps{A, B}(order) && keeps_accel{A, B}(order) && keeps_speeds{A, B}(order);
+    predicate keeps_exits{A, B}(struct motion_plan *plan) =
+        \forall integer k; 0 <= k < MOTION_SECTIONS ==> \at(plan->exit_speed2[k], A) == \at(plan->exit_speed2[k], B);
+    predicate keeps_origin{A, B}(struct motion_plan *plan) =
+        \at(plan->first, A) == \at(plan->first, B) && \at(plan->changed, A) == \at(plan->changed, B) &&
+        \at(plan->stopping, A) == \at(plan->stopping, B) &&
+        \at(plan->origin.time.ticks, A) == \at(plan->origin.time.ticks, B) &&
+        \at(plan->origin.time.fraction, A) == \at(plan->origin.time.fraction, B) &&
+        \at(plan->origin.step, A) == \at(plan->origin.step, B) &&
+        \at(plan->origin.speed2, A) == \at(plan->origin.speed2, B);
+*/
+
 /*@ assigns \nothing;
     ensures \result == least(a, b);
 */

@@ -20,8 +20,6 @@
             begin_of(order, i) <= step < begin_of(order, i) + order->section[i].steps ==>
                 can_leave(order, i, speed2 - gain_of(order->section[i].accel_steps_per_s2,
                     begin_of(order, i) + order->section[i].steps - step));
-    predicate is_brakeable(struct motion_plan *plan) = can_leave_all(plan) &&
-        can_leave(&plan->order, plan->first, plan->origin.speed2 - way_gain(plan, plan->first));
     predicate is_rewound_to(struct motion_plan *plan, integer ticks, integer fraction, integer step, integer section) =
         plan->progress.time.ticks == ticks && plan->progress.time.fraction == fraction &&
         plan->progress.place.step == step && plan->progress.place.quanta == 0 &&
@@ -33,8 +31,17 @@
 
 /*@ requires \valid(plan);
     assigns plan->progress;
-    ensures is_rewound_to(plan, \old(plan->origin.time.ticks), \old(plan->origin.time.fraction),
+    ensures rewound_to: is_rewound_to(plan, \old(plan->origin.time.ticks), \old(plan->origin.time.fraction),
         \old(plan->origin.step), \old(plan->first));
+    ensures kept: keeps_order{Old, Post}(&plan->order) && keeps_origin{Old, Post}(plan) && keeps_exits{Old, Post}(plan);
+    ensures kept_rewound: is_rewound_to(plan, \old(plan->origin.time.ticks), \old(plan->origin.time.fraction),
+        \old(plan->origin.step), \old(plan->first)) ==> is_rewound(plan);
+    ensures kept_ready: \old(is_ready(plan)) ==> is_ready(plan);
+    ensures kept_plan: \old(is_plan(plan)) ==> is_plan(plan);
+    ensures kept_left: \old(is_plan(plan) && can_leave_all(plan)) ==> can_leave_all(plan);
+    ensures kept_leaves: \old(is_plan(plan) && can_leave(&plan->order, plan->first,
+        plan->origin.speed2 - way_gain(plan, plan->first))) ==>
+            can_leave(&plan->order, plan->first, plan->origin.speed2 - way_gain(plan, plan->first));
 */
 static void rewind_to_origin(struct motion_plan *plan);
 
@@ -54,5 +61,17 @@ static void plan_brake(struct motion_plan *plan);
     ensures speed2_in_range(plan->origin.speed2);
 */
 static void take_order(struct motion_plan *plan, const struct motion_order *order, uint64_t start_tick);
+
+/*@ requires \valid(plan) && \valid_read(at) && \separated(plan, at) && has_order(plan);
+    requires lies_on(&plan->order, at->step, at->speed2);
+    assigns *plan;
+    ensures \result <==> !\old(plan->stopping) && \old(at->step < begin_of(&plan->order, plan->order.sections));
+    ensures !\result ==> *plan == \old(*plan);
+    ensures \result ==> is_ready(plan);
+    ensures \result ==> is_rewound(plan);
+    ensures \result ==> plan->stopping && plan->order.sections <= \old(plan->order.sections);
+    ensures \result ==> plan->origin.step == \old(at->step) && plan->origin.speed2 == \old(at->speed2);
+*/
+bool motion_plan_stop(struct motion_plan *plan, const struct motion_point *at);
 
 #endif
