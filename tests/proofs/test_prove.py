@@ -13,6 +13,7 @@ from prove import (
     Contracts,
     Mismatch,
     Result,
+    digest,
     missing,
     prove,
     prove_lemmas,
@@ -119,6 +120,15 @@ def test_the_lemmas_of_a_header_are_proved_where_they_stand() -> None:
     contracts = Contracts("no_lemmas", text='#include "shifts.h"\n')
 
     assert prove_lemmas(contracts) == Result("no_lemmas")
+
+
+def test_a_change_of_a_source_or_a_header_is_not_as_it_was_proved(tmp_path: Path) -> None:
+    path = PROOFS / "base_tick.acsl"
+    other = planted(tmp_path, "firmware/base/base_tick.c", "(a, b) < 0", "(a, b) <= 0")
+
+    assert digest(put_together(path)) == digest(put_together(path))
+    assert digest(put_together(path)) != digest(put_together(path, other))
+    assert digest(Contracts("a", text='#include "shifts.h"\n')) != digest(Contracts("a"))
 
 
 def test_contracts_for_a_line_that_is_gone_do_not_fit(tmp_path: Path) -> None:

@@ -1,6 +1,6 @@
 """Proves the contracts in the *.acsl files of tests/proofs with Frama-C's WP.
 
-    python tests/support/prove.py [NAME...]
+    python tests/support/prove.py [--all] [--record] [NAME...]
 
 and the lemmas of the headers there. A file of contracts is C text, then parts that begin with a
 `%` line:
@@ -16,11 +16,17 @@ and the lemmas of the headers there. A file of contracts is C text, then parts t
 
 Each LINE is looked for behind the one before it. If it is not there, the source has changed and the
 proof has to follow: the run fails.
+
+proved.json says what has been proved: a digest of each file with all that it includes, and the
+number of its goals. What is as it was then is proved again with --all, or if it is named; --record
+writes down what this run has proved.
 """
 
 from __future__ import annotations
 
 import argparse
+import hashlib
+import json
 import os
 import re
 import shutil
@@ -34,6 +40,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 PROOFS = ROOT / "tests/proofs"
 BUILD = ROOT / "build/proofs"
+RECORD = PROOFS / "proved.json"
 PROVERS = ("cvc4", "z3")
 # Z3 with its older arithmetic, for contracts with `% provers cvc4 z3-simplex`: where there are
 # divisions, its newer one spends minutes on what Why3 says of them.
@@ -216,11 +223,25 @@ def prove_lemmas(contracts: Contracts, seconds: int = SECONDS) -> Result:
     return replace(result, name=contracts.name)
 
 
-def prove_file(path: Path, seconds: int = SECONDS, extra: Sequence[str] = ()) -> Result:
-    """One file of contracts, or the lemmas of a header."""
+def read(path: Path) -> Contracts:
+    """A file of contracts, or a header for its lemmas."""
     if path.suffix == ".h":
-        return prove_lemmas(Contracts(path.name, text=path.read_text()), seconds)
-    return prove(put_together(path), seconds, extra)
+        return Contracts(path.name, text=path.read_text())
+    return put_together(path)
+
+
+def digest(contracts: Contracts) -> str:
+    """Of all that a proof depends on, but the provers and this file."""
+    headers = sorted(_headers(contracts.text, {}).items())
+    return hashlib.sha256(repr((VERSION, contracts, headers)).encode()).hexdigest()
+
+
+def recorded() -> dict[str, dict[str, str | int]]:
+    """By file: the digest and the goals of what was proved."""
+    if not RECORD.exists():
+        return {}
+    record: dict[str, dict[str, str | int]] = json.loads(RECORD.read_text())
+    return record
 
 
 def files(names: Sequence[str] = ()) -> list[Path]:
@@ -278,6 +299,8 @@ def missing() -> list[str]:
 def main() -> int:
     parser = argparse.ArgumentParser(prog="prove.py", description="Proves the contracts.")
     parser.add_argument("names", nargs="*", help="files, without .acsl or .h; all if none")
+    parser.add_argument("--all", action="store_true", help="also what is as it was proved")
+    parser.add_argument("--record", action="store_true", help="write down what is proved")
     parser.add_argument("--seconds", type=int, default=SECONDS, help="for each goal and prover")
     parser.add_argument("--wp", action="append", default=[], help="one more option for Frama-C")
     options = parser.parse_args()
@@ -285,17 +308,32 @@ def main() -> int:
         print(f"not installed: {', '.join(absent)}")
         return 77
     good = True
+    before, proved = recorded(), {}
     for path in files(options.names):
         try:
-            result = prove_file(path, options.seconds, options.wp)
+            contracts = read(path)
         except Mismatch as error:
             print(f"{path.name}: {error}")
             good = False
             continue
+        known = before.get(path.name, {})
+        if known.get("digest") == digest(contracts) and not options.all and not options.names:
+            print(f"{path.name}: as it was proved ({known['goals']} goals)", flush=True)
+            proved[path.name] = known
+            continue
+        is_header = path.suffix == ".h"
+        result = (
+            prove_lemmas(contracts, options.seconds) if is_header
+            else prove(contracts, options.seconds, options.wp)
+        )  # fmt: skip
         print(result, flush=True)
         for complaint in result.complaints:
             print(f"    {complaint}")
+        if result.is_good() and not options.wp:
+            proved[path.name] = {"digest": digest(contracts), "goals": result.goals}
         good = good and result.is_good()
+    if options.record:
+        RECORD.write_text(json.dumps({**before, **proved}, indent=1, sort_keys=True) + "\n")
     return 0 if good else 1
 
 

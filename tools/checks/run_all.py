@@ -187,7 +187,7 @@ def python_style() -> Count:
     )
 
 
-def begin_proofs(script: str) -> Callable[[], Count]:
+def begin_proofs(script: str, *options: str) -> Callable[[], Count]:
     """Starts proofs, which take minutes of one core, beside what needs no more than another.
 
     What it returns waits for their end: one line for each; status 77 means that a tool is missing.
@@ -196,7 +196,7 @@ def begin_proofs(script: str) -> Callable[[], Count]:
     log = BUILD / f"{script}.log"
     with log.open("w") as output:
         process = subprocess.Popen(
-            ["nice", sys.executable, ROOT / "tests/support" / script], cwd=ROOT,
+            ["nice", sys.executable, ROOT / "tests/support" / script, *options], cwd=ROOT,
             stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
         )  # fmt: skip
 
@@ -221,7 +221,8 @@ def steps(quick: bool, fuzz_seconds: int = FUZZ_SECONDS) -> dict[str, Callable[[
     }
     if quick:
         return chosen
-    contracts, models = begin_proofs("prove.py"), begin_proofs("line_model.py")
+    every = ["--all"] if fuzz_seconds > FUZZ_SECONDS else []
+    contracts, models = begin_proofs("prove.py", *every), begin_proofs("line_model.py")
     chosen["House limits"] = lambda: check(sys.executable, "tools/checks/house.py")
     chosen["Python style and types"] = python_style
     chosen["Static analysis (clang-tidy, complexity, MISRA)"] = lambda: (
