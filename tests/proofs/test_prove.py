@@ -116,7 +116,7 @@ def test_a_wrong_lemma_is_not_believed() -> None:
     assert any("typed_lemma_wrong" in complaint for complaint in result.complaints)
 
 
-def test_the_lemmas_of_a_header_are_proved_where_they_stand() -> None:
+def test_the_lemmas_of_a_header_are_left_to_the_header() -> None:
     contracts = Contracts("no_lemmas", text='#include "shifts.h"\n')
 
     assert prove_lemmas(contracts) == Result("no_lemmas")

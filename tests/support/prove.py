@@ -333,7 +333,9 @@ def main() -> int:
             proved[path.name] = {"digest": digest(contracts), "goals": result.goals}
         good = good and result.is_good()
     if options.record:
-        RECORD.write_text(json.dumps({**before, **proved}, indent=1, sort_keys=True) + "\n")
+        there = {path.name for path in files()}
+        kept = {name: entry for name, entry in {**before, **proved}.items() if name in there}
+        RECORD.write_text(json.dumps(kept, indent=1, sort_keys=True) + "\n")
     return 0 if good else 1
 
 
