@@ -53,6 +53,8 @@
     lemma keeps_ready{A, B}: \forall struct motion_plan *plan;
         keeps_order{A, B}(\at(&plan->order, A)) && keeps_origin{A, B}(plan) && keeps_exits{A, B}(plan) &&
         0 <= \at(plan->first, A) && is_ready{A}(plan) ==> is_ready{B}(plan);
+    lemma laid_is_ready: \forall struct motion_plan *plan;
+        is_plan(plan) && has_exits(plan) && is_laid(plan) && !plan->stopping ==> is_ready(plan);
 */
 
 #endif

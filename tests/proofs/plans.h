@@ -176,6 +176,7 @@ static uint64_t brakeable(const struct motion_plan *plan, unsigned section);
     ensures \forall integer i; plan->first <= i < plan->order.sections ==> is_backed(plan, i);
     ensures \forall integer i; plan->first <= i < plan->order.sections ==> is_highest(plan, i);
     ensures can_leave_all(plan);
+    ensures keeps_order{Old, Post}(&plan->order) && keeps_origin{Old, Post}(plan);
 */
 static void look_backward(struct motion_plan *plan);
 
@@ -187,6 +188,9 @@ static void look_backward(struct motion_plan *plan);
     assigns plan->exit_speed2[plan->first .. plan->order.sections - 1];
     ensures has_exits(plan) && is_laid(plan);
     ensures can_leave_all(plan);
+    ensures keeps_order{Old, Post}(&plan->order) && keeps_origin{Old, Post}(plan);
+    ensures is_plan(plan);
+    ensures can_leave(&plan->order, plan->first, plan->origin.speed2 - way_gain(plan, plan->first));
 */
 static void look_forward(struct motion_plan *plan);
 

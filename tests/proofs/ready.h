@@ -62,6 +62,17 @@ static void plan_brake(struct motion_plan *plan);
 */
 static void take_order(struct motion_plan *plan, const struct motion_order *order, uint64_t start_tick);
 
+/*@ requires \valid(plan) && \valid_read(order) && \separated(plan, order) && is_order(order);
+    assigns *plan;
+    ensures is_ready(plan) && is_rewound(plan) && is_plan(plan);
+    ensures can_leave_all(plan);
+    ensures can_leave(&plan->order, plan->first, plan->origin.speed2 - way_gain(plan, plan->first));
+    ensures is_order(&plan->order) && !plan->stopping && !plan->changed && plan->first == 0;
+    ensures plan->origin.time.ticks == start_tick && plan->origin.time.fraction == 0 && plan->origin.step == 0;
+    ensures plan->begin_speed2 == plan->origin.speed2 && speed2_in_range(plan->begin_speed2);
+*/
+void motion_plan_begin(struct motion_plan *plan, const struct motion_order *order, uint64_t start_tick);
+
 /*@ requires \valid(plan) && \valid_read(at) && \separated(plan, at) && has_order(plan);
     requires lies_on(&plan->order, at->step, at->speed2);
     assigns *plan;
@@ -71,7 +82,22 @@ static void take_order(struct motion_plan *plan, const struct motion_order *orde
     ensures \result ==> is_rewound(plan);
     ensures \result ==> plan->stopping && plan->order.sections <= \old(plan->order.sections);
     ensures \result ==> plan->origin.step == \old(at->step) && plan->origin.speed2 == \old(at->speed2);
+    ensures plan->begin_speed2 == \old(plan->begin_speed2);
 */
 bool motion_plan_stop(struct motion_plan *plan, const struct motion_point *at);
+
+/*@ requires \valid(plan) && \valid_read(at) && \separated(plan, at) && has_order(plan);
+    requires lies_on(&plan->order, at->step, at->speed2) && speed_in_range(speed_steps_per_s);
+    assigns *plan;
+    ensures \result <==> !\old(plan->stopping) && \old(at->step < begin_of(&plan->order, plan->order.sections));
+    ensures !\result ==> *plan == \old(*plan);
+    ensures \result ==> is_ready(plan) && is_rewound(plan) && is_plan(plan);
+    ensures \result ==> can_leave_all(plan);
+    ensures \result ==> can_leave(&plan->order, plan->first, plan->origin.speed2 - way_gain(plan, plan->first));
+    ensures \result ==> !plan->stopping && plan->changed && plan->order.sections == \old(plan->order.sections);
+    ensures \result ==> plan->origin.step == \old(at->step) && plan->origin.speed2 == \old(at->speed2);
+    ensures plan->begin_speed2 == \old(plan->begin_speed2);
+*/
+bool motion_plan_change_speed(struct motion_plan *plan, const struct motion_point *at, uint32_t speed_steps_per_s);
 
 #endif
