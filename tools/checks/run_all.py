@@ -130,7 +130,7 @@ def python_tests() -> Count:
     results.unlink(missing_ok=True)
     command = [
         *PYTHON, "pytest", "-q", "-c", CONFIG, "--rootdir", str(ROOT), "--junitxml", str(results),
-        "--hypothesis-profile", "ci", "tests",
+        "--hypothesis-profile", "ci", "--numprocesses", "logical", "--dist", "loadfile", "tests",
     ]  # fmt: skip
     status = subprocess.run(command, cwd=ROOT, env=ENVIRONMENT, stdin=subprocess.DEVNULL).returncode
     suite = ElementTree.parse(results).getroot().find("testsuite") if results.exists() else None

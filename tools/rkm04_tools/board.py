@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import fcntl
 import json
 import re
 import shlex
 import shutil
 import subprocess
 from argparse import Namespace
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -93,9 +96,19 @@ def build(board: str) -> Image:
     if not shutil.which(COMPILER):
         _call([str(ROOT / "tools" / "setup"), "board"], "the compiler cannot be installed")
     configure = ["cmake", "--preset", "stm32", "-B", str(image.folder), f"-DRKM04_BOARD={board}"]
-    _call(configure, "the build cannot be set up")
-    _call(["cmake", "--build", str(image.folder)], "the image does not build")
+    with _alone_in(image.folder):
+        _call(configure, "the build cannot be set up")
+        _call(["cmake", "--build", str(image.folder)], "the image does not build")
     return image
+
+
+@contextmanager
+def _alone_in(folder: Path) -> Iterator[None]:
+    """Hold off other builds in the same folder: two at once break each other."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / "build.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 def _call(command: list[str], complaint: str) -> None:
