@@ -38,6 +38,14 @@
     lemma keeps_has_exits{A, B}: \forall struct motion_plan *plan;
         \at(plan->order.sections, A) == \at(plan->order.sections, B) <= MOTION_SECTIONS && 0 <= \at(plan->first, A) &&
         keeps_origin{A, B}(plan) && keeps_exits{A, B}(plan) && has_exits{A}(plan) ==> has_exits{B}(plan);
+    lemma keeps_braked_all{A, B}: \forall struct motion_plan *plan;
+        keeps_order{A, B}(\at(&plan->order, A)) && keeps_origin{A, B}(plan) && keeps_exits{A, B}(plan) &&
+        0 <= \at(plan->first, A) && \at(plan->order.sections, A) <= MOTION_SECTIONS &&
+        is_braked_all{A}(plan) ==> is_braked_all{B}(plan);
+    lemma keeps_braked_through{A, B}: \forall struct motion_plan *plan, integer i;
+        keeps_order{A, B}(\at(&plan->order, A)) && keeps_origin{A, B}(plan) && keeps_exits{A, B}(plan) &&
+        0 <= \at(plan->first, A) <= i < MOTION_SECTIONS - 1 &&
+        is_braked_through{A}(plan, i) ==> is_braked_through{B}(plan, i);
     lemma keeps_braked{A, B}: \forall struct motion_plan *plan;
         keeps_order{A, B}(\at(&plan->order, A)) && keeps_origin{A, B}(plan) && keeps_exits{A, B}(plan) &&
         0 <= \at(plan->first, A) && \at(plan->order.sections, A) <= MOTION_SECTIONS &&

@@ -8,16 +8,22 @@
 #include "places.h"
 #include "step_generator.h"
 
-/*@ predicate is_slope(integer slope) = STEP_SLOPE_PER_SPEED <= slope <= 0x40000000000000;
+/*@ logic integer leg_ticks_max = 0x200000000000000;
+    predicate is_slope(integer slope) = STEP_SLOPE_PER_SPEED <= slope <= 0x40000000000000;
     predicate is_leg(struct motion_leg *leg) =
         is_place(leg->from) && is_place(leg->to) && quanta(leg->from) <= quanta(leg->to) &&
         leg->accel <= STEP_ACCEL_MAX * STEP_ACCEL_PER_ACCEL &&
         is_slope(leg->from_slope) && is_slope(leg->to_slope) &&
         leg->pulse_twice_speed2 <= 0x10000000000 && leg->start.ticks < 0x8000000000000000;
+    predicate is_lasting(struct motion_leg *leg, integer start) =
+        start <= leg->end.ticks <= start + leg_ticks_max;
+    predicate is_product(integer x, integer y, integer most) = x * y <= most;
+    predicate is_ramp_time(integer time, integer accel, integer change) =
+        is_product(time, 2 * accel, change * 0x100000000);
     predicate is_timed(struct motion_leg *leg) =
         leg->accel >= 1 ==> leg->start.ticks <= leg->end.ticks &&
-            (fractions(leg->end) - fractions(leg->start)) * (2 * leg->accel) <=
-                \abs(leg->to_slope - leg->from_slope) * 0x100000000;
+            is_ramp_time(fractions(leg->end) - fractions(leg->start), leg->accel,
+                \abs(leg->to_slope - leg->from_slope));
 */
 
 /*@ requires twice_speed2 <= 0x100000000000000;
@@ -31,9 +37,10 @@ uint64_t motion_leg_slope(uint64_t twice_speed2);
 /*@ requires \valid(leg) && is_leg(leg);
     requires leg->accel == 0 ==> leg->to.step - leg->from.step <= 0x40000000;
     assigns leg->end;
-    ensures leg->accel >= 1 ==> leg->start.ticks <= leg->end.ticks;
-    ensures leg->accel >= 1 ==> (fractions(leg->end) - fractions(leg->start)) * (2 * leg->accel) <=
-        \abs(leg->to_slope - leg->from_slope) * 0x100000000;
+    ensures is_lasting(leg, \old(leg->start.ticks));
+    ensures leg->from == \old(leg->from) && leg->to == \old(leg->to);
+    ensures leg: is_leg(leg);
+    ensures timed: is_timed(leg);
 */
 void motion_leg_set_end(struct motion_leg *leg);
 

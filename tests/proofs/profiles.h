@@ -36,6 +36,8 @@
         in_reach(way.jumps, way.enter_speed2, way.exit_speed2, square_of(way.speed_steps_per_s),
             square_of(way.start_speed_steps_per_s), gain_of(way.accel_steps_per_s2, way.steps));
 
+    predicate is_way_of(integer steps, integer per_step, integer change) = steps * per_step <= change + per_step;
+    predicate is_ramp_of(integer steps, integer per_step, integer change) = steps * per_step <= change;
     predicate has_speeds(struct motion_profile profile) =
         2 <= profile.enter <= 2 * speed2_max && 2 <= profile.turn <= 2 * speed2_max &&
         2 <= profile.cruise <= 2 * speed2_max && 2 <= profile.exit <= 2 * speed2_max;
@@ -80,8 +82,11 @@ uint64_t motion_profile_enter(const struct motion_way *way);
     ensures \result.accel_steps_per_s2 == way->accel_steps_per_s2;
     ensures has_speeds(\result) && has_corners(\result);
     ensures \result.exit <= \result.cruise;
-    ensures (\result.end - \result.corner_b.step) * (4 * way->accel_steps_per_s2) <=
-        \result.cruise - \result.exit + 4 * way->accel_steps_per_s2;
+    ensures is_way_of(\result.end - \result.corner_b.step, 4 * way->accel_steps_per_s2,
+        \result.cruise - \result.exit);
+    ensures \result.cruise <= most(2 * square_of(way->speed_steps_per_s), \result.exit);
+    ensures is_ramp_of(\result.corner_a.step - \result.begin, 4 * way->accel_steps_per_s2,
+        2 * most(way->enter_speed2, square_of(way->speed_steps_per_s)));
 */
 struct motion_profile motion_profile_lay(const struct motion_way *way);
 
@@ -91,9 +96,14 @@ struct motion_profile motion_profile_lay(const struct motion_way *way);
     ensures \result.begin == way->begin && \result.end == \result.corner_a.step;
     ensures \result.accel_steps_per_s2 == way->accel_steps_per_s2;
     ensures has_speeds(\result) && is_place(\result.corner_a) && \result.corner_b == \result.corner_a;
+    ensures \result.cruise == \result.exit;
+    ensures is_way_of(\result.end - \result.corner_b.step, 4 * way->accel_steps_per_s2,
+        \result.cruise - \result.exit);
     ensures way->begin * STEP_QUANTA <= quanta(\result.corner_a) <= (way->begin + way->steps) * STEP_QUANTA;
     ensures way->enter_speed2 - way->exit_speed2 == gain_of(way->accel_steps_per_s2, way->steps) ==>
         quanta(\result.corner_a) == (way->begin + way->steps) * STEP_QUANTA;
+    ensures is_ramp_of(\result.corner_a.step - \result.begin, 4 * way->accel_steps_per_s2,
+        2 * way->enter_speed2);
 */
 struct motion_profile motion_profile_lay_stop(const struct motion_way *way);
 

@@ -8,9 +8,7 @@
 #include "legs.h"
 
 /* What legs need of their section's profile: from the last corner on the brake has as many steps as the speeds ask. */
-/*@ predicate is_way_of(integer steps, integer per_step, integer change) =
-        steps * per_step <= change + per_step;
-    predicate has_ramps(struct motion_profile profile) =
+/*@ predicate has_ramps(struct motion_profile profile) =
         has_speeds(profile) && 1 <= profile.accel_steps_per_s2 <= STEP_ACCEL_MAX &&
         profile.exit <= profile.cruise &&
         is_way_of(profile.end - profile.corner_b.step, 4 * profile.accel_steps_per_s2,

@@ -9,8 +9,13 @@
 /*@ predicate is_braked_at(struct motion_plan *plan, integer i) =
         speed2_in_range(plan->exit_speed2[i]) && plan->exit_speed2[i] <= enter_of(plan, i) &&
         enter_of(plan, i) - plan->exit_speed2[i] <= way_gain(plan, i);
-    predicate is_braked(struct motion_plan *plan) =
+    predicate is_braked_through(struct motion_plan *plan, integer i) =
+        enter_of(plan, i) - plan->exit_speed2[i] == way_gain(plan, i) &&
+        plan->exit_speed2[i] <= limit_of(&plan->order, i + 1);
+    predicate is_braked_all(struct motion_plan *plan) =
         \forall integer i; plan->first <= i < plan->order.sections ==> is_braked_at(plan, i);
+    predicate is_braked(struct motion_plan *plan) = is_braked_all(plan) &&
+        \forall integer i; plan->first <= i < plan->order.sections - 1 ==> is_braked_through(plan, i);
     predicate is_ready(struct motion_plan *plan) =
         plan->first <= plan->order.sections <= MOTION_SECTIONS &&
         (plan->first < plan->order.sections ==>

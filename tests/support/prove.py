@@ -307,6 +307,8 @@ def main() -> int:
     if absent := missing():
         print(f"not installed: {', '.join(absent)}")
         return 77
+    if unknown := set(options.names) - {path.stem for path in files()}:
+        parser.error(f"nothing to prove in {', '.join(sorted(unknown))}")
     good = True
     before, proved = recorded(), {}
     for path in files(options.names):
