@@ -230,35 +230,60 @@ static void advance(struct motion_plan *plan, const struct motion_leg *leg)
     }
 }
 
-/* Whether the move's last section of several begins where the progress stands. */
-static bool is_mark(const struct motion_plan *plan)
-{
-    unsigned last = plan->order.sections - 1U;
-    return last > 0 && !plan->stopping && plan->progress.section == last &&
-           plan->progress.place.step == section_begin(plan, last);
-}
-
-bool motion_plan_next(struct motion_plan *plan, struct step_segment *segment)
+static void lay_profile(struct motion_plan *plan)
 {
     struct motion_progress *progress = &plan->progress;
-    while (progress->section < plan->order.sections) {
-        if (progress->leg == 0) {
-            progress->profile = lay_section(plan, progress->section);
-        }
-        if (is_leg_empty(progress)) {
+    if (progress->leg == 0) {
+        progress->profile = lay_section(plan, progress->section);
+    }
+}
+
+static void lay_next_leg(struct motion_plan *plan, struct motion_leg *leg)
+{
+    struct motion_leg next = lay_leg(&plan->progress);
+    *leg = next;
+}
+
+/* Takes the next leg that has pulses; false if there is none. */
+static bool take_leg(struct motion_plan *plan, struct motion_leg *leg)
+{
+    while (plan->progress.section < plan->order.sections) {
+        lay_profile(plan);
+        if (is_leg_empty(&plan->progress)) {
             next_leg(plan);
             continue;
         }
-        bool marked = is_mark(plan);
-        struct motion_leg leg = lay_leg(progress);
-        advance(plan, &leg);
-        if (motion_leg_pulses(&leg) > 0) {
-            *segment = motion_leg_segment(&leg);
-            segment->marked = marked;
+        lay_next_leg(plan, leg);
+        advance(plan, leg);
+        if (motion_leg_pulses(leg) > 0) {
             return true;
         }
     }
     return false;
+}
+
+/* Whether the move's last section of several begins with a leg that has pulses: no such leg of another begins there. */
+static bool is_mark(const struct motion_plan *plan, const struct motion_leg *leg)
+{
+    unsigned last = plan->order.sections - 1U;
+    return last > 0 && !plan->stopping && leg->from.step == section_begin(plan, last);
+}
+
+static void lay_segment(const struct motion_plan *plan, const struct motion_leg *leg, struct step_segment *segment)
+{
+    bool marked = is_mark(plan, leg);
+    *segment = motion_leg_segment(leg);
+    segment->marked = marked;
+}
+
+bool motion_plan_next(struct motion_plan *plan, struct step_segment *segment)
+{
+    struct motion_leg leg;
+    bool taken = take_leg(plan, &leg);
+    if (taken) {
+        lay_segment(plan, &leg, segment);
+    }
+    return taken;
 }
 
 /* The section that begins or goes on behind a step; order.sections if the move ends there. */

@@ -1,11 +1,12 @@
 /*
- * How far segments have been taken from a plan, and that each leg begins where the one before it ends: contracts proved with
- * motion_plan_advance.acsl and motion_plan_next.acsl.
+ * How far segments have been taken from a plan, and that each leg begins where the one before it ends: contracts proved
+ * with motion_plan_advance.acsl and motion_plan_next.acsl.
  */
 #ifndef UNDER_WAY_H
 #define UNDER_WAY_H
 
 #include "sections.h"
+#include "kept_progress.h"
 #include "laid_legs.h"
 
 /* The progress stands on a leg of its section's profile, or at the beginning of a section that has none yet. */
@@ -37,26 +38,6 @@
 
 /*@ predicate has_steps(struct step_segment segment) = 1 <= segment.steps <= 0xFFFFFFFF; */
 
-/* What a profile keeps between two places of the code. */
-/*@ predicate keeps_profile{A, B}(struct motion_plan *plan) =
-        \at(plan->progress.profile.enter, A) == \at(plan->progress.profile.enter, B) &&
-        \at(plan->progress.profile.turn, A) == \at(plan->progress.profile.turn, B) &&
-        \at(plan->progress.profile.cruise, A) == \at(plan->progress.profile.cruise, B) &&
-        \at(plan->progress.profile.exit, A) == \at(plan->progress.profile.exit, B) &&
-        \at(plan->progress.profile.begin, A) == \at(plan->progress.profile.begin, B) &&
-        \at(plan->progress.profile.end, A) == \at(plan->progress.profile.end, B) &&
-        \at(plan->progress.profile.accel_steps_per_s2, A) == \at(plan->progress.profile.accel_steps_per_s2, B) &&
-        \at(plan->progress.profile.corner_a.step, A) == \at(plan->progress.profile.corner_a.step, B) &&
-        \at(plan->progress.profile.corner_a.quanta, A) == \at(plan->progress.profile.corner_a.quanta, B) &&
-        \at(plan->progress.profile.corner_b.step, A) == \at(plan->progress.profile.corner_b.step, B) &&
-        \at(plan->progress.profile.corner_b.quanta, A) == \at(plan->progress.profile.corner_b.quanta, B);
-    predicate keeps_plan{A, B}(struct motion_plan *plan) =
-        keeps_order{A, B}(\at(&plan->order, A)) && keeps_origin{A, B}(plan) && keeps_exits{A, B}(plan);
-    predicate keeps_slope{A, B}(struct motion_plan *plan) =
-        \at(plan->progress.slope, A) == \at(plan->progress.slope, B) &&
-        \at(plan->progress.twice_speed2, A) == \at(plan->progress.twice_speed2, B);
-*/
-
 /*@ requires \valid(plan) && is_ready(plan) && plan->first <= plan->progress.section < plan->order.sections;
     requires has_laid(plan) && plan->progress.leg <= 2 && (plan->progress.leg >= 1 ==> !plan->stopping);
     requires is_at_end(plan->progress.leg, plan->progress.profile, plan->progress.place);
@@ -84,18 +65,36 @@ static void next_leg(struct motion_plan *plan);
 */
 static void advance(struct motion_plan *plan, const struct motion_leg *leg);
 
-/*@ requires \valid_read(plan) && is_order(&plan->order);
+/*@ requires \valid(plan) && is_under_way(plan) && plan->progress.section < plan->order.sections;
+    assigns plan->progress.profile;
+    ensures whole: keeps_plan{Old, Post}(plan);
+    ensures laid: has_laid(plan);
+    ensures placed: is_placed(plan);
+*/
+static void lay_profile(struct motion_plan *plan);
+
+/*@ requires \valid(plan) && \valid(leg) && \base_addr(plan) != \base_addr(leg);
+    requires is_under_way(plan) && plan->progress.time.ticks < 0x4000000000000000;
+    assigns plan->progress, *leg;
+    ensures under_way: is_under_way(plan);
+    ensures laid: \result ==> is_leg(leg) && is_timed(leg);
+    ensures pulses: \result ==> 1 <= leg->to.step - leg->from.step <= 0xFFFFFFFF;
+    ensures order: \result ==> is_order(&plan->order);
+    ensures end: !\result ==> plan->progress.section == plan->order.sections;
+*/
+static bool take_leg(struct motion_plan *plan, struct motion_leg *leg);
+
+/*@ requires \valid_read(plan) && is_order(&plan->order) && \valid_read(leg);
     assigns \nothing;
 */
-static bool is_mark(const struct motion_plan *plan);
+static bool is_mark(const struct motion_plan *plan, const struct motion_leg *leg);
 
-/*@ requires \valid(plan) && \valid(segment) && \separated(plan, segment);
-    requires is_under_way(plan);
-    requires plan->progress.time.ticks < 0x4000000000000000;
+/*@ requires \valid(plan) && \valid(segment) && \base_addr(plan) != \base_addr(segment);
+    requires is_under_way(plan) && plan->progress.time.ticks < 0x4000000000000000;
     assigns plan->progress, *segment;
-    ensures is_under_way(plan);
-    ensures \result ==> has_steps(*segment);
-    ensures !\result ==> plan->progress.section == plan->order.sections;
+    ensures under_way: is_under_way(plan);
+    ensures pulses: \result ==> 1 <= segment->steps <= 0xFFFFFFFF;
+    ensures end: !\result ==> plan->progress.section == plan->order.sections;
 */
 bool motion_plan_next(struct motion_plan *plan, struct step_segment *segment);
 
