@@ -2,6 +2,7 @@
 
 #include <assert.h>
 
+#include "base_hint.h"
 #include "motion_leg.h"
 #include "step_scale.h"
 
@@ -230,6 +231,7 @@ static void advance(struct motion_plan *plan, const struct motion_leg *leg)
     }
 }
 
+BASE_APART
 static void lay_profile(struct motion_plan *plan)
 {
     struct motion_progress *progress = &plan->progress;
@@ -238,6 +240,7 @@ static void lay_profile(struct motion_plan *plan)
     }
 }
 
+BASE_APART
 static void lay_next_leg(struct motion_plan *plan, struct motion_leg *leg)
 {
     struct motion_leg next = lay_leg(&plan->progress);
