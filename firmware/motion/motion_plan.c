@@ -243,6 +243,7 @@ static void lay_profile(struct motion_plan *plan)
 BASE_APART
 static void lay_next_leg(struct motion_plan *plan, struct motion_leg *leg)
 {
+    /* In two steps, for the proof: one says what is kept of the plan, the other of the leg. */
     struct motion_leg next = lay_leg(&plan->progress);
     *leg = next;
 }

@@ -11,6 +11,31 @@
     predicate is_same_flag{A, B}(bool *cell) = \at(*cell, A) == \at(*cell, B);
 */
 
+/* The cells of an origin, a profile, a place and a slope: SAME(type, cell) for each. The provers can say that a cell is
+ * kept where something else is written, and cannot say it of the whole. */
+#define ORIGIN_CELLS(SAME, plan) \
+    SAME(64, &plan->origin.time.ticks) SAME(32, &plan->origin.time.fraction) SAME(64, &plan->origin.step) \
+    SAME(64, &plan->origin.speed2) SAME(_flag, &plan->changed) SAME(_flag, &plan->stopping)
+#define PROFILE_CELLS(SAME, plan) \
+    SAME(64, &plan->progress.profile.enter) SAME(64, &plan->progress.profile.turn) \
+    SAME(64, &plan->progress.profile.cruise) SAME(64, &plan->progress.profile.exit) \
+    SAME(64, &plan->progress.profile.begin) SAME(64, &plan->progress.profile.end) \
+    SAME(64, &plan->progress.profile.corner_a.step) SAME(64, &plan->progress.profile.corner_a.quanta) \
+    SAME(64, &plan->progress.profile.corner_b.step) SAME(64, &plan->progress.profile.corner_b.quanta) \
+    SAME(32, &plan->progress.profile.accel_steps_per_s2)
+#define PLACE_CELLS(SAME, plan) SAME(64, &plan->progress.place.step) SAME(64, &plan->progress.place.quanta)
+#define SLOPE_CELLS(SAME, plan) SAME(64, &plan->progress.slope) SAME(64, &plan->progress.twice_speed2)
+
+#define ENSURES_SAME(type, cell) ensures is_same##type{Old, Post}(cell);
+#define ENSURES_PLAN_KEPT(plan) \
+    ensures keeps_steps{Old, Post}(&plan->order); \
+    ensures keeps_accel{Old, Post}(&plan->order); \
+    ensures keeps_speeds{Old, Post}(&plan->order); \
+    ensures keeps_exits{Old, Post}(plan); \
+    ENSURES_SAME(32, &plan->order.start_speed_steps_per_s) \
+    ORIGIN_CELLS(ENSURES_SAME, plan) PROFILE_CELLS(ENSURES_SAME, plan) PLACE_CELLS(ENSURES_SAME, plan) \
+    ensures time: plan->progress.time.ticks == \old(plan->progress.time.ticks);
+
 /*@ predicate keeps_profile{A, B}(struct motion_plan *plan) =
         \at(plan->progress.profile.enter, A) == \at(plan->progress.profile.enter, B) &&
         \at(plan->progress.profile.turn, A) == \at(plan->progress.profile.turn, B) &&

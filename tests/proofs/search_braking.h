@@ -32,17 +32,28 @@
         t * s - (b * t) * t == t * w + b * (t * (i - t)) + 0x80000000 * t;
     lemma brake_way_slower: \forall integer w, s, b, i, t; is_slower(w, s, b, i) ==> is_split(w, s, b, i, t);
 */
-#include "search_ramps.h"
+#include "search_peaks.h"
 
-/* Braking: the interval before was not much longer than a step's time at the slope that is left; `speed` is the speed
- * by which the next is foretold, half a unit of the high word lower. */
+/* Braking: the interval before was not much longer than a step's time at the slope that is left, or no longer than the
+ * next; w is the slope by which the next is foretold, half a unit of the high word lower. */
 /*@ predicate is_interval_before(integer i, integer s, integer b) =
         0 <= i <= 0x40000000 && 4 * (i * s) <= 5 * STEP_QUANTA && 4 * (b * i) <= s + 10 * b;
+    predicate is_told(integer r, integer s, integer b, integer i, integer t, integer w) =
+        is_braking(r, s, b) && 0 <= i && is_slower(w, s, b, i) && is_foretold(t, r, s - b * i);
+    lemma told_less: \forall integer r, s, b, i, t, w; is_told(r, s, b, i, t, w) ==> 0 <= b * i && 0 <= b * t;
+    lemma told_foretold: \forall integer r, s, b, i, t, w; is_told(r, s, b, i, t, w) ==>
+        t * w <= STEP_QUANTA - r + (s - b * i) / 2 + 0x200000000;
+    lemma told_way: \forall integer r, s, b, i, t, w; is_told(r, s, b, i, t, w) ==> t * w <= STEP_QUANTA + 2 * s;
+    predicate is_before(integer i, integer r, integer s, integer b) =
+        is_interval_before(i, s, b) || is_no_longer(i, r, s, b);
     predicate brakes(integer r, integer s, integer b, integer i, integer t, integer w) =
-        is_braking(r, s, b) && is_interval_before(i, s, b) && is_slower(w, s, b, i) &&
-        is_foretold(t, r, s - b * i);
-    lemma brakes_speed: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) ==>
-        4 * w >= 3 * s - 10 * b - 0x200000000 && 2 * w >= s && w <= s;
+        is_told(r, s, b, i, t, w) && is_before(i, r, s, b);
+    lemma brakes_over_peak: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) &&
+        is_no_longer(i, r, s, b) ==>
+            foretells_peak(r, s, b, i, i - 2, s - b * (i - 2), STEP_QUANTA - r, t, w);
+    lemma brakes_before_speed: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) &&
+        is_interval_before(i, s, b) ==> 4 * w >= 3 * s - 10 * b - 0x200000000 && 2 * w >= s && w <= s;
+    lemma brakes_speed: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) ==> 2 * w >= s && w <= s;
     lemma brakes_way: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) ==>
         t * w <= STEP_QUANTA + 2 * s;
     lemma brakes_way_scaled: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) ==>
@@ -58,11 +69,13 @@
         brakes(r, s, b, i, t, w) && is_slope_ahead(u, r, s, b);
     lemma ahead_needs: \forall integer u, r, s, b, i, t, w; brakes_to(u, r, s, b, i, t, w) ==>
         (40 * (b * t)) * w <= 10 * (s * s) - 10 * (u * u) + 100 * (b * s) + 20 * b;
-    lemma ahead_has_slope: \forall integer u, r, s, b, i, t, w; brakes_to(u, r, s, b, i, t, w) ==>
+    lemma ahead_has_slope: \forall integer u, r, s, b, i, t, w; brakes_to(u, r, s, b, i, t, w) &&
+        is_interval_before(i, s, b) ==>
         is_less_scaled(3 * s - 10 * b - 0x200000000, 4 * w, s);
     lemma ahead_has_less: \forall integer u, r, s, b, i, t, w; brakes_to(u, r, s, b, i, t, w) ==>
         is_less_scaled(w, s, u);
-    lemma ahead_has: \forall integer u, r, s, b, i, t, w; brakes_to(u, r, s, b, i, t, w) ==>
+    lemma ahead_has: \forall integer u, r, s, b, i, t, w; brakes_to(u, r, s, b, i, t, w) &&
+        is_interval_before(i, s, b) ==>
         15 * (s * s) - 50 * (b * s) - 0x200000000 * (5 * s) - 11 * (u * s) <= (20 * s - 11 * u) * w;
     lemma ahead_unit: \forall integer u, s; 21000000000 <= u && 0 < s ==>
         is_less_scaled(0x200000000 * 100, 41 * u, s);
@@ -74,8 +87,15 @@
     lemma ahead_enough: \forall integer u, r, s, b; is_braking(r, s, b) && is_slope_ahead(u, r, s, b) ==>
         10 * (s * s) - 10 * (u * u) + 100 * (b * s) + 20 * b <=
             15 * (s * s) - 50 * (b * s) - 0x200000000 * (5 * s) - 11 * (u * s);
-    lemma ahead_divided: \forall integer u, r, s, b, i, t, w; brakes_to(u, r, s, b, i, t, w) ==>
+    lemma ahead_divided: \forall integer u, r, s, b, i, t, w; brakes_to(u, r, s, b, i, t, w) &&
+        is_interval_before(i, s, b) ==>
         is_less_scaled(40 * (b * t), 20 * s - 11 * u, w);
+    lemma ahead_before: \forall integer u, r, s, b, i, t, w; brakes_to(u, r, s, b, i, t, w) &&
+        is_interval_before(i, s, b) ==> 40 * (b * t) <= 20 * s - 11 * u;
+    lemma ahead_is_peak: \forall integer u, r, s, b; is_slope_ahead(u, r, s, b) ==>
+        is_peak_slope(u, s, b, STEP_QUANTA - r);
+    lemma ahead_over_peak: \forall integer u, r, s, b, i, t, w; brakes_to(u, r, s, b, i, t, w) &&
+        is_no_longer(i, r, s, b) ==> 40 * (b * t) <= 20 * s - 11 * u;
     lemma ahead: \forall integer u, r, s, b, i, t, w; brakes_to(u, r, s, b, i, t, w) ==>
         40 * (b * t) <= 20 * s - 11 * u;
 */
@@ -112,13 +132,22 @@
         is_less_scaled(4 * (b * i), s + 10 * b, 4 * (i * s));
     lemma braked_before_more: \forall integer i, s, b; 0 <= s && 0 <= b && is_interval_before(i, s, b) ==>
         is_less_scaled(4 * (i * s), 5 * STEP_QUANTA, s + 10 * b);
-    lemma braked_before_all: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) ==>
-        (16 * (b * i * i)) * s <= (6 * STEP_QUANTA) * s;
-    lemma braked_before: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) ==>
+    lemma braked_before_all: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) &&
+        is_interval_before(i, s, b) ==>
+        is_less_scaled(16 * (b * i * i), 6 * STEP_QUANTA, s);
+    lemma braked_before: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) &&
+        is_interval_before(i, s, b) ==>
         16 * (b * i * i) <= 6 * STEP_QUANTA;
     lemma braked_split: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) ==> is_split(w, s, b, i, t);
     lemma braked_past_way: \forall integer r, s, b, i, t, w, r2, s2; guesses_brake(r, s, b, i, t, w, r2, s2) ==>
         r2 == r - STEP_QUANTA + t * w + b * (t * (i - t)) + 0x80000000 * t;
+    lemma braked_past_before: \forall integer r, s, b, i, t, w, r2, s2; guesses_brake(r, s, b, i, t, w, r2, s2) &&
+        is_interval_before(i, s, b) ==> 5 * r2 <= 2 * STEP_QUANTA;
+    lemma braked_over_peak: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) && is_no_longer(i, r, s, b) ==>
+        4 * (b * (t * (i - t))) <= STEP_QUANTA + 3 * s && 0x80000000 * t <= 217000000000000000 &&
+        2 * (t * w) <= 2 * (STEP_QUANTA - r) + s + 0x400000000;
+    lemma braked_past_peak: \forall integer r, s, b, i, t, w, r2, s2; guesses_brake(r, s, b, i, t, w, r2, s2) &&
+        is_no_longer(i, r, s, b) ==> 5 * r2 <= 2 * STEP_QUANTA;
     lemma braked_past: \forall integer r, s, b, i, t, w, r2, s2; guesses_brake(r, s, b, i, t, w, r2, s2) ==>
         5 * r2 <= 2 * STEP_QUANTA;
     lemma braked_far_ahead: \forall integer r, s, b, i, t, w, r2, s2; guesses_brake(r, s, b, i, t, w, r2, s2) &&

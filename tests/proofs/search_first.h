@@ -5,6 +5,7 @@
 #ifndef SEARCH_FIRST_H
 #define SEARCH_FIRST_H
 
+#include "parabola.h"
 #include "search_guesses.h"
 
 /*@ predicate is_product_sized(integer p, integer r) = p * r <= size(p) * size(r) && -(p * r) <= size(p) * size(r);
@@ -20,17 +21,8 @@
     predicate is_squared_back(integer u, integer a, integer s2) = u * u - 4 * (a * u) <= s2 * s2;
     lemma squared_back: \forall integer u, a; (u - 2 * a) * (u - 2 * a) == u * u - 4 * (a * u) + 4 * (a * a);
 */
-/* From x, what is missing to the pulse and below 0, in t ticks. */
-/*@ predicate is_gone(integer x, integer s, integer a, integer t, integer r2, integer s2) =
-        r2 == x + t * s + (a * t) * t && s2 == s + 2 * (a * t);
-    logic integer bend(integer r, integer s, integer a) = s * s - 4 * a * r;
-    lemma gone_parabola: \forall integer x, s, a, t;
-        bend(x + t * s + (a * t) * t, s + 2 * (a * t), a) == bend(x, s, a);
-    lemma gone_bend: \forall integer x, s, a, t, r2, s2; is_gone(x, s, a, t, r2, s2) ==>
-        bend(r2, s2, a) == bend(x + t * s + (a * t) * t, s + 2 * (a * t), a);
-    lemma gone_same: \forall integer x, s, a, t, r2, s2; is_gone(x, s, a, t, r2, s2) ==>
-        bend(r2, s2, a) == bend(x, s, a);
-    predicate is_begun(integer x, integer s, integer a) = is_accel(a) && 21000000000 <= s <= 0x80000000000000 &&
+/* Where the first pulse is searched from: x is missing to it, and below 0. */
+/*@ predicate is_begun(integer x, integer s, integer a) = is_accel(a) && 21000000000 <= s <= 0x80000000000000 &&
         -(STEP_QUANTA + 2 * s) <= x <= 4 * s && is_crossing(x, s, a);
 */
 /* At the slope of the beginning, which changes by a quarter at most until then. */

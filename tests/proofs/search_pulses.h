@@ -30,7 +30,7 @@
 /*@ lemma moved_down: \forall integer x, s, a, t, r2, s2; is_moved(x, s, a, t, r2, s2) ==>
         is_brake_moved(x, s, -a, t, r2, s2);
     lemma moved_up: \forall integer x, s, a, t, r2, s2; is_moved(x, s, a, t, r2, s2) ==>
-        is_speed_moved(x, s, a, t, r2, s2);
+        is_gone(x, s, a, t, r2, s2);
 */
 
 /* A pulse of a ramp of which so many are still to come; i is the interval before it, which matters where the motor
@@ -41,7 +41,7 @@
         (0 <= a ==> least_square <= curve(r + STEP_QUANTA, s, a) &&
             curve(r - pulses * STEP_QUANTA, s, a) <= most_square) &&
         (a <= 0 ==> least_square <= curve(r - pulses * STEP_QUANTA, s, a) && curve(r, s, a) <= most_square) &&
-        (a <= 0 && 1 <= pulses ==> is_interval_before(i, s, -a));
+        (a <= 0 && 1 <= pulses ==> is_before(i, r, s, -a));
     lemma ramp_near_up: \forall integer r, s, a; 0 <= a && 0 < s && is_near(r, s) ==> is_less_scaled(r, s, a);
     lemma ramp_near_down: \forall integer r, s, a; a <= 0 && 0 < s && is_near(r, s) ==> is_less_scaled(-r, s, -a);
     lemma ramp_accel_up: \forall integer s, a; is_accel(a) && 0 < s ==> is_less_scaled(a, 1024000000, s);
@@ -129,6 +129,8 @@
         goes_on(r, s, a, i, pulses, t, r2, s2) ==> is_less_scaled(4 * (-a * t), s2 + 10 * -a, s2);
     lemma next_interval: \forall integer r, s, a, i, pulses, t, r2, s2; a <= 0 && 2 <= pulses &&
         goes_on(r, s, a, i, pulses, t, r2, s2) ==> is_interval_before(t, s2, -a);
+    lemma next_has_before: \forall integer r, s, a, i, pulses, t, r2, s2; a <= 0 && 2 <= pulses &&
+        goes_on(r, s, a, i, pulses, t, r2, s2) ==> is_before(t, r2, s2, -a);
     lemma next: \forall integer r, s, a, i, pulses, t, r2, s2; goes_on(r, s, a, i, pulses, t, r2, s2) ==>
         is_on_ramp(r2, s2, a, t, pulses - 1);
 */

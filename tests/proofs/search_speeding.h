@@ -4,17 +4,10 @@
 #ifndef SEARCH_SPEEDING_H
 #define SEARCH_SPEEDING_H
 
+#include "parabola.h"
+
 /* Products. */
-/*@ predicate is_speed_moved(integer x, integer s, integer a, integer t, integer r2, integer s2) =
-        r2 == x + t * s + (a * t) * t && s2 == s + 2 * (a * t);
-    logic integer speed_square(integer x, integer s, integer a) = s * s - 4 * a * x;
-    lemma speed_parabola: \forall integer x, s, a, t;
-        speed_square(x + t * s + (a * t) * t, s + 2 * (a * t), a) == speed_square(x, s, a);
-    lemma speed_moves: \forall integer x, s, a, t, r2, s2; is_speed_moved(x, s, a, t, r2, s2) ==>
-        speed_square(r2, s2, a) == speed_square(x + t * s + (a * t) * t, s + 2 * (a * t), a);
-    lemma speed_moved: \forall integer x, s, a, t, r2, s2; is_speed_moved(x, s, a, t, r2, s2) ==>
-        speed_square(r2, s2, a) == speed_square(x, s, a);
-    predicate is_squared_less(integer x, integer y) = x * x <= y * y;
+/*@ predicate is_squared_less(integer x, integer y) = x * x <= y * y;
     lemma squared_factors: \forall integer x, y; -y <= x <= y ==> 0 <= (y - x) * (y + x);
     lemma squared_both: \forall integer x, y; -y <= x <= y ==> is_squared_less(x, y);
 */
@@ -24,7 +17,7 @@
 /*@ predicate speeds(integer r, integer s, integer a, integer i, integer t) =
         is_speeding(r, s, a) && 0 <= i <= 0x40000000 && is_foretold(t, r, s + a * i);
     predicate guesses_speed(integer r, integer s, integer a, integer i, integer t, integer r2, integer s2) =
-        speeds(r, s, a, i, t) && is_speed_moved(r - STEP_QUANTA, s, a, t, r2, s2);
+        speeds(r, s, a, i, t) && is_gone(r - STEP_QUANTA, s, a, t, r2, s2);
     lemma speeds_least: \forall integer r, s, a, i, t; speeds(r, s, a, i, t) ==> s <= s + a * i;
     lemma speeds_way: \forall integer r, s, a, i, t; speeds(r, s, a, i, t) ==>
         (t - 1) * (s + a * i - 0x80000000) <= STEP_QUANTA + s;

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 from prove import (
+    FUNCTION,
     PROOFS,
     ROOT,
     Contracts,
@@ -97,7 +99,9 @@ def test_a_planted_error_leaves_goals_unproved(
     contracts = put_together(PROOFS / f"{name}.acsl", planted(tmp_path, source, right, wrong))
     contracts.name = f"planted_{name}"
 
-    result = prove(contracts, 2, ["-wp-fct", function])
+    contracts.proved = [function]
+
+    result = prove(contracts, 2, ["-wp-prop=-@lemma"])
 
     assert 0 < result.proved < result.goals
     assert not result.is_good()
@@ -114,6 +118,36 @@ def test_a_wrong_lemma_is_not_believed() -> None:
 
     assert result.proved == result.goals - 1
     assert any("typed_lemma_wrong" in complaint for complaint in result.complaints)
+
+
+@needs_provers
+def test_contracts_that_contradict_themselves_prove_nothing() -> None:
+    contracts = put_together(PROOFS / "base_tick.acsl")
+    contracts.name = "planted_contradiction"
+    begin = "/*@ assigns \\nothing;"
+    assert begin in contracts.text
+    contracts.text = contracts.text.replace(begin, f"/*@ requires b < a < b; {begin[3:]}", 1)
+    contracts.proved = ["tick_difference"]
+
+    result = prove(contracts, 2)
+
+    assert result.proved < result.goals
+    assert any("smoke" in complaint for complaint in result.complaints)
+
+
+def test_every_function_of_a_source_is_proved_in_some_file() -> None:
+    sources: dict[str, set[str]] = {}
+    for path in PROOFS.glob("*.acsl"):
+        for source in re.findall(r"^% source (.*)$", path.read_text(), re.MULTILINE):
+            sources.setdefault(source, set()).update(put_together(path).proved)
+
+    left = {
+        name
+        for source, proved in sources.items()
+        for name in set(FUNCTION.findall((ROOT / source).read_text())) - proved
+    }
+
+    assert left == {"link_count_text", "step_channel_init"}
 
 
 def test_the_lemmas_of_a_header_are_left_to_the_header() -> None:

@@ -1,6 +1,6 @@
 /*
  * How far segments have been taken from a plan, and that each leg begins where the one before it ends: contracts proved
- * with motion_plan_advance.acsl and motion_plan_next.acsl.
+ * with motion_plan_profile.acsl, _advance, _take_leg and _next.
  */
 #ifndef UNDER_WAY_H
 #define UNDER_WAY_H
@@ -35,8 +35,6 @@
     logic integer legs_left(struct motion_plan *plan) =
         3 * (plan->order.sections - plan->progress.section) - plan->progress.leg;
 */
-
-/*@ predicate has_steps(struct step_segment segment) = 1 <= segment.steps <= 0xFFFFFFFF; */
 
 /*@ requires \valid(plan) && is_ready(plan) && plan->first <= plan->progress.section < plan->order.sections;
     requires has_laid(plan) && plan->progress.leg <= 2 && (plan->progress.leg >= 1 ==> !plan->stopping);

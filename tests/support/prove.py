@@ -5,8 +5,8 @@
 and the lemmas of the headers there. A file of contracts is C text, then parts that begin with a
 `%` line:
 
-    % trust FUNCTION...   the contract is used, the body is not proved
-    % prove FUNCTION...   a function of a header that is to be proved; else those are trusted
+    % prove FUNCTION...   these are proved, of the others the contract is used; without it all of
+                          the sources are proved, and none of a header
     % unsigned            unsigned numbers must not wrap either
     % option OPTION...    one more for Frama-C
     % provers NAME...     these suffice for the code: a second one doubles the time
@@ -58,13 +58,16 @@ interactive = false
 shortcut = "z3-simplex"
 """
 SECONDS = 60  # for a goal and a prover; an idle machine needs 2
+# A proof from what contradicts itself is none: WP tries to prove "false" behind each requirement,
+# call, loop and branch, which counts as one goal each and must fail within this time.
+SMOKE = ("-wp-smoke-tests", "-wp-smoke-timeout", "1")
 VERSION = "25."  # of Frama-C: what it leaves to the provers differs from one to the next
 COMMANDS = ("frama-c", "why3", "z3", "cvc4")
 FOLDERS = (*sorted(path for path in (ROOT / "firmware").iterdir() if path.is_dir()),
            ROOT / "hal/include", PROOFS)  # fmt: skip
 
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
-INLINE = re.compile(r"^static inline [^;{]*?(\w+)\([^;{]*\)\n\{", re.MULTILINE)
+FUNCTION = re.compile(r"^\w[\w *]*?\b(\w+)\([^;{}]*\)\n\{", re.MULTILINE)
 LEMMA = re.compile(r"(?<!admit )\blemma (\w+)")
 PROVED = re.compile(r"^\[wp\] Proved goals:\s+(\d+) / (\d+)$", re.MULTILINE)
 # With one prover, what it said stands behind the goal.
@@ -90,7 +93,6 @@ class Contracts:
     """One file of contracts, put together with the sources that it names."""
 
     name: str
-    trusted: list[str] = field(default_factory=list)
     proved: list[str] = field(default_factory=list)
     unsigned: bool = False
     options: list[str] = field(default_factory=list)
@@ -136,15 +138,13 @@ def put_together(path: Path, root: Path = ROOT) -> Contracts:
     contracts = Contracts(path.stem)
     source: list[str] = []
     done: list[str] = []
+    functions: list[str] = []
     place = 0
     pieces = re.split(r"^% *(\w+)(.*)\n", path.read_text(), flags=re.MULTILINE)
     done.append(pieces[0])
     for word, argument, text in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
         argument = argument.strip()
-        if word == "trust":
-            contracts.trusted += argument.split()
-            done.append(text)
-        elif word == "prove":
+        if word == "prove":
             contracts.proved += argument.split()
             done.append(text)
         elif word == "unsigned":
@@ -158,13 +158,19 @@ def put_together(path: Path, root: Path = ROOT) -> Contracts:
             done.append(text)
         elif word == "source":
             done += ["\n".join(source), text]
-            source = (root / argument).read_text().splitlines()
+            firmware = (root / argument).read_text()
+            functions += FUNCTION.findall(firmware)
+            source = firmware.splitlines()
             place = 0
         elif word in ("before", "after"):
             place = _put_in(source, place, argument, text.splitlines(), word == "after")
         else:
             raise Mismatch(f"`% {word}` means nothing")
     contracts.text = "\n".join([*done, *source, ""])
+    contracts.proved = contracts.proved or functions
+    there = FUNCTION.findall("".join(_headers(contracts.text, {}).values())) + functions
+    if unknown := set(contracts.proved) - set(there):
+        raise Mismatch(f"there is no function {', '.join(sorted(unknown))}")
     return contracts
 
 
@@ -176,13 +182,6 @@ def _headers(text: str, seen: dict[str, str]) -> dict[str, str]:
             seen[name] = found[0].read_text()
             _headers(seen[name], seen)
     return seen
-
-
-def not_proved(contracts: Contracts) -> list[str]:
-    """The functions whose bodies are left out."""
-    headers = "".join(_headers(contracts.text, {}).values())
-    inline = set(INLINE.findall(headers)) - set(contracts.proved)
-    return sorted({*inline, *contracts.trusted})
 
 
 def why3_configuration() -> Path:
@@ -203,10 +202,9 @@ def why3_configuration() -> Path:
 
 def prove(contracts: Contracts, seconds: int = SECONDS, extra: Sequence[str] = ()) -> Result:
     """Lets WP prove one file: the code, then its lemmas, which WP leaves out where it skips."""
-    trusted = not_proved(contracts)
-    skip = [f"-wp-skip-fct={','.join(trusted)}"] if trusted else []
+    functions = f"-wp-fct={','.join(contracts.proved)}"
     provers = f"-wp-prover={','.join(contracts.provers)}"
-    code, said = _run(contracts, seconds, [provers, "-wp-prop=-@lemma", *skip, *extra])
+    code, said = _run(contracts, seconds, [functions, provers, "-wp-prop=-@lemma", *SMOKE, *extra])
     assumed = tuple(each for each in ASSUMED.findall(said) if _matters(each, contracts))
     code = replace(code, complaints=code.complaints + assumed)
     return code if extra else code + prove_lemmas(contracts, seconds)
