@@ -14,17 +14,27 @@ import tty
 POLL_SECONDS = 0.01
 
 
+def connect(host_and_port: str) -> socket.socket:
+    host, _, port = host_and_port.removeprefix("socket://").partition(":")
+    unit = socket.create_connection((host, int(port)))
+    unit.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    return unit
+
+
 class NoisyLine:
-    """Passes bytes on in both directions; each piece comes to harm with a probability."""
+    """Passes bytes on in both directions; each piece comes to harm with a probability.
+
+    `restarted_as`: another unit takes the first one's place when that has begun its next answer,
+    which is lost, as if the unit had started anew behind what it has executed.
+    """
 
     def __init__(self, host_and_port: str, seed: int, probability: float, echo: bool) -> None:
-        host, _, port = host_and_port.removeprefix("socket://").partition(":")
-        self._unit = socket.create_connection((host, int(port)))
-        self._unit.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._unit = connect(host_and_port)
         self._master, self._slave = pty.openpty()
         tty.setraw(self._master)
         self.port = os.ttyname(self._slave)
         self.harmed = 0
+        self.restarted_as: str | None = None
         self._random = random.Random(seed)
         self._probability = probability
         self._echo = echo
@@ -49,7 +59,15 @@ class NoisyLine:
                 self._unit.sendall(self._harm(data))
             if self._unit.fileno() in ready:
                 with contextlib.suppress(ConnectionError):
-                    os.write(self._master, self._harm(self._unit.recv(4096)))
+                    self._hear(self._unit.recv(4096))
+
+    def _hear(self, data: bytes) -> None:
+        if self.restarted_as:
+            self._unit.close()
+            self._unit = connect(self.restarted_as)
+            self.restarted_as = None
+            return
+        os.write(self._master, self._harm(data))
 
     def _harm(self, data: bytes) -> bytes:
         if self._random.random() >= self._probability:

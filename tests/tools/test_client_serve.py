@@ -11,7 +11,7 @@ import pytest
 from frames import frame
 from noisy_line import NoisyLine
 from rkm04_tools.line import Wait, open_line
-from rkm04_tools.line_errors import LineError, UnitRefused
+from rkm04_tools.line_errors import LineError, UnitRefused, UnitRestarted
 from rkm04_tools.messages import SET_COMMAND, request
 from served import Served
 
@@ -146,6 +146,32 @@ def test_a_line_that_only_harms_ends_in_a_typed_error(port):
             assert time.monotonic() - started < 3
     finally:
         bad.close()
+
+
+def position(port: str) -> int:
+    with open_line(port) as line:
+        return line.unit(NODE).motor(2).position()
+
+
+def test_a_unit_that_restarts_behind_an_execution_does_not_execute_again(serve):
+    before, behind = (serve("--node", str(NODE), "--unpaced") for _ in range(2))
+    line = NoisyLine(before, seed=4, probability=0.0, echo=False)
+    try:
+        with open_line(line.port) as client:
+            motor = client.unit(NODE).motor(2)
+            motor.command("S1000 F1 R")
+            line.restarted_as = behind
+            with pytest.raises(UnitRestarted) as restarted:
+                motor.command("F1R")
+            assert restarted.value.repeated
+            assert motor.position() == 0
+            motor.command("F1R")
+            assert waits_until(lambda: motor.position() == 1)
+    finally:
+        line.close()
+
+    assert position(before) == 2
+    assert position(behind) == 1
 
 
 def test_what_the_unit_refuses_is_typed(motor):
