@@ -6,6 +6,7 @@ import fcntl
 import os
 import pty
 import signal
+import statistics
 import time
 import tty
 from pathlib import Path
@@ -318,7 +319,7 @@ def test_another_line_is_watched_by_its_messages(units, start):
     assert (state["port"], state["virtual"], state["node"]) == (units.place, False, 3)
     assert (look["inputs"], look["outputs"]) == (None, None)
     speeds = [browser.next("live")["motors"][0]["speed"] for _ in range(10)][2:]
-    assert 400 < sum(speeds) / len(speeds) < 600
+    assert 400 < statistics.median(speeds) < 600
     browser.say(type="input", input=1, level=1)
     assert browser.next("error")["error"]["kind"] == "BadRequest"
 
