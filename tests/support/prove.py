@@ -59,7 +59,8 @@ shortcut = "z3-simplex"
 """
 SECONDS = 60  # for a goal and a prover; an idle machine needs 2
 # A proof from what contradicts itself is none: WP tries to prove "false" behind each requirement,
-# call, loop and branch, which counts as one goal each and must fail within this time.
+# call, loop and branch, which counts as one goal each and must fail within this time. That doubles
+# the time of a proof; what is as it was proved has been tried.
 SMOKE = ("-wp-smoke-tests", "-wp-smoke-timeout", "1")
 VERSION = "25."  # of Frama-C: what it leaves to the provers differs from one to the next
 COMMANDS = ("frama-c", "why3", "z3", "cvc4")
@@ -200,11 +201,14 @@ def why3_configuration() -> Path:
     return path
 
 
-def prove(contracts: Contracts, seconds: int = SECONDS, extra: Sequence[str] = ()) -> Result:
+def prove(
+    contracts: Contracts, seconds: int = SECONDS, extra: Sequence[str] = (), smoke: bool = True
+) -> Result:
     """Lets WP prove one file: the code, then its lemmas, which WP leaves out where it skips."""
     functions = f"-wp-fct={','.join(contracts.proved)}"
     provers = f"-wp-prover={','.join(contracts.provers)}"
-    code, said = _run(contracts, seconds, [functions, provers, "-wp-prop=-@lemma", *SMOKE, *extra])
+    tried = SMOKE if smoke else ()
+    code, said = _run(contracts, seconds, [functions, provers, "-wp-prop=-@lemma", *tried, *extra])
     assumed = tuple(each for each in ASSUMED.findall(said) if _matters(each, contracts))
     code = replace(code, complaints=code.complaints + assumed)
     return code if extra else code + prove_lemmas(contracts, seconds)
@@ -317,20 +321,22 @@ def main() -> int:
             good = False
             continue
         known = before.get(path.name, {})
-        if known.get("digest") == digest(contracts) and not options.all and not options.names:
+        is_known = known.get("digest") == digest(contracts)
+        if is_known and not options.all and not options.names:
             print(f"{path.name}: as it was proved ({known['goals']} goals)", flush=True)
             proved[path.name] = known
             continue
         is_header = path.suffix == ".h"
         result = (
             prove_lemmas(contracts, options.seconds) if is_header
-            else prove(contracts, options.seconds, options.wp)
+            else prove(contracts, options.seconds, options.wp, bool(options.names) or not is_known)
         )  # fmt: skip
         print(result, flush=True)
         for complaint in result.complaints:
             print(f"    {complaint}")
         if result.is_good() and not options.wp:
-            proved[path.name] = {"digest": digest(contracts), "goals": result.goals}
+            now: dict[str, str | int] = {"digest": digest(contracts), "goals": result.goals}
+            proved[path.name] = known if is_known else now
         good = good and result.is_good()
     if options.record:
         there = {path.name for path in files()}
