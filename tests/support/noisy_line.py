@@ -7,18 +7,12 @@ import os
 import pty
 import random
 import select
-import socket
 import threading
 import tty
 
+from served import connect
+
 POLL_SECONDS = 0.01
-
-
-def connect(host_and_port: str) -> socket.socket:
-    host, _, port = host_and_port.removeprefix("socket://").partition(":")
-    unit = socket.create_connection((host, int(port)))
-    unit.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-    return unit
 
 
 class NoisyLine:

@@ -204,7 +204,7 @@ def why3_configuration() -> Path:
 def prove(
     contracts: Contracts, seconds: int = SECONDS, extra: Sequence[str] = (), smoke: bool = True
 ) -> Result:
-    """Lets WP prove one file: the code, then its lemmas, which WP leaves out where it skips."""
+    """Lets WP prove one file: the code, then its lemmas, which it leaves out with `-wp-fct`."""
     functions = f"-wp-fct={','.join(contracts.proved)}"
     provers = f"-wp-prover={','.join(contracts.provers)}"
     tried = SMOKE if smoke else ()
@@ -301,7 +301,9 @@ def missing() -> list[str]:
 def main() -> int:
     parser = argparse.ArgumentParser(prog="prove.py", description="Proves the contracts.")
     parser.add_argument("names", nargs="*", help="files, without .acsl or .h; all if none")
-    parser.add_argument("--all", action="store_true", help="also what is as it was proved")
+    parser.add_argument(
+        "--all", action="store_true", help="also what is as it was proved, that without smoke tests"
+    )
     parser.add_argument("--record", action="store_true", help="write down what is proved")
     parser.add_argument("--seconds", type=int, default=SECONDS, help="for each goal and prover")
     parser.add_argument("--wp", action="append", default=[], help="one more option for Frama-C")

@@ -1,12 +1,7 @@
-#include "base_tick.h"
-#include "motion_plan.h"
 #include "motion_point.h"
+#include "plan_walk.h"
 #include "step_scale.h"
 #include "unity.h"
-
-static struct motion_plan plan;
-static struct step_cursor cursor;
-static uint64_t now;
 
 void setUp(void)
 {
@@ -28,26 +23,7 @@ static void begin(uint32_t start_speed, uint32_t speed, uint32_t accel, uint64_t
         .start_speed_steps_per_s = start_speed,
         .sections = 1,
     };
-    now = start_tick;
-    cursor = (struct step_cursor){0};
-    motion_plan_begin(&plan, &order, start_tick);
-    step_generator_start(&cursor.generator, (uint32_t)start_tick);
-}
-
-/* Moves on by a pulse, as a channel does. */
-static void advance(void)
-{
-    if (cursor.left == 0) {
-        struct step_segment segment;
-        TEST_ASSERT_TRUE(motion_plan_next(&plan, &segment));
-        step_generator_load(&cursor.generator, &segment);
-        cursor.left = segment.steps;
-        cursor.end += segment.steps;
-    } else {
-        (void)step_generator_next(&cursor.generator);
-    }
-    cursor.left--;
-    now = tick_extend(cursor.generator.tick, now);
+    walk_begin(&order, start_tick);
 }
 
 /* At a whole step the square of the speed is that of the first ramp, of the last one or of the top speed, whichever is
@@ -64,7 +40,7 @@ static uint64_t speed2_at(uint64_t pulse)
 static void assert_points(uint64_t steps)
 {
     for (uint64_t k = 1; k <= steps; k++) {
-        advance();
+        TEST_ASSERT_TRUE(walk_on());
         struct motion_point point = motion_point_of(&cursor, now);
         TEST_ASSERT_EQUAL_UINT64(k, point.step);
         TEST_ASSERT_EQUAL_UINT64(speed2_at(k), point.speed2);
@@ -103,9 +79,9 @@ void test_the_square_of_the_speed_is_recovered_at_the_most_that_the_generator_is
 void test_the_time_of_a_point_is_exact_to_the_fraction(void)
 {
     begin(13, 13, 1000, 10, 1000);
-    advance();
-    advance();
-    advance();
+    TEST_ASSERT_TRUE(walk_on());
+    TEST_ASSERT_TRUE(walk_on());
+    TEST_ASSERT_TRUE(walk_on());
 
     struct motion_point point = motion_point_of(&cursor, now);
 
@@ -117,8 +93,8 @@ void test_the_time_of_a_point_is_exact_to_the_fraction(void)
 void test_the_time_of_a_point_may_lie_before_the_tick_of_its_pulse(void)
 {
     begin(9, 9, 1000, 10, 0);
-    advance();
-    advance();
+    TEST_ASSERT_TRUE(walk_on());
+    TEST_ASSERT_TRUE(walk_on());
 
     struct motion_point point = motion_point_of(&cursor, now);
 
@@ -131,7 +107,7 @@ void test_the_time_of_a_point_is_the_units_time_across_the_wrap_of_the_counter(v
 {
     const uint64_t start = (UINT64_C(9) << 32) - 5U;
     begin(16000, 16000, 1000, 10, start);
-    advance();
+    TEST_ASSERT_TRUE(walk_on());
 
     TEST_ASSERT_EQUAL_UINT64(start + 5250U, motion_point_of(&cursor, start).time.ticks);
     TEST_ASSERT_EQUAL_UINT64(start + 5250U, motion_point_of(&cursor, start + 9999U).time.ticks);
