@@ -113,6 +113,7 @@ static void take_order(struct motion_plan *plan, const struct motion_order *orde
         .order = *order,
         .origin = {.time = {.ticks = start_tick}, .speed2 = speed2},
     };
+    plan->mark_step = section_begin(plan, plan->order.sections - 1U);
 }
 
 void motion_plan_begin(struct motion_plan *plan, const struct motion_order *order, uint64_t start_tick)
@@ -266,11 +267,11 @@ static bool take_leg(struct motion_plan *plan, struct motion_leg *leg)
     return false;
 }
 
-/* Whether the move's last section of several begins with a leg that has pulses: no such leg of another begins there. */
+/* Whether the order's last section of several begins with a leg that has pulses: no such leg of another begins there.
+ * A stop brakes into that section, too. */
 static bool is_mark(const struct motion_plan *plan, const struct motion_leg *leg)
 {
-    unsigned last = plan->order.sections - 1U;
-    return last > 0 && !plan->stopping && leg->from.step == section_begin(plan, last);
+    return plan->mark_step > 0 && leg->from.step == plan->mark_step;
 }
 
 static void lay_segment(const struct motion_plan *plan, const struct motion_leg *leg, struct step_segment *segment)

@@ -44,6 +44,7 @@ struct motion_plan {
     uint64_t exit_speed2[MOTION_SECTIONS];    /* square of the speed at the end of each section, (steps/s)^2 */
     struct motion_progress progress;
     uint64_t begin_speed2;                    /* with which the move started */
+    uint64_t mark_step;                       /* where the order's last section of several begins; 0 for one */
     uint8_t first;                            /* the section that the origin is in */
     bool changed;                             /* the speed of the first section was changed: it may jump below S */
     bool stopping;                            /* brakes down to S and ends there */

@@ -208,17 +208,39 @@ bool step_channel_brake(struct step_channel *channel, int32_t accel, uint64_t un
     return running;
 }
 
+/* The generator goes on along the segment, `made` of whose pulses have been made or armed. */
+static void channel_join(struct step_channel *channel, const struct step_segment *segment, uint32_t made)
+{
+    struct step_cursor *cursor = &channel->cursor;
+    step_generator_join(&cursor->generator, segment, made);
+    cursor->end = step_cursor_pulse(cursor) - made + segment->steps;
+    cursor->left = segment->steps - made;
+    if (segment->marked) {
+        atomic_store_explicit(&channel->marked, true, memory_order_relaxed);
+    }
+}
+
+/* The segment begins when the armed pulse has been made. */
+static void channel_follow(struct step_channel *channel, const struct step_segment *segment)
+{
+    channel->cursor.end = step_cursor_pulse(&channel->cursor);
+    channel->cursor.left = 0;
+    channel_push(channel, segment);
+}
+
 void step_channel_splice(struct step_channel *channel, const struct step_cursor *at,
                          const struct step_segment *segment)
 {
-    struct step_cursor *cursor = &channel->cursor;
     hal_step_hold();
     channel->closed = false;
-    uint32_t made = (uint32_t)(step_cursor_pulse(cursor) - step_cursor_pulse(at));
-    step_generator_join(&cursor->generator, segment, made);
-    cursor->left = segment->steps - made;
-    cursor->end = step_cursor_pulse(at) + segment->steps;
+    uint32_t made = (uint32_t)(step_cursor_pulse(&channel->cursor) - step_cursor_pulse(at));
+    bool begun = made > 0U;
     bool rests = !step_channel_is_running(channel);
+    if (begun || rests) {
+        channel_join(channel, segment, made);
+    } else {
+        channel_follow(channel, segment);
+    }
     hal_step_release();
     if (rests) {
         step_channel_run(channel);

@@ -82,7 +82,7 @@ static void lay_profile(struct motion_plan *plan);
 */
 static bool take_leg(struct motion_plan *plan, struct motion_leg *leg);
 
-/*@ requires \valid_read(plan) && is_order(&plan->order) && \valid_read(leg);
+/*@ requires \valid_read(plan) && \valid_read(leg);
     assigns \nothing;
 */
 static bool is_mark(const struct motion_plan *plan, const struct motion_leg *leg);

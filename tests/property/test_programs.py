@@ -59,10 +59,6 @@ def test_any_program_does_what_the_language_says(probe: Probe, batch: int) -> No
     assert count["unsure"] < UNSURE_SHARE_MAX * sum(count[kind] for kind in ("unsure", "compared"))
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="a stop that brakes into the last section does not set the output of T51-T58",
-)
 @pytest.mark.parametrize(
     ("program", "stop_tick"),
     [

@@ -194,6 +194,16 @@ void test_only_the_begin_of_the_last_section_is_marked(void)
     TEST_ASSERT_FALSE(segments[3].marked);
 }
 
+void test_the_begin_of_the_last_section_is_marked_behind_a_single_step(void)
+{
+    begin_two(100, (struct motion_section){1, 500, 2000}, (struct motion_section){1000, 500, 2000});
+
+    (void)take_segments();
+
+    TEST_ASSERT_FALSE(segments[0].marked);
+    TEST_ASSERT_TRUE(segments[1].marked);
+}
+
 void test_a_single_section_is_not_marked(void)
 {
     begin(order_single(5000, 100, 1000, 2000));

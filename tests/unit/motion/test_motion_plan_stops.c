@@ -140,10 +140,47 @@ void test_a_stop_in_the_last_section_marks_nothing(void)
 {
     begin_two(100, (struct motion_section){4000, 2000, 2000}, (struct motion_section){5000, 2000, 1000});
 
-    TEST_ASSERT_TRUE(stop_at(4000, 4000000));
+    TEST_ASSERT_TRUE(stop_at(4001, 4000000));
     (void)take_segments();
 
     TEST_ASSERT_FALSE(segments[0].marked);
+}
+
+void test_a_stop_that_begins_where_the_last_section_does_marks_it(void)
+{
+    begin_two(100, (struct motion_section){4000, 2000, 2000}, (struct motion_section){5000, 2000, 1000});
+
+    TEST_ASSERT_TRUE(stop_at(4000, 4000000));
+    (void)take_segments();
+
+    TEST_ASSERT_TRUE(segments[0].marked);
+}
+
+void test_a_stop_that_brakes_into_the_last_section_marks_it(void)
+{
+    begin_two(100, (struct motion_section){4000, 2000, 2000}, (struct motion_section){5000, 2000, 1000});
+
+    TEST_ASSERT_TRUE(stop_at(3900, 4000000));
+    (void)take_segments();
+
+    TEST_ASSERT_EQUAL_UINT(2, count);
+    TEST_ASSERT_FALSE(segments[0].marked);
+    TEST_ASSERT_TRUE(segments[1].marked);
+}
+
+void test_a_stop_that_brakes_into_a_section_before_the_last_marks_nothing(void)
+{
+    begin((struct motion_order){
+        .section = {{4000, 2000, 2000}, {5000, 2000, 2000}, {5000, 2000, 2000}},
+        .start_speed_steps_per_s = 100,
+        .sections = 3,
+    });
+
+    TEST_ASSERT_TRUE(stop_at(3900, 4000000));
+    (void)take_segments();
+
+    TEST_ASSERT_EQUAL_UINT(2, count);
+    TEST_ASSERT_FALSE(segments[0].marked || segments[1].marked);
 }
 
 void test_a_stop_begins_at_the_time_of_its_point(void)

@@ -63,7 +63,8 @@ static void record(unsigned most)
     }
 }
 
-static void assert_planned_ticks(const struct step_cursor *at)
+/* The pulses behind `at` that were armed before the splice, `gap` of them, are the stop-gap's. */
+static void assert_planned_ticks(const struct step_cursor *at, unsigned gap)
 {
     struct step_segment segment = planned_behind(at, PLANNED);
     struct step_generator generator = at->generator;
@@ -71,7 +72,9 @@ static void assert_planned_ticks(const struct step_cursor *at)
     TEST_ASSERT_EQUAL_UINT(1 + PLANNED, count);
     TEST_ASSERT_EQUAL_UINT32(at->generator.tick, ticks[0]);
     for (unsigned i = 1; i <= PLANNED; i++) {
-        TEST_ASSERT_EQUAL_UINT32(generator.tick, ticks[i]);
+        if (i > gap) {
+            TEST_ASSERT_EQUAL_UINT32(generator.tick, ticks[i]);
+        }
         (void)step_generator_next(&generator);
     }
     TEST_ASSERT_EQUAL_UINT64(MADE + 1 + PLANNED, step_channel_pulses(&channel));
@@ -90,7 +93,7 @@ static void assert_spliced_behind(unsigned made)
     TEST_ASSERT_TRUE(step_channel_is_running(&channel));
     record(PLANNED + 2);
 
-    assert_planned_ticks(&at);
+    assert_planned_ticks(&at, 0);
 }
 
 void test_a_look_tells_the_armed_pulse(void)
@@ -384,17 +387,26 @@ void test_a_splice_behind_a_stop_gap_that_ran_out_arms_the_next_pulse(void)
     assert_spliced_behind(GAP + 1);
 }
 
-void test_a_splice_goes_on_as_planned_where_the_stop_gap_was_some_ticks_off(void)
+static void assert_spliced_off_behind(unsigned made)
 {
+    setUp();
     struct step_cursor at = brake_until(MADE + 1 + GAP);
     struct step_cursor off = at;
     off.generator.residual += 3U * off.generator.slope;
+    record(made);
 
     struct step_segment segment = planned_behind(&off, PLANNED);
     step_channel_splice(&channel, &at, &segment);
     record(PLANNED + 2);
 
-    assert_planned_ticks(&off);
+    assert_planned_ticks(&off, made);
+}
+
+void test_a_splice_goes_on_as_planned_where_the_stop_gap_was_some_ticks_off(void)
+{
+    assert_spliced_off_behind(0);
+    assert_spliced_off_behind(1);
+    assert_spliced_off_behind(GAP / 2);
 }
 
 void test_a_splice_goes_on_with_what_was_queued_behind_it(void)
@@ -436,4 +448,46 @@ void test_a_splice_whose_last_pulse_is_armed_ends_with_it(void)
 
     TEST_ASSERT_EQUAL_UINT(1, run_to_the_end());
     TEST_ASSERT_EQUAL_UINT64(MADE + 1 + GAP, step_channel_pulses(&channel));
+}
+
+static void splice_marked(const struct step_cursor *at)
+{
+    struct step_segment segment = planned_behind(at, PLANNED);
+    segment.marked = true;
+    step_channel_splice(&channel, at, &segment);
+}
+
+void test_a_mark_of_a_splice_is_seen_when_the_armed_pulse_has_been_made(void)
+{
+    struct step_cursor at = brake_until(MADE + 1 + GAP);
+
+    splice_marked(&at);
+
+    TEST_ASSERT_FALSE(step_channel_take_mark(&channel));
+    make_pulses(1);
+    TEST_ASSERT_TRUE(step_channel_take_mark(&channel));
+}
+
+void test_a_mark_of_a_splice_is_seen_at_once_if_that_pulse_has_been_made(void)
+{
+    struct step_cursor at = brake_until(MADE + 1 + GAP);
+    make_pulses(1);
+
+    splice_marked(&at);
+
+    TEST_ASSERT_TRUE(step_channel_take_mark(&channel));
+    TEST_ASSERT_EQUAL_UINT(PLANNED, run_to_the_end());
+    TEST_ASSERT_FALSE(step_channel_take_mark(&channel));
+}
+
+void test_a_mark_of_a_splice_behind_the_last_pulse_of_the_stop_gap_is_seen_at_once(void)
+{
+    struct step_cursor at = brake_until(MADE + 1);
+    make_pulses(1);
+    TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+
+    splice_marked(&at);
+
+    TEST_ASSERT_TRUE(step_channel_take_mark(&channel));
+    TEST_ASSERT_EQUAL_UINT(PLANNED, run_to_the_end());
 }
