@@ -13,15 +13,7 @@ from language_flow import Flow
 from language_memory import Memory
 from language_pulses import Follower
 from language_setup import ERRORS, Failed, Order, Setup
-from language_signals import (
-    COMMAND_TICKS,
-    MS,
-    SEEN_TICKS,
-    US,
-    Difference,
-    Moment,
-    Unsure,
-)
+from language_signals import COMMAND_TICKS, MS, SEEN_TICKS, US, Difference, Moment, Unsure
 from language_text import Command
 from language_world import BEHIND_TICKS, BURST_MAX, LOCK, STOPS, Phase, World
 
@@ -62,11 +54,11 @@ class Motor:
         r"""Take a `\`; the motor has been advanced to the tick."""
         moving = self.phase is Phase.MOVING
         if moving:
+            self._forget_marks(tick)
             self._stop("\\", tick)
-        order = self._order
         self._start_over()
         if moving:
-            self._order, self._cause = order, "\\"
+            self._cause = "\\"
         else:
             self._watch.allow("stop", STOPS["\\"], tick, tick)
             self.phase, self._clock, self._now = Phase.IDLE, tick, Moment(tick, tick + SEEN_TICKS)
@@ -448,14 +440,22 @@ class Motor:
         assert self._moving
         border = self._moving.last_begins
         tick = self._follower.tick_of(min(border, made))
+        high = tick + SEEN_TICKS
         if 0 < border < made:
-            self._mark(tick, tick + SEEN_TICKS)
+            self._mark(tick, high)
         elif 0 < border == made:
-            said = [
-                self._watch.allow("out", n, tick, tick + SEEN_TICKS) for n in self._moving.marks
-            ]
+            said = [self._watch.allow("out", n, tick, high) for n in self._moving.marks]
             if self._order and any(said):
                 self._order = replace(self._order, marks=())
+
+    def _forget_marks(self, tick: int) -> None:
+        r"""Of a move with a `\`: a last section that begins behind it sets no outputs."""
+        assert self._moving
+        border = self._moving.last_begins
+        if self.made_at(tick) < border:
+            self._moving = replace(self._moving, marks=())
+        elif border and tick - self._follower.tick_of(border) < SEEN_TICKS:
+            raise Unsure("a total reset when the last section begins")
 
     def _finish(self, made: int, seen: int) -> None:
         """Go on behind a move as what has stopped it wants."""
