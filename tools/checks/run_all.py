@@ -165,9 +165,12 @@ def mcdc() -> Count:
 def sweeps() -> Count:
     """The tests that a run of some minutes does at some places only, at all of them."""
     stored = ["ctest", "--preset", "host", "-V", "-R", "power_cut|store_sweep|line_splits"]
-    random = [*PYTHON, "pytest", "-q", "-s", "-c", CONFIG, "--rootdir", str(ROOT)]
+    random = [
+        *PYTHON, "pytest", "-q", "-rP", "-c", CONFIG, "--rootdir", str(ROOT),
+        "--numprocesses", "logical", "tests/property",
+    ]  # fmt: skip
     count = Count()
-    for command in (stored, [*random, "tests/property"]):
+    for command in (stored, random):
         good = succeeds(*command, show=True, more=SWEEPS)
         count += Count(passed=1) if good else Count(failed=1)
     return count
