@@ -220,14 +220,6 @@ static void channel_join(struct step_channel *channel, const struct step_segment
     }
 }
 
-/* The segment begins when the armed pulse has been made. */
-static void channel_follow(struct step_channel *channel, const struct step_segment *segment)
-{
-    channel->cursor.end = step_cursor_pulse(&channel->cursor);
-    channel->cursor.left = 0;
-    channel_push(channel, segment);
-}
-
 void step_channel_splice(struct step_channel *channel, const struct step_cursor *at,
                          const struct step_segment *segment)
 {
@@ -239,7 +231,8 @@ void step_channel_splice(struct step_channel *channel, const struct step_cursor 
     if (begun || rests) {
         channel_join(channel, segment, made);
     } else {
-        channel_follow(channel, segment);
+        channel_truncate(channel, step_cursor_pulse(&channel->cursor));
+        channel_push(channel, segment);
     }
     hal_step_release();
     if (rests) {

@@ -86,7 +86,8 @@ bool step_channel_foresee(const struct step_channel *channel, uint32_t tick, str
 bool step_channel_brake(struct step_channel *channel, int32_t accel, uint64_t until, struct step_cursor *at);
 
 /* Puts the first planned segment behind `at` in the place of the stop-gap. The pulses that were made in the meantime
- * are on it already: both brake alike, and it has no fewer pulses. If it is marked, it has begun with `at`, too. */
+ * are on it already: both brake alike, and it has no fewer pulses. A mark of it is
+ * reported when `at` has been made. */
 void step_channel_splice(struct step_channel *channel, const struct step_cursor *at,
                          const struct step_segment *segment);
 

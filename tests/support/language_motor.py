@@ -454,7 +454,7 @@ class Motor:
         border = self._moving.last_begins
         if self.made_at(tick) < border:
             self._moving = replace(self._moving, marks=())
-        elif border and tick - self._follower.tick_of(border) < SEEN_TICKS:
+        elif self._moving.marks and border and tick - self._follower.tick_of(border) < SEEN_TICKS:
             raise Unsure("a total reset when the last section begins")
 
     def _finish(self, made: int, seen: int) -> None:
