@@ -6,6 +6,7 @@
 
 /* What masters read must not change with the order of our own lists. */
 static_assert(HAL_BOARD_CAUSE_POWER == 0 && HAL_BOARD_CAUSE_FAULT == 3, "causes are numbered in messages.md");
+static_assert(UNIT_VARIABLE_FIRST + UNIT_VARIABLES == PROTOCOL_WAITS_TIME, "a time is no variable");
 static_assert(INTERPRETER_ERROR_NO_LABEL == 1 && INTERPRETER_ERROR_NO_CRYSTAL == 10,
               "errors are numbered in messages.md");
 
@@ -39,6 +40,17 @@ static uint8_t motor_bits(const struct interpreter *interpreter)
     return (uint8_t)(state_bits(interpreter) | moving);
 }
 
+static uint8_t awaited(const struct interpreter *interpreter)
+{
+    if (interpreter->state == INTERPRETER_WAIT_LEVEL) {
+        return (uint8_t)(interpreter->wait_number | (interpreter->wait_level ? PROTOCOL_WAITS_HIGH : 0U));
+    }
+    if (interpreter->state == INTERPRETER_WAIT_TIME) {
+        return PROTOCOL_WAITS_TIME;
+    }
+    return interpreter->state == INTERPRETER_HELD ? PROTOCOL_WAITS_RELEASE : 0U;
+}
+
 static uint8_t switch_bits(const struct io *io)
 {
     unsigned bits = hal_board_may_move() ? 0U : PROTOCOL_STATUS_NO_CRYSTAL;
@@ -62,6 +74,7 @@ void protocol_status_read(struct protocol_status *status, const struct interpret
         const struct interpreter *interpreter = &interpreters[motor];
         status->motors[motor] = motor_bits(interpreter);
         status->errors[motor] = interpreter->error;
+        status->waits[motor] = awaited(interpreter);
         status->positions_steps[motor] = mover_position_steps(interpreter->mover);
     }
 }
@@ -93,5 +106,8 @@ void protocol_status_put(const struct protocol_status *status, struct text *answ
     put_number(answer, status->late_steps, 4);
     for (unsigned count = 0; count < PROTOCOL_LINE_COUNTS; count++) {
         put_number(answer, status->line_counts[count], 4);
+    }
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        text_put_byte(answer, status->waits[motor]);
     }
 }

@@ -14,8 +14,13 @@
 #include "interpreter.h"
 
 enum {
-    PROTOCOL_STATUS_LAYOUT = 1, /* a later layout has these bytes too, and more behind them */
+    PROTOCOL_STATUS_LAYOUT = 2, /* a later layout has these bytes too, and more behind them */
     PROTOCOL_LINE_COUNTS = 12,  /* counters of the link, in the order of its LINK_COUNTS */
+
+    /* What a motor waits for: the number of an input or variable, with the level in bit 7, or one of these. */
+    PROTOCOL_WAITS_HIGH = 0x80,
+    PROTOCOL_WAITS_TIME = 96,
+    PROTOCOL_WAITS_RELEASE = 97, /* `]` */
 };
 
 /* Bits of `switches`. X(NAME, bit) */
@@ -50,6 +55,7 @@ struct protocol_status {
     int64_t positions_steps[UNIT_MOTORS];
     uint32_t late_steps;                        /* since the start; modulo 2^32 */
     uint32_t line_counts[PROTOCOL_LINE_COUNTS]; /* since the start; modulo 2^32 */
+    uint8_t waits[UNIT_MOTORS];                 /* see PROTOCOL_WAITS_HIGH; 0: for nothing */
 };
 
 /* Reads all of it but the counters of the link. */

@@ -7,7 +7,7 @@
 enum {
     WAIT_MS = 25,          /* an answer has begun within 20 ms */
     ANSWER_MS_MAX = 10000, /* the longest takes 9 s, were every byte escaped */
-    STATUS_BYTES = 98,
+    STATUS_BYTES = 102,
     KEPT_MAX = 2 + 86, /* address, number, and what of an answer outlives a broadcast */
 };
 

@@ -51,6 +51,7 @@ class Vector:
     positions_steps: list[int] = field(default_factory=lambda: [0] * 4)
     late_steps: int = 0
     line_counts: list[int] = field(default_factory=lambda: [0] * 12)
+    waits: list[int] = field(default_factory=lambda: [0] * 4)
 
     @property
     def whole(self) -> bytes:
@@ -58,11 +59,17 @@ class Vector:
 
     @property
     def answer(self) -> bytes:
-        small = [1, self.inputs, self.outputs, self.cause, self.switches]
+        small = [2, self.inputs, self.outputs, self.cause, self.switches]
         small += [*self.motors, *self.errors]
         wide = b"".join(each.to_bytes(8, "little", signed=True) for each in self.positions_steps)
         counts = [self.late_steps, *self.line_counts]
-        return bytes(small) + wide + b"".join(each.to_bytes(4, "little") for each in counts)
+        numbers = b"".join(each.to_bytes(4, "little") for each in counts)
+        return bytes(small) + wide + numbers + bytes(self.waits)
+
+    @property
+    def oldest(self) -> bytes:
+        """The same in layout 1."""
+        return self.whole[:1] + b"\1" + self.whole[2:-4]
 
 
 VECTORS = [
@@ -73,11 +80,13 @@ VECTORS = [
            errors=[0, 10, 0, 0]),
     Vector("at work", inputs=0xA5, outputs=0x3C, switches=0x0C, motors=[3, 6, 9, 32],
            positions_steps=[5000, -5, 16_000_000, -(2**40)], late_steps=7,
-           line_counts=list(range(100, 112))),
+           line_counts=list(range(100, 112)), waits=[0, 5 + 128, 0, 0]),
     Vector("every error", cause=3, switches=0x02, motors=[16, 17, 16, 16], errors=[1, 2, 9, 10]),
+    Vector("every kind of wait", motors=[6, 6, 6, 6], waits=[8, 80 + 128, 96, 97]),
     Vector("the largest and the least", inputs=255, outputs=255, cause=3, switches=15,
            motors=[63] * 4, errors=[10] * 4, positions_steps=[2**63 - 1, -(2**63), -1, 1],
-           late_steps=2**32 - 1, line_counts=[2**32 - 1 - each for each in range(12)]),
+           late_steps=2**32 - 1, line_counts=[2**32 - 1 - each for each in range(12)],
+           waits=[255] * 4),
     Vector("bytes that are escaped on the line", inputs=0x7E, outputs=0x7D,
            positions_steps=[0x7E7D7E7D, 0, 0, 0], line_counts=[0x7E] * 12),
 ]  # fmt: skip
@@ -106,7 +115,8 @@ def c_row(vector: Vector) -> str:
         f"     {{{vector.inputs}, {vector.outputs}, {vector.cause}, {vector.switches},"
         f" {numbers(vector.motors)}, {numbers(vector.errors)},\n"
         f"      {positions}, {vector.late_steps}U,\n"
-        f"      {{{rows}}}}},\n"
+        f"      {{{rows}}},\n"
+        f"      {numbers(vector.waits)}}},\n"
         f"     {c_bytes(vector.answer)}, {len(vector.answer)}}},\n"
     )
 

@@ -13,7 +13,7 @@ import statuses
 from fake_unit import FakeLine, FakeUnit
 from rkm04_tools.line import open_line
 from rkm04_tools.line_errors import UnitRefused, UnknownMessage, WrongAnswer
-from rkm04_tools.status import CAUSES, ERRORS, LAYOUT, LINE_COUNTS, parse_status
+from rkm04_tools.status import CAUSES, ERRORS, LAYOUT, LINE_COUNTS, WAITS, parse_status
 
 ROOT = Path(__file__).resolve().parents[2]
 ANSWERS = json.loads(statuses.JSON_FILE.read_text())["answers"]
@@ -23,7 +23,7 @@ NODE = 3
 TEXT = """\
 motor            position  state
     1               5 000  moving
-    2                  -5  waiting
+    2                  -5  waiting for input 5 to become 1
     3          16 000 000  stopped by K, moving
     4  -1 099 511 627 776  ended by X
 
@@ -116,23 +116,56 @@ def test_errors_and_counters_are_those_of_the_firmware():
 
 def test_a_later_layout_is_read_as_far_as_it_is_known():
     later = bytearray(AT_WORK.whole + b"more")
-    later[1] = 2
+    later[1] = 3
     later[4], later[6], later[10] = 77, 0xF0, 200
 
     status = parse_status(bytes(later))
 
-    assert (status.layout, status.cause) == (2, "cause 77")
+    assert (status.layout, status.cause) == (3, "cause 77")
     assert status.motors[0].error == "error 200"
     assert status.late_steps == AT_WORK.late_steps
 
 
 @pytest.mark.parametrize(
     "answer",
-    [b"\xc8", AT_WORK.whole[:-1], b"\xc8\0" + AT_WORK.whole[2:], b"\x04" + AT_WORK.whole[1:]],
+    [
+        b"\xc8",
+        AT_WORK.oldest[:-1],
+        AT_WORK.whole[:-1],
+        b"\xc8\0" + AT_WORK.whole[2:],
+        b"\x04" + AT_WORK.whole[1:],
+    ],
 )
 def test_an_answer_of_other_bytes_is_a_typed_error(answer):
     with pytest.raises(WrongAnswer, match="Get Status"):
         parse_status(answer)
+
+
+def test_what_motors_wait_for_is_told_in_words():
+    vector = next(each for each in statuses.VECTORS if each.name == "every kind of wait")
+
+    texts = [motor.text for motor in parse_status(vector.whole).motors]
+
+    assert texts == [
+        "waiting for input 8 to become 0",
+        "waiting for variable 80 to become 1",
+        "waiting for a time",
+        "waiting for ]",
+    ]
+
+
+@pytest.mark.parametrize("code", [0, 9, 79, 98, 127, 128, 128 + 96])
+def test_what_is_awaited_and_not_known_is_not_made_up(code):
+    answer = statuses.Vector("", motors=[6, 6, 6, 6], waits=[code] * 4).whole
+
+    assert {motor.text for motor in parse_status(answer).motors} == {"waiting"}
+
+
+def test_a_unit_of_the_oldest_layout_does_not_tell_what_is_awaited():
+    status = parse_status(AT_WORK.oldest)
+
+    assert (status.layout, status.motors[1].text) == (1, "waiting")
+    assert status.line["unsent"] == 111
 
 
 def test_an_original_unit_refuses_it_in_its_own_way():
@@ -142,7 +175,11 @@ def test_an_original_unit_refuses_it_in_its_own_way():
 
 
 def test_the_answer_has_the_length_of_the_documents():
-    assert {len(bytes.fromhex(each["answer"])) for each in ANSWERS} == {LAYOUT.size} == {98}
+    assert (
+        {len(bytes.fromhex(each["answer"])) for each in ANSWERS}
+        == {LAYOUT.size + WAITS.size}
+        == {102}
+    )
 
 
 def test_a_script_gets_the_status(unit):
@@ -171,7 +208,7 @@ def test_status_as_json(tool, unit):
     assert answer["inputs"] == [1, 0, 1, 0, 0, 1, 0, 1]
     assert answer["motors"][0] == {
         "motor": 1, "position": 5000, "moving": True, "running": True, "waiting": False,
-        "stopped": False, "failed": False, "ended": False, "error": "",
+        "stopped": False, "failed": False, "ended": False, "error": "", "awaited": None,
     }  # fmt: skip
     assert answer["line"]["repeats"] == 110
 

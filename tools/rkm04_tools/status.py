@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from rkm04_tools.line_errors import WrongAnswer
@@ -16,6 +16,7 @@ from rkm04_tools.messages import GET_STATUS, MOTORS, NAMES, require_known
 from rkm04_tools.table import table, thousands
 
 INPUTS = OUTPUTS = 8
+VARIABLES = range(80, 96)
 
 CAUSES = ("power-on", "reset", "watchdog", "fault")
 ERRORS = (
@@ -50,6 +51,27 @@ LINE_COUNTS = {
 # Number, layout; inputs, outputs, cause, switches; states; errors; positions; late steps; counts.
 LAYOUT = struct.Struct(f"<BB4B4B4B4qI{len(LINE_COUNTS)}I")
 LAYOUT_OLDEST = 1
+WAITS = struct.Struct("<4B")
+"""What layout 2 has behind it: what each motor waits for."""
+
+WAITS_HIGH, WAITS_TIME, WAITS_RELEASE = 0x80, 96, 97
+
+
+@dataclass(frozen=True)
+class Awaited:
+    """What a program waits for: an `input` or a `variable` with its number and level, a `time`,
+    or `]`; with number and level 0."""
+
+    what: str
+    number: int = 0
+    level: int = 0
+
+    @property
+    def text(self) -> str:
+        """In words."""
+        if self.number:
+            return f"{self.what} {self.number} to become {self.level}"
+        return f"a {self.what}" if self.what == "time" else self.what
 
 
 @dataclass(frozen=True)
@@ -57,7 +79,8 @@ class MotorStatus:
     """What a motor does. `error` says why its program has failed, empty if it has not.
 
     `moving`: a move is in progress. `running`: its program is; `waiting`: it is, and waits for a
-    time, a level or `]`. `stopped` by K until C75, `failed` and `ended` (by X) until `\\`.
+    time, a level or `]`; for which of them is in `awaited`, if the unit tells. `stopped` by K until
+    C75, `failed` and `ended` (by X) until `\\`.
     """
 
     motor: int
@@ -69,6 +92,7 @@ class MotorStatus:
     failed: bool
     ended: bool
     error: str
+    awaited: Awaited | None = None
 
     @property
     def text(self) -> str:
@@ -80,7 +104,7 @@ class MotorStatus:
                 ("ended by X", self.ended),
                 ("stopped by K", self.stopped),
                 ("moving", self.moving),
-                ("waiting", self.waiting),
+                (f"waiting{f' for {self.awaited.text}' if self.awaited else ''}", self.waiting),
                 ("running", self.running and not (self.moving or self.waiting)),
             )
             if is_so
@@ -121,7 +145,7 @@ class Status:
             "not_started": self.not_started,
             "memory_locked": self.memory_locked,
             "simulating": self.simulating,
-            "motors": [dict(vars(motor)) for motor in self.motors],
+            "motors": [asdict(motor) for motor in self.motors],
             "late_steps": self.late_steps,
             "line": dict(self.line),
         }
@@ -135,6 +159,12 @@ def parse_status(answer: bytes) -> Status:
     values = iter(LAYOUT.unpack(answer[: LAYOUT.size]))
     _, layout, inputs, outputs, cause, switches = _take(values, 6)
     states, errors, positions = (_take(values, len(MOTORS)) for _ in range(3))
+    rest = answer[LAYOUT.size :]
+    if layout > LAYOUT_OLDEST and len(rest) < WAITS.size:
+        raise WrongAnswer(NAMES[GET_STATUS], answer)
+    codes = WAITS.unpack(rest[: WAITS.size]) if layout > LAYOUT_OLDEST else [0] * len(MOTORS)
+    awaited = map(_awaited, codes)
+    motors = zip(MOTORS, positions, states, errors, awaited, strict=True)
     return Status(
         layout=layout,
         inputs=_levels(inputs, INPUTS),
@@ -144,7 +174,7 @@ def parse_status(answer: bytes) -> Status:
         not_started=bool(switches & 2),
         memory_locked=bool(switches & 4),
         simulating=bool(switches & 8),
-        motors=tuple(_motor(*each) for each in zip(MOTORS, positions, states, errors, strict=True)),
+        motors=tuple(_motor(*each) for each in motors),
         late_steps=next(values),
         line=dict(zip(LINE_COUNTS, values, strict=True)),
     )
@@ -182,9 +212,21 @@ def _levels(byte: int, count: int) -> tuple[bool, ...]:
     return tuple(bool(byte >> place & 1) for place in range(count))
 
 
-def _motor(motor: int, position: int, state: int, error: int) -> MotorStatus:
+def _awaited(code: int) -> Awaited | None:
+    number, level = code & ~WAITS_HIGH, int(bool(code & WAITS_HIGH))
+    if 1 <= number <= INPUTS:
+        return Awaited("input", number, level)
+    if number in VARIABLES:
+        return Awaited("variable", number, level)
+    return {WAITS_TIME: Awaited("time"), WAITS_RELEASE: Awaited("]")}.get(code)
+
+
+def _motor(
+    motor: int, position: int, state: int, error: int, awaited: Awaited | None
+) -> MotorStatus:
     moving, running, waiting, stopped, failed, ended = _levels(state, 6)
     text = ERRORS[error] if error < len(ERRORS) else f"error {error}"
     return MotorStatus(
-        motor, position, moving, running, waiting, stopped, failed, ended, text if failed else ""
-    )
+        motor, position, moving, running, waiting, stopped, failed, ended, text if failed else "",
+        awaited if waiting else None,
+    )  # fmt: skip

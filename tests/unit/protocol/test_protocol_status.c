@@ -174,6 +174,27 @@ void test_waits_for_a_time_a_level_and_a_bracket_are_waiting(void)
     }
 }
 
+void test_what_a_motor_waits_for_is_told_while_it_waits(void)
+{
+    static const struct {
+        const char *program;
+        uint8_t waits;
+    } cases[] = {{"W1000", 96}, {"O1", 129}, {"Z8", 8}, {"O80", 208}, {"T95Z95", 95}, {"[F1R", 97}, {"@1J1", 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        setUp();
+        host_machine_set_input(&machine, 8, true);
+        run_ms(1);
+        take(3, cases[i].program);
+        run_ms(10);
+        protocol_status_read(&status, interpreter);
+        TEST_ASSERT_EQUAL_UINT8_MESSAGE(cases[i].waits, status.waits[2], cases[i].program);
+        TEST_ASSERT_EQUAL_UINT8(0, status.waits[0]);
+        take(3, "K");
+        protocol_status_read(&status, interpreter);
+        TEST_ASSERT_EQUAL_UINT8_MESSAGE(0, status.waits[2], cases[i].program);
+    }
+}
+
 void test_k_is_stopped_and_moving_until_the_motor_stands(void)
 {
     take(1, "S100V4000A2000F5000R");
@@ -249,7 +270,7 @@ void test_the_answer_has_the_counters_of_the_link(void)
 
     uint32_t length = protocol_answer(&protocol, (const uint8_t *)"\xC8more", 5, 0, answer);
 
-    TEST_ASSERT_EQUAL_UINT32(98, length);
+    TEST_ASSERT_EQUAL_UINT32(102, length);
     TEST_ASSERT_EQUAL_HEX8(200, answer[0]);
     TEST_ASSERT_EQUAL_HEX8_ARRAY("\x04\x03\x02\x01", answer + 50, 4);
     TEST_ASSERT_EQUAL_HEX8_ARRAY("\x09\0\0", answer + 94, 4);
