@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from rkm04_tools import host
+from rkm04_tools import child, host
 from rkm04_tools.failure import DONE
 from rkm04_tools.table import rounded, table
 
@@ -89,7 +89,10 @@ def _from_script(row: Row, name: str, figure: Callable[[dict[str, Any]], float])
     if not script.is_file():
         return replace(row, note=f"{script} is not there")
     command = [sys.executable, str(script), "--json"]
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    done = subprocess.run(
+        command, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+        preexec_fn=child.binder(),
+    )  # fmt: skip
     try:
         if done.returncode == 0:
             return replace(row, measured=float(figure(json.loads(done.stdout))))

@@ -96,23 +96,26 @@ def build(board: str) -> Image:
     if not shutil.which(COMPILER):
         _call([str(ROOT / "tools" / "setup"), "board"], "the compiler cannot be installed")
     configure = ["cmake", "--preset", "stm32", "-B", str(image.folder), f"-DRKM04_BOARD={board}"]
-    with _alone_in(image.folder):
-        _call(configure, "the build cannot be set up")
-        _call(["cmake", "--build", str(image.folder)], "the image does not build")
+    with _alone_in(image.folder) as lock:
+        _call(configure, "the build cannot be set up", lock)
+        _call(["cmake", "--build", str(image.folder)], "the image does not build", lock)
     return image
 
 
 @contextmanager
-def _alone_in(folder: Path) -> Iterator[None]:
-    """Hold off other builds in the same folder: two at once break each other."""
+def _alone_in(folder: Path) -> Iterator[int]:
+    """Hold off other builds in the same folder: two at once break each other.
+
+    What builds gets the lock that is yielded, so that it lasts as long as that, whatever ends this.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / "build.lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        yield
+        yield lock.fileno()
 
 
-def _call(command: list[str], complaint: str) -> None:
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+def _call(command: list[str], complaint: str, *kept: int) -> None:
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, pass_fds=kept)
     if done.returncode != 0:
         print(done.stdout + done.stderr)
         raise Failure(f"{complaint}, see above", NOT_SO)
@@ -182,6 +185,7 @@ def _write(tool: str, command: list[str]) -> None:
     if not shutil.which(tool):
         hint = f"apt-get install {flasher.package}, or choose another --tool"
         raise Failure(f"{tool} is not installed: {hint}", NO_CONNECTION)
+    # Left to its end if this is killed: half an image in the flash is worse than a late one.
     done = subprocess.run(command, capture_output=True, text=True, errors="replace")
     said = done.stdout + done.stderr
     if done.returncode == 0:

@@ -17,6 +17,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from rkm04_tools import child
 from rkm04_tools.failure import Failure
 
 PROGRAM = "rkm04-host"
@@ -109,7 +110,9 @@ def _answer(arguments: Sequence[str], given: bytes = b"", progress: str = "") ->
     """Run the program to its end and return what it answers."""
     command = [str(program_path()), *arguments]
     pipe = subprocess.PIPE
-    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe) as process:
+    with subprocess.Popen(
+        command, stdin=pipe, stdout=pipe, stderr=pipe, env=child.bound()
+    ) as process:
         try:
             out, complaint = _communicate(process, given, progress)
         except BaseException:

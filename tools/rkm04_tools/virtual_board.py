@@ -14,7 +14,7 @@ from typing import Any
 
 from checks.board_pins import Board, read_board
 
-from rkm04_tools import host
+from rkm04_tools import child, host
 from rkm04_tools.board import BOARDS
 from rkm04_tools.failure import NOT_SO, Failure
 
@@ -60,8 +60,9 @@ def program_path() -> Path:
 def run(program: Path, arguments: Sequence[str]) -> dict[str, Any]:
     """Run an image; the answer is the summary."""
     done = subprocess.run(
-        [str(program), *arguments], capture_output=True, text=True, errors="replace"
-    )
+        [str(program), *arguments],
+        capture_output=True, text=True, errors="replace", env=child.bound(),
+    )  # fmt: skip
     if done.returncode != 0:
         line = done.stderr.strip().rpartition("\n")[2].removeprefix(f"{PROGRAM}: ")
         raise Failure(line or f"{PROGRAM} ended with status {done.returncode}", NOT_SO)

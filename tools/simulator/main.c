@@ -11,6 +11,7 @@
 #include "complain.h"
 #include "opcodes.h"
 #include "options.h"
+#include "parent.h"
 #include "run.h"
 #include "serve.h"
 
@@ -86,6 +87,7 @@ static enum exit_status run_command(const char *name, int count, char *const arg
 
 int main(int argc, char *argv[])
 {
+    parent_bind();
     if (argc > 0) {
         complain_as(argv[0]);
     }

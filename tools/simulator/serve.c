@@ -56,11 +56,12 @@ struct serve {
     uint64_t rested_ns;         /* real time at which the units caught up last */
     struct pollfd slots[SLOTS];
     bool touched;               /* bytes or inputs have come that the units have not seen yet */
+    bool over;                  /* standard input has ended, and this is to end with it */
 };
 
 const char serve_usage[] =
     "usage: rkm04-host serve [--tcp PORT | --pty PATH] [--node N ...] [--flash FILE] [--speed X]\n"
-    "                        [--unpaced] [--control PORT] [--address ADDRESS] [--json]\n"
+    "                        [--unpaced] [--control PORT] [--address ADDRESS] [--json] [--until-eof]\n"
     "\n"
     "Units on one line in real time, until Ctrl-C. When ready it prints where it listens.\n"
     "\n"
@@ -73,6 +74,7 @@ const char serve_usage[] =
     "--control PORT    takes the lines of standard input by TCP too; 0 takes any free port\n"
     "--address ADDRESS listens there, for others to connect (127.0.0.1: only this machine)\n"
     "--json            says where it listens as a JSON object\n"
+    "--until-eof       ends when standard input does, as it does when the program that writes there ends\n"
     "\n"
     "Lines on standard input: 3=1 sets input 3, 2.3=1 that of unit 2, ? prints the state of all\n"
     "units. Each is answered by JSON: the state by a line per unit, the others by one line.\n"
@@ -187,7 +189,7 @@ static void hear_control(struct serve *serve, unsigned client)
     serve->touched = serve->touched || count > 0;
 }
 
-/* At its end, and where reading is not allowed, it is listened to no more. */
+/* At its end, and where reading is not allowed, it is listened to no more; or all ends. */
 static void hear_user(struct serve *serve)
 {
     char bytes[CHUNK_BYTES];
@@ -197,6 +199,7 @@ static void hear_user(struct serve *serve)
         serve->touched = true;
     } else if (count == 0 || (errno != EINTR && errno != EAGAIN)) {
         serve->slots[SLOT_USER].fd = -1;
+        serve->over = serve->options->until_eof;
     }
 }
 
@@ -271,7 +274,7 @@ static bool wait_for_something(struct serve *serve)
             serve->slots[i].revents = 0;
         }
     }
-    return serve->slots[SLOT_SIGNAL].revents == 0;
+    return serve->slots[SLOT_SIGNAL].revents == 0 && !serve->over;
 }
 
 static void serve_for_ever(struct serve *serve)
@@ -279,7 +282,7 @@ static void serve_for_ever(struct serve *serve)
     serve->clock.milli_speed = serve->options->milli_speed;
     serve_clock_set(&serve->clock, units_real_ns(), serve->units.now);
     catch_up(serve);
-    while (wait_for_something(serve)) {
+    while (!serve->over && wait_for_something(serve)) {
         catch_up(serve);
         hear_all(serve);
         if (serve->touched) {

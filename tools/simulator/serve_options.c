@@ -114,9 +114,11 @@ static bool read_switch(struct serve_options *options, const char *name)
 {
     bool unpaced = strcmp(name, "--unpaced") == 0;
     bool json = strcmp(name, "--json") == 0;
+    bool until_eof = strcmp(name, "--until-eof") == 0;
     options->unpaced = options->unpaced || unpaced;
     options->json = options->json || json;
-    return unpaced || json;
+    options->until_eof = options->until_eof || until_eof;
+    return unpaced || json || until_eof;
 }
 
 static bool is_whole(struct serve_options *options)

@@ -26,6 +26,7 @@ struct serve_options {
     bool tcp;
     bool unpaced;
     bool json;
+    bool until_eof;       /* ends when standard input does */
     uint8_t units;
     uint8_t nodes[SERVE_UNITS_MAX];
 };

@@ -7,6 +7,7 @@
 
 #include "board.h"
 #include "complain.h"
+#include "parent.h"
 #include "summary.h"
 
 static enum exit_status run(const struct options *options)
@@ -31,6 +32,7 @@ static enum exit_status run(const struct options *options)
 int main(int argc, char *argv[])
 {
     struct options options;
+    parent_bind();
     if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) {
         (void)fputs(options_usage, stdout);
         return (int)finish_output();

@@ -10,7 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from rkm04_tools import host
+from rkm04_tools import child, host
 from rkm04_tools.check import Checked, check_source
 from rkm04_tools.report import Run
 from rkm04_tools.service.trouble import BadRequest, Superseded
@@ -102,7 +102,7 @@ async def _simulate(wanted: Wanted, checked: dict[int, Checked], folder: Path) -
     pipe = asyncio.subprocess.PIPE
     process = await asyncio.create_subprocess_exec(
         str(host.program_path()), "sim", *arguments,
-        stdin=asyncio.subprocess.DEVNULL, stdout=pipe, stderr=pipe,
+        stdin=asyncio.subprocess.DEVNULL, stdout=pipe, stderr=pipe, env=child.bound(),
     )  # fmt: skip
     try:
         out, complaint = await asyncio.wait_for(process.communicate(), TIMEOUT_SECONDS)

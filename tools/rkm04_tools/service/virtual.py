@@ -60,7 +60,8 @@ class VirtualLine:
 
     def _start(self) -> None:
         self._folder = self._folder or TemporaryDirectory(prefix="rkm04-units-")
-        arguments = ["serve", "--json", "--tcp", "0", "--control", "0"]
+        # It ends with its standard input, and so with this process, whatever ends that.
+        arguments = ["serve", "--json", "--until-eof", "--tcp", "0", "--control", "0"]
         arguments += ["--flash", str(Path(self._folder.name) / "flash")]
         for node in NODES:
             arguments += ["--node", str(node)]

@@ -1,0 +1,10 @@
+#ifndef PARENT_H
+#define PARENT_H
+
+/*
+ * Ties this program to the one that has started it, if that has put its process number into RKM04_PARENT: when it
+ * ends, whatever ends it, this one is killed. Without the variable nothing is tied. To be called once, first of all.
+ */
+void parent_bind(void);
+
+#endif
