@@ -8,12 +8,11 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from checks.c_source import Mismatch, source
 from prove import (
-    FUNCTION,
     PROOFS,
     ROOT,
     Contracts,
-    Mismatch,
     Result,
     digest,
     missing,
@@ -25,10 +24,10 @@ from prove import (
 needs_provers = pytest.mark.skipif(bool(missing()), reason=f"not installed: {missing()}")
 
 
-def planted(tmp_path: Path, source: str, right: str, wrong: str) -> Path:
+def planted(tmp_path: Path, file: str, right: str, wrong: str) -> Path:
     """A root with the firmware, in which something is wrong."""
     shutil.copytree(ROOT / "firmware", tmp_path / "firmware")
-    path = tmp_path / source
+    path = tmp_path / file
     text = path.read_text()
     assert right in text
     path.write_text(text.replace(right, wrong))
@@ -37,7 +36,7 @@ def planted(tmp_path: Path, source: str, right: str, wrong: str) -> Path:
 
 @needs_provers
 @pytest.mark.parametrize(
-    ("name", "function", "source", "right", "wrong"),
+    ("name", "function", "file", "right", "wrong"),
     [
         (
             "base_tick", "tick_is_before", "firmware/base/base_tick.c",
@@ -94,9 +93,9 @@ def planted(tmp_path: Path, source: str, right: str, wrong: str) -> Path:
     ],
 )  # fmt: skip
 def test_a_planted_error_leaves_goals_unproved(
-    tmp_path: Path, name: str, function: str, source: str, right: str, wrong: str
+    tmp_path: Path, name: str, function: str, file: str, right: str, wrong: str
 ) -> None:
-    contracts = put_together(PROOFS / f"{name}.acsl", planted(tmp_path, source, right, wrong))
+    contracts = put_together(PROOFS / f"{name}.acsl", planted(tmp_path, file, right, wrong))
     contracts.name = f"planted_{name}"
 
     contracts.proved = [function]
@@ -138,13 +137,13 @@ def test_contracts_that_contradict_themselves_prove_nothing() -> None:
 def test_every_function_of_a_source_is_proved_in_some_file() -> None:
     sources: dict[str, set[str]] = {}
     for path in PROOFS.glob("*.acsl"):
-        for source in re.findall(r"^% source (.*)$", path.read_text(), re.MULTILINE):
-            sources.setdefault(source, set()).update(put_together(path).proved)
+        for named in re.findall(r"^% source (.*)$", path.read_text(), re.MULTILINE):
+            sources.setdefault(named, set()).update(put_together(path).proved)
 
     left = {
         name
-        for source, proved in sources.items()
-        for name in set(FUNCTION.findall((ROOT / source).read_text())) - proved
+        for path, proved in sources.items()
+        for name in set(source((ROOT / path).read_text()).functions()) - proved
     }
 
     assert left == {"link_count_text", "step_channel_init"}
@@ -165,7 +164,32 @@ def test_a_change_of_a_source_or_a_header_is_not_as_it_was_proved(tmp_path: Path
     assert digest(Contracts("a", text='#include "shifts.h"\n')) != digest(Contracts("a"))
 
 
-def test_contracts_for_a_line_that_is_gone_do_not_fit(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("right", "other"),
+    [
+        ("{\n    return tick", "{\n    /* why */\n    return tick"),
+        ("return tick_difference(a, b) < 0", "return tick_difference(a,\n        b)<0"),
+    ],
+)
+def test_a_comment_or_another_layout_is_as_it_was_proved(
+    tmp_path: Path, right: str, other: str
+) -> None:
+    path = PROOFS / "base_tick.acsl"
+    root = planted(tmp_path, "firmware/base/base_tick.c", right, other)
+
+    assert digest(put_together(path, root)) == digest(put_together(path))
+
+
+def test_an_annotation_counts_although_it_is_a_comment() -> None:
+    one, other = (
+        Contracts("a", text=f"/*@ requires {what}; */\nvoid f(void);")
+        for what in ("a > b", "a < b")
+    )
+
+    assert digest(one) != digest(other)
+
+
+def test_contracts_for_a_function_that_is_gone_do_not_fit(tmp_path: Path) -> None:
     root = planted(tmp_path, "firmware/base/base_tick.c", "bool tick_is_before", "bool is_before")
 
     with pytest.raises(Mismatch, match="tick_is_before"):

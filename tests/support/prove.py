@@ -11,15 +11,14 @@ and the lemmas of the headers there. A file of contracts is C text, then parts t
     % option OPTION...    one more for Frama-C
     % provers NAME...     these suffice for the code: a second one doubles the time
     % source PATH         a source of the firmware; what follows goes into a copy of it
-    % before LINE         the text below goes before the next line that reads like this
-    % after LINE          or behind it
+    % ANCHOR              the text below goes where it says: see weave.py
 
-Each LINE is looked for behind the one before it. If it is not there, the source has changed and the
-proof has to follow: the run fails.
+If an anchor names nothing, or more than one thing, the source has changed and the proof has to
+follow: the run fails.
 
-proved.json says what has been proved: a digest of each file with all that it includes, and the
-number of its goals. What is as it was then is proved again with --all, or if it is named; --record
-writes down what this run has proved.
+proved.json says what has been proved: a digest of what Frama-C sees of each file and of all that it
+includes, and the number of its goals. What is as it was then is proved again with --all, or if it
+is named; --record writes down what this run has proved.
 """
 
 from __future__ import annotations
@@ -36,6 +35,9 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+
+from checks.c_source import Mismatch, essence, source
+from weave import weave
 
 ROOT = Path(__file__).resolve().parents[2]
 PROOFS = ROOT / "tests/proofs"
@@ -68,7 +70,6 @@ FOLDERS = (*sorted(path for path in (ROOT / "firmware").iterdir() if path.is_dir
            ROOT / "hal/include", PROOFS)  # fmt: skip
 
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
-FUNCTION = re.compile(r"^\w[\w *]*?\b(\w+)\([^;{}]*\)\n\{", re.MULTILINE)
 LEMMA = re.compile(r"(?<!admit )\blemma (\w+)")
 PROVED = re.compile(r"^\[wp\] Proved goals:\s+(\d+) / (\d+)$", re.MULTILINE)
 # With one prover, what it said stands behind the goal.
@@ -83,10 +84,6 @@ ASSUMED = re.compile(
     r"Neither code nor|User Error|Hide sub-term|Assume|ignored).*$",
     re.MULTILINE,
 )
-
-
-class Mismatch(Exception):
-    """A file of contracts that does not fit its source."""
 
 
 @dataclass
@@ -124,55 +121,44 @@ class Result:
         return f"{self.name}: proved {self.proved} / {self.goals} ({self.seconds:.0f} s)"
 
 
-def _put_in(source: list[str], start: int, anchor: str, lines: list[str], behind: bool) -> int:
-    """Puts lines next to the anchor; returns where the next anchor is looked for."""
-    for place in range(start, len(source)):
-        if source[place].strip() == anchor:
-            at = place + 1 if behind else place
-            source[at:at] = lines
-            return place + len(lines) + (0 if behind else 1)
-    raise Mismatch(f"the source has no line `{anchor}` behind the one before it")
-
-
 def put_together(path: Path, root: Path = ROOT) -> Contracts:
     """Reads a file of contracts."""
     contracts = Contracts(path.stem)
-    source: list[str] = []
-    done: list[str] = []
     functions: list[str] = []
-    place = 0
     pieces = re.split(r"^% *(\w+)(.*)\n", path.read_text(), flags=re.MULTILINE)
-    done.append(pieces[0])
+    done = [pieces[0]]
+    firmware, texts = "", list[tuple[str, str]]()
     for word, argument, text in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
-        argument = argument.strip()
-        if word == "prove":
-            contracts.proved += argument.split()
-            done.append(text)
-        elif word == "unsigned":
-            contracts.unsigned = True
-            done.append(text)
-        elif word == "option":
-            contracts.options += argument.split()
-            done.append(text)
-        elif word == "provers":
-            contracts.provers = argument.split()
+        if _takes_setting(contracts, word, argument.split()):
             done.append(text)
         elif word == "source":
-            done += ["\n".join(source), text]
-            firmware = (root / argument).read_text()
-            functions += FUNCTION.findall(firmware)
-            source = firmware.splitlines()
-            place = 0
-        elif word in ("before", "after"):
-            place = _put_in(source, place, argument, text.splitlines(), word == "after")
+            done += [weave(source(firmware), texts), text]
+            firmware, texts = (root / argument.strip()).read_text(), []
+            functions += source(firmware).functions()
         else:
-            raise Mismatch(f"`% {word}` means nothing")
-    contracts.text = "\n".join([*done, *source, ""])
+            texts.append((word + argument, text))
+    contracts.text = "\n".join([*done, weave(source(firmware), texts), ""])
     contracts.proved = contracts.proved or functions
-    there = FUNCTION.findall("".join(_headers(contracts.text, {}).values())) + functions
-    if unknown := set(contracts.proved) - set(there):
+    headers = _headers(contracts.text, {}).values()
+    there = [name for text in headers for name in source(text).functions()]
+    if unknown := set(contracts.proved) - {*there, *functions}:
         raise Mismatch(f"there is no function {', '.join(sorted(unknown))}")
     return contracts
+
+
+def _takes_setting(contracts: Contracts, word: str, values: list[str]) -> bool:
+    """Whether a `%` line is about the whole file, and not an anchor."""
+    if word == "prove":
+        contracts.proved += values
+    elif word == "unsigned":
+        contracts.unsigned = True
+    elif word == "option":
+        contracts.options += values
+    elif word == "provers":
+        contracts.provers = values
+    else:
+        return False
+    return True
 
 
 def _headers(text: str, seen: dict[str, str]) -> dict[str, str]:
@@ -233,9 +219,11 @@ def read(path: Path) -> Contracts:
 
 
 def digest(contracts: Contracts) -> str:
-    """Of all that a proof depends on, but the provers and this file."""
-    headers = sorted(_headers(contracts.text, {}).items())
-    return hashlib.sha256(repr((VERSION, contracts, headers)).encode()).hexdigest()
+    """Of all that a proof depends on, but the provers and this file: not of comments and layout."""
+    headers = [(name, essence(text)) for name, text in sorted(_headers(contracts.text, {}).items())]
+    asked = (contracts.proved, contracts.unsigned, contracts.options, list(contracts.provers))
+    what = (VERSION, asked, essence(contracts.text), headers)
+    return hashlib.sha256(repr(what).encode()).hexdigest()
 
 
 def recorded() -> dict[str, dict[str, str | int]]:
