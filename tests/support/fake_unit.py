@@ -18,10 +18,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from frames import FLAG, fcs16, frame, unescape
-from statuses import GET_STATUS, VECTORS
+from statuses import GET_STATUS, Vector
 
 VERSION = b"01.02,06.03.2009"
 ANSWER, REFUSED = 0x80, 0x40
+MOVING, RUNNING, WAITING, STOPPED, FAILED, ENDED = (1 << bit for bit in range(6))
 
 Fault = Callable[[bytes], bytes]
 """Makes what goes back to the master out of the answer's bytes."""
@@ -68,8 +69,12 @@ class FakeUnit:
     answers: dict[bytes, bytes] = field(default_factory=dict)
     """Answers that are not to be the usual ones, by request."""
     flag: bytes = b"\0\0"
-    status: bytes = VECTORS[0].whole
-    """The answer to Get Status; empty: a unit that does not know it."""
+    status: bytes | None = None
+    """The answer to Get Status, if not that of `states`; empty: a unit that does not know it."""
+    states: list[int] = field(default_factory=lambda: [0, 0, 0, 0])
+    """What the motors do, as Get Status tells it; K, C75 and a hold at the beginning change it."""
+    errors: list[int] = field(default_factory=lambda: [0, 0, 0, 0])
+    waits: list[int] = field(default_factory=lambda: [0, 0, 0, 0])
     tables: dict[int, bytes] = field(default_factory=dict)
     last: tuple[int, bytes, bytes] = (0, b"", b"")
     in_session: bool = False
@@ -95,8 +100,9 @@ class FakeUnit:
         if message in self.answers:
             return self.answers[message]
         kind, motors = message[0], message[1:2]
-        if kind == GET_STATUS and self.status:
-            return self.status
+        if kind == GET_STATUS and self.status != b"":
+            told = Vector("", motors=self.states, errors=self.errors, waits=self.waits)
+            return self.status or told.whole
         if kind == 1:
             return bytes([1, len(VERSION)]) + VERSION
         if not 2 <= kind <= 7:
@@ -118,8 +124,15 @@ class FakeUnit:
         return message[:2] + b"   247; 3"
 
     def store(self, motor: int, text: bytes) -> None:
+        state = self.states[motor - 1]
+        if text == b"K" and state & RUNNING:
+            self.states[motor - 1] = state & MOVING | STOPPED
+        if text == b"C75" and state & STOPPED:
+            self.states[motor - 1] = state & MOVING | RUNNING
         if text in (b"K", b"C75"):
             return
+        if text == b"\\[":
+            self.states[motor - 1] = RUNNING | WAITING
         _, reset, rest = text.rpartition(b"\\")
         self.programs[motor] = rest if reset else self.programs[motor] + text
 

@@ -96,10 +96,19 @@ def test_restore_brings_back_and_stores_and_runs_nothing(tool, folder, units):
 
     assert result.status == 0
     assert result.out.splitlines()[-1].startswith("nothing runs: rkm04 resume starts a motor")
-    assert units[0].programs == {1: b"S100F5R", 2: b"C100", 3: LONG, 4: b""}
+    assert units[0].programs == {1: b"[]S100F5R", 2: b"C100", 3: b"[]" + LONG, 4: b""}
     acts = [message for message in units[0].done if message[0] in (2, 3)]
-    assert acts[:4] == [b"\x021\\", b"\x021K", b"\x021S100F5R", b"\x031"]
+    assert acts[:4] == [b"\x021\\[", b"\x021K", b"\x021]S100F5R", b"\x031"]
     assert not any(b"C75" in message for message in acts)
+
+
+def test_what_was_restored_is_saved_as_it_was(tool, folder, tmp_path):
+    assert tool("restore", folder).status == 0
+
+    assert tool("backup", tmp_path / "again").status == 0
+
+    first = {path.name: path.read_text() for path in folder.iterdir()}
+    assert {path.name: path.read_text() for path in (tmp_path / "again").iterdir()} == first
 
 
 def test_restore_changes_nothing_if_a_unit_is_missing(tool, fake, folder, units):

@@ -85,12 +85,6 @@ PROGRESS = "motor  steps  command\n    1    247        3\n"
         (["table", "--motor", "2"], NO_TABLE),
         (["progress", "--motor", "1"], PROGRESS),
         (["store", "--motor", "1"], "unit 3, motor 1: 4 commands stored\n"),
-        (["stop"], "unit 3, all motors: stopped (rkm04 resume goes on)\n"),
-        (["stop", "--motor", "2"], "unit 3, motor 2: stopped (rkm04 resume goes on)\n"),
-        (["resume"], "unit 3, motor 1: resumed\n"),
-        (["reset", "--motor", "4"], "unit 3, motor 4: reset, the program memory is empty\n"),
-        (["speed", "500"], "unit 3, motor 1: speed 500 steps/s\n"),
-        (["stop", "--node", "0"], "all units, all motors: stopped (rkm04 resume goes on)\n"),
         (["store", "--node", "0"], "all units, motor 1: told to store; none answers\n"),
     ],
 )
@@ -109,10 +103,6 @@ def test_what_is_printed(call, arguments, text):
         (["progress", "--motor", "2"],
          {"node": 3, "motors": [{"motor": 2, "steps": 247, "command": 3}]}),
         (["store", "--motor", "1"], {"node": 3, "motors": [{"motor": 1, "commands": 4}]}),
-        (["stop"], {"node": 3, "motor": 0}),
-        (["resume"], {"node": 3, "motor": 1}),
-        (["reset"], {"node": 3, "motor": 1}),
-        (["speed", "16000"], {"node": 3, "motor": 1}),
     ],
 )  # fmt: skip
 def test_what_is_printed_as_json(call, arguments, answer):
@@ -132,11 +122,7 @@ def test_a_table_as_json_has_all_points(call):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["stop"], b"\x020K"),
-        (["stop", "--motor", "2"], b"\x022K"),
-        (["resume", "--motor", "0"], b"\x020C75"),
         (["reset"], b"\x021\\"),
-        (["speed", "500", "--motor", "3"], b"\x023V500"),
         (["store", "--motor", "0"], b"\x030"),
     ],
 )
@@ -151,7 +137,8 @@ def test_send_checks_and_sends_a_program(call, unit, write):
 
     text = call("send", path, "--motor", "2")
 
-    assert text == f"{path}: 3 commands in 1 message sent to unit 3, motor 2\n"
+    sent = f"{path}: 3 commands in 1 message sent to unit 3, motor 2"
+    assert text == f"{sent}\nmotor 2: at rest\n"
     assert acts(unit) == [b"\x022\\S100F5000R"]
 
 
@@ -209,7 +196,7 @@ def test_send_warns_of_a_full_memory(tool, fake, unit, write):
     result = tool("send", write("F5000 R"))
 
     assert result.status == 0
-    assert "warning: the program memory was full" in result.err
+    assert "warning: the program memory was full, the oldest commands were over" in result.err
     assert result.err.count("\n") == 1
 
 

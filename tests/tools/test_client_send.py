@@ -7,7 +7,7 @@ import time
 from types import SimpleNamespace
 
 import pytest
-from fake_unit import FakeLine, FakeUnit
+from fake_unit import MOVING, RUNNING, STOPPED, FakeLine, FakeUnit
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rkm04_tools import sending
@@ -15,7 +15,14 @@ from rkm04_tools.failure import Failure
 from rkm04_tools.frame import Frame
 from rkm04_tools.line import open_line
 from rkm04_tools.line_errors import UnitRefused, UnitRestarted
-from rkm04_tools.sending import TEXT_BYTES_MAX, Hold, check_program, plan_program
+from rkm04_tools.sending import (
+    TEXT_BYTES_MAX,
+    Hold,
+    check_program,
+    plan_program,
+    without_hold,
+)
+from statuses import Vector
 
 LONG = "\\S100" + "F16000000R" * 120
 
@@ -68,7 +75,7 @@ def test_a_long_program_is_held_by_brackets_and_cut_between_commands():
 
 
 def test_parts_are_as_long_as_they_can_be():
-    assert [len(text) for text in plan("R" * 690 + "D" * 690).texts] == [TEXT_BYTES_MAX, 369]
+    assert [len(text) for text in plan("F1" * 345 + "B9" * 345).texts] == [TEXT_BYTES_MAX, 369]
 
 
 def test_no_frame_is_longer_than_1024_bytes(motor, fake):
@@ -100,14 +107,14 @@ def test_a_long_program_with_brackets_of_its_own_is_held_by_a_stop(motor, unit, 
     motor.send(LONG + own)
 
     texts = sent_texts(unit)
-    assert texts[:2] == ["\\", "K"]
+    assert texts[:2] == ["\\[", "K"]
     assert texts[-1] == "C75"
-    assert "".join(texts[2:-1]) == LONG[1:] + own
+    assert "".join(texts[2:-1]) == "]" + LONG[1:] + own
 
 
 @pytest.mark.parametrize(
     ("count", "hold"),
-    [(698, Hold.BRACKETS), (699, Hold.STOP), (700, Hold.STOP), (701, Hold.BRACKETS)],
+    [(698, Hold.BRACKETS), (699, Hold.STOP), (700, Hold.STOP)],
 )
 def test_brackets_never_push_a_program_out_of_the_memory(count, hold):
     assert plan("\\" + "W100" * count).hold is hold
@@ -120,7 +127,64 @@ def test_a_stop_waits_until_the_motor_stands(motor, unit, monkeypatch):
     with pytest.raises(Failure, match="send again when it stands"):
         motor.send(LONG + "[")
 
-    assert sent_texts(unit) == ["\\"]
+    assert sent_texts(unit) == ["\\["]
+
+
+@pytest.mark.parametrize("text", ["\\" + "R" * 701, "R" * 1500])
+def test_more_than_the_memory_holds_is_refused_before_anything_is_sent(motor, unit, text):
+    count = text.count("R")
+
+    with pytest.raises(Failure, match=f"has {count} commands, and the memory holds 700; nothing"):
+        motor.send(text)
+
+    assert unit.done == []
+
+
+def test_what_has_not_run_is_not_overwritten(motor, unit):
+    unit.programs[1] = b"R" * 695
+    unit.states[0] = RUNNING | MOVING
+
+    with pytest.raises(Failure, match="has 6 commands, and the memory of motor 1 has room for 5"):
+        motor.send("R" * 6)
+
+    assert sent_texts(unit) == []
+    motor.send("R" * 5)
+    assert sent_texts(unit) == ["RRRRR"]
+
+
+def test_what_has_run_is_overwritten(motor, unit):
+    unit.programs[1] = b"R" * 700
+
+    motor.send("F5R")
+
+    assert sent_texts(unit) == ["F5R"]
+
+
+def test_a_motor_that_ignores_what_does_not_fit_gets_no_more(motor, unit):
+    unit.programs[1] = b"R" * 700
+    unit.status = Vector("T40", switches=4).whole
+
+    with pytest.raises(Failure, match="room for 0 more"):
+        motor.send("F5R")
+
+
+def test_one_of_all_motors_without_room_is_enough(motor, unit):
+    unit.programs[3] = b"R" * 700
+    unit.states[2] = STOPPED
+
+    with pytest.raises(Failure, match="memory of motor 3"):
+        motor.unit.motor(0).send("F5R")
+
+    assert sent_texts(unit) == []
+
+
+def test_a_motor_that_is_not_held_gets_no_program_that_must_be(motor, unit):
+    unit.answers[b"\x021K"] = b"\x021\x00\x00"
+
+    with pytest.raises(Failure, match="could not be held by K; nothing more was sent"):
+        motor.send(LONG + "]")
+
+    assert sent_texts(unit) == ["\\[", "K"]
 
 
 @pytest.mark.parametrize("text", [LONG[1:] + "[", "W100" * 700])
@@ -157,7 +221,14 @@ def test_what_stands_before_the_last_reset_is_not_sent():
     assert plan_.notes == ["4 of its commands stand before \\ and would never run: not sent"]
 
 
-@pytest.mark.parametrize("text", ["", " {nothing} ", "K", "C75 K"])
+@pytest.mark.parametrize("text", ["K", " {stop}\n K ", "C75", "V500"])
+def test_what_acts_alone_is_sent_as_it_is(motor, unit, text):
+    motor.send(text)
+
+    assert sent_texts(unit) == [text.split()[-1]]
+
+
+@pytest.mark.parametrize("text", ["", " {nothing} ", "C75 K", "K K"])
 def test_nothing_is_not_sent(text):
     with pytest.raises(Failure, match="nothing in it to be sent"):
         plan(text)
@@ -222,7 +293,7 @@ def test_nor_if_it_has_restarted_while_it_was_waited_for(motor, unit, monkeypatc
     with pytest.raises(UnitRestarted):
         motor.send(LONG + "[")
 
-    assert sent_texts(unit) == ["\\", "K"]
+    assert sent_texts(unit) == ["\\[", "K"]
 
 
 def test_progress_is_told(motor):
@@ -231,6 +302,25 @@ def test_progress_is_told(motor):
     motor.send(LONG, lambda done, total: told.append((done, total)))
 
     assert told == [(0, 2), (1, 2), (2, 2)]
+
+
+@pytest.mark.parametrize(
+    ("held", "program"),
+    [
+        ("[ F5 R ]", "F5 R"),
+        ("[ ] F5 R", "F5 R"),
+        ("] F5 R", "F5 R"),
+        ("[ ] [ F5 R ]", "[ F5 R ]"),
+        ("F5 R", "F5 R"),
+        ("[ F5 [ R ]", "[ F5 [ R ]"),
+        ("[ F5 R", "[ F5 R"),
+        ("[ F5 ] R ]", "[ F5 ] R ]"),
+        ("[", "["),
+        ("", ""),
+    ],
+)
+def test_what_sending_adds_is_no_part_of_the_program(held, program):
+    assert without_hold(held.split()) == program.split()
 
 
 PIECES = [

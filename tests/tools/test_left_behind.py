@@ -46,7 +46,7 @@ def wait_until_gone(word: str) -> None:
 def forked(work: Callable[[], object]) -> int:
     """A process that only does this, and has begun; it does nothing else of this one's at its end.
 
-    What is raised while a process forks is passed by, so a signal must not come before it has begun.
+    What is raised while a process forks is passed by: a signal must not come before it has begun.
     """
     hears, tells = os.pipe()
     number = os.fork()
@@ -67,7 +67,9 @@ def end(tool: int, number: int) -> None:
     os.kill(tool, number)
     until = time.monotonic() + PATIENCE_SECONDS
     while os.waitpid(tool, os.WNOHANG) == (0, 0):
-        assert time.monotonic() < until, os.kill(tool, signal.SIGKILL)
+        if time.monotonic() > until:
+            os.kill(tool, signal.SIGKILL)
+            raise AssertionError("the tool itself does not end")
         time.sleep(0.001)
 
 

@@ -16,7 +16,14 @@ from rkm04_tools.check import Checked, check_source
 from rkm04_tools.failure import NO_CONNECTION, NOT_SO, Failure, writing_failed
 from rkm04_tools.line import Line
 from rkm04_tools.messages import MOTORS
-from rkm04_tools.sending import Tell, held_commands, load_program, plan_program, silent
+from rkm04_tools.sending import (
+    Tell,
+    held_commands,
+    load_program,
+    plan_program,
+    silent,
+    without_hold,
+)
 from rkm04_tools.source import read_source
 
 NAME = re.compile(r"unit-(0[1-9]|1[0-6])-motor-([1-4])\.rks")
@@ -82,13 +89,13 @@ def restore(line: Line, programs: Sequence[Program], tell: Tell = silent) -> Non
         motor = line.unit(program.node).motor(program.motor)
         load_program(motor, program.checked)
         motor.store()
-        if motor.program() != "".join(plan_program(program.checked).plain):
+        if not plan_program(program.checked).is_held(held_commands(motor)):
             raise Failure(f"{program.path}: the unit holds another program; restore again", NOT_SO)
     tell(len(programs), len(programs))
 
 
 def _save(line: Line, node: int, motor: int, folder: Path) -> Saved | None:
-    commands = held_commands(line.unit(node).motor(motor))
+    commands = without_hold(held_commands(line.unit(node).motor(motor)))
     if not commands:
         return None
     path = folder / f"unit-{node:02}-motor-{motor}.rks"

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import os
-import sys
 from argparse import Namespace
 from collections.abc import Callable, Sequence
 from difflib import unified_diff
@@ -13,48 +10,25 @@ from typing import Any
 
 from rkm04_tools import archive
 from rkm04_tools.bar import Bar
-from rkm04_tools.check import Checked, check_source, show
+from rkm04_tools.client_acts import run_reset, run_resume, run_send, run_speed, run_stop
+from rkm04_tools.client_base import (
+    checked_file,
+    count_of,
+    name_of,
+    node_of,
+    port_of,
+    reading_node_of,
+    tell,
+    who,
+)
 from rkm04_tools.failure import DONE, NO_CONNECTION, NOT_SO, Failure
-from rkm04_tools.frame import BROADCAST, NODES
-from rkm04_tools.host import opcode_rows
+from rkm04_tools.frame import BROADCAST
 from rkm04_tools.line import Motor, Unit, open_line
 from rkm04_tools.messages import ALL_MOTORS, MOTORS
-from rkm04_tools.sending import Plan, held_commands, plan_program, send_program
-from rkm04_tools.source import read_source
+from rkm04_tools.sending import Plan, held_commands, plan_program
 from rkm04_tools.status import status_text
 from rkm04_tools.table import table, thousands
 from rkm04_tools.watch import run_watch
-
-PORT_VARIABLE, NODE_VARIABLE = "RKM04_PORT", "RKM04_NODE"
-
-
-def port_of(options: Namespace) -> str:
-    """The port that is named by option or environment."""
-    port: str | None = options.port or os.environ.get(PORT_VARIABLE)
-    if not port:
-        raise Failure(
-            "no port; name it with --port (COM5, /dev/ttyUSB0, socket://127.0.0.1:5000) "
-            f"or in {PORT_VARIABLE}"
-        )
-    return port
-
-
-def node_of(options: Namespace) -> int:
-    """The address that is named by option or environment."""
-    name, text = "--node", options.node
-    if text is None:
-        name, text = NODE_VARIABLE, os.environ.get(NODE_VARIABLE) or "1"
-    if not (text.isascii() and text.isdigit() and int(text) in (BROADCAST, *NODES)):
-        raise Failure(f"{name} {text}: write an address, 1 to 16, or 0 for all units")
-    return int(text)
-
-
-def reading_node_of(options: Namespace) -> int:
-    """The same for what needs an answer."""
-    node = node_of(options)
-    if node == BROADCAST:
-        raise Failure("node 0 means all units, and none of them answers; name one, 1 to 16")
-    return node
 
 
 def run_version(options: Namespace) -> int:
@@ -64,7 +38,7 @@ def run_version(options: Namespace) -> int:
         version = line.unit(node).version()
     date = version.date.isoformat()
     answer = {"node": node, "version": version.number, "date": date, "text": version.text}
-    return _tell(options, answer, f"unit {node}: version {version.number} of {date}")
+    return tell(options, answer, f"unit {node}: version {version.number} of {date}")
 
 
 def run_position(options: Namespace) -> int:
@@ -78,7 +52,7 @@ def run_position(options: Namespace) -> int:
             positions = {options.motor: unit.motor(options.motor).position()}
     answer = [{"motor": motor, "position": at} for motor, at in positions.items()]
     rows = [("motor", "position"), *((str(m), thousands(at)) for m, at in positions.items())]
-    return _tell(options, {"node": node, "motors": answer}, table(rows, "rr"))
+    return tell(options, {"node": node, "motors": answer}, table(rows, "rr"))
 
 
 def run_program(options: Namespace) -> int:
@@ -89,7 +63,7 @@ def run_program(options: Namespace) -> int:
         (text,) = programs.values()
     else:
         text = "\n".join(f"{{ motor {motor} }}\n{text}" for motor, text in programs.items())
-    return _tell(options, {"node": node, "motors": answer}, text)
+    return tell(options, {"node": node, "motors": answer}, text)
 
 
 def run_table(options: Namespace) -> int:
@@ -103,7 +77,7 @@ def run_table(options: Namespace) -> int:
     for motor, points in tables.items():
         rows += [(str(motor), thousands(p.step), thousands(p.speed)) for p in points]
         rows += [] if points else [(str(motor), "-", "no move in progress")]
-    return _tell(options, {"node": node, "motors": answer}, table(rows, "rrr"))
+    return tell(options, {"node": node, "motors": answer}, table(rows, "rrr"))
 
 
 def run_progress(options: Namespace) -> int:
@@ -112,7 +86,7 @@ def run_progress(options: Namespace) -> int:
     answer = [{"motor": m, "steps": p.steps, "command": p.command} for m, p in found.items()]
     rows = [(str(m), thousands(p.steps), str(p.command)) for m, p in found.items()]
     text = table([("motor", "steps", "command"), *rows], "rrr")
-    return _tell(options, {"node": node, "motors": answer}, text)
+    return tell(options, {"node": node, "motors": answer}, text)
 
 
 def run_status(options: Namespace) -> int:
@@ -120,37 +94,7 @@ def run_status(options: Namespace) -> int:
     node = reading_node_of(options)
     with open_line(port_of(options)) as line:
         status = line.unit(node).status()
-    return _tell(options, {"node": node, **status.as_json()}, status_text(status))
-
-
-def run_send(options: Namespace) -> int:
-    """Check a program, send it, and say what became of it."""
-    node, port = node_of(options), port_of(options)
-    checked = _checked(options.file)
-    if not checked.is_good:
-        return NOT_SO
-    plan = plan_program(checked)
-    for note in plan.notes:
-        print(f"rkm04: {options.file}: {note}", file=sys.stderr)
-    with open_line(port) as line, Bar("sending") as bar:
-        motor = line.unit(node).motor(options.motor)
-        sent = send_program(motor, checked, bar.show)
-    if sent.overflow:
-        print(
-            f"rkm04: {options.file}: warning: the program memory was full, commands were lost; "
-            "begin the program with \\, or make it shorter (700 commands)",
-            file=sys.stderr,
-        )
-    answer = {
-        "file": options.file,
-        **_who(motor),
-        "commands": sent.commands,
-        "messages": sent.messages,
-        "overflow": sent.overflow,
-        "notes": list(sent.notes),
-    }
-    counts = f"{_count(sent.commands, 'command')} in {_count(sent.messages, 'message')}"
-    return _tell(options, answer, f"{options.file}: {counts} sent to {_name(motor)}")
+    return tell(options, {"node": node, **status.as_json()}, status_text(status))
 
 
 def run_store(options: Namespace) -> int:
@@ -160,7 +104,7 @@ def run_store(options: Namespace) -> int:
     plan = None
     if options.file is not None:
         node = reading_node_of(options)
-        checked = _checked(options.file)
+        checked = checked_file(options.file)
         if not checked.is_good:
             return NOT_SO
         plan = plan_program(checked)
@@ -173,39 +117,14 @@ def run_store(options: Namespace) -> int:
         for each, commands in _programs(motor).items():
             if commands != before[each]:
                 raise Failure(
-                    f"{_name(each)}: the program has changed while it was stored; "
+                    f"{name_of(each)}: the program has changed while it was stored; "
                     "store it again when nobody else sends programs",
                     NOT_SO,
                 )
     counts = [{"motor": each.number, "commands": len(c)} for each, c in before.items()]
-    rows = [f"{_name(each)}: {_count(len(c), 'command')} stored" for each, c in before.items()]
-    text = "\n".join(rows) or f"{_name(motor)}: told to store; none answers"
-    return _tell(options, {"node": node, "motors": counts}, text)
-
-
-def run_stop(options: Namespace) -> int:
-    """Stop motors."""
-    return _act(options, Motor.stop, "stopped (rkm04 resume goes on)")
-
-
-def run_resume(options: Namespace) -> int:
-    """Let motors go on."""
-    return _act(options, Motor.resume, "resumed")
-
-
-def run_reset(options: Namespace) -> int:
-    """Reset motors."""
-    return _act(options, Motor.reset, "reset, the program memory is empty")
-
-
-def run_speed(options: Namespace) -> int:
-    """Change the speed of moves."""
-    (row,) = (row for row in opcode_rows() if row.name == "SPEED")
-    if not row.min <= options.speed <= row.max:
-        raise Failure(f"speed {options.speed}: write steps/s, {row.min} to {row.max}")
-    return _act(
-        options, lambda motor: motor.set_speed(options.speed), f"speed {options.speed} steps/s"
-    )
+    rows = [f"{name_of(each)}: {count_of(len(c), 'command')} stored" for each, c in before.items()]
+    text = "\n".join(rows) or f"{name_of(motor)}: told to store; none answers"
+    return tell(options, {"node": node, "motors": counts}, text)
 
 
 def run_scan(options: Namespace) -> int:
@@ -237,7 +156,7 @@ def run_scan(options: Namespace) -> int:
             f"{port}: nobody answers on addresses 1 to 16; check power, wiring (A, B) and the port",
             NO_CONNECTION,
         )
-    _tell(options, {"units": answer}, table(rows, "rlll"))
+    tell(options, {"units": answer}, table(rows, "rlll"))
     return DONE if found else NO_CONNECTION
 
 
@@ -246,7 +165,7 @@ def run_diff(options: Namespace) -> int:
     node, port = reading_node_of(options), port_of(options)
     if options.motor == ALL_MOTORS:
         raise Failure("diff compares one motor; name one with --motor, 1 to 4")
-    checked = _checked(options.file)
+    checked = checked_file(options.file)
     if not checked.is_good:
         return NOT_SO
     plan = plan_program(checked)
@@ -255,9 +174,9 @@ def run_diff(options: Namespace) -> int:
         held = held_commands(motor)
     if plan.is_held(held):
         held = plan.plain
-    lines = list(unified_diff(plan.plain, held, options.file, _name(motor), lineterm=""))
-    answer = {**_who(motor), "file": options.file, "same": not lines, "diff": lines}
-    _tell(options, answer, "\n".join(lines) or f"{_name(motor)}: the same as {options.file}")
+    lines = list(unified_diff(plan.plain, held, options.file, name_of(motor), lineterm=""))
+    answer = {**who(motor), "file": options.file, "same": not lines, "diff": lines}
+    tell(options, answer, "\n".join(lines) or f"{name_of(motor)}: the same as {options.file}")
     return NOT_SO if lines else DONE
 
 
@@ -289,10 +208,10 @@ def _tell_archive(options: Namespace, saved: Sequence[archive.Saved], what: str)
     ]
     lines = [
         f"unit {each.node}, motor {each.motor}: "
-        f"{_count(each.commands, 'command')} {what} {each.path}"
+        f"{count_of(each.commands, 'command')} {what} {each.path}"
         for each in saved
     ]
-    return _tell(options, {"programs": rows}, "\n".join(lines) or "no unit has a program")
+    return tell(options, {"programs": rows}, "\n".join(lines) or "no unit has a program")
 
 
 def run_watching(options: Namespace) -> int:
@@ -340,23 +259,6 @@ def _of_motors(options: Namespace, ask: Callable[[Motor], Any]) -> tuple[int, di
         return node, {motor.number: ask(motor) for motor in motors}
 
 
-def _act(options: Namespace, act: Callable[[Motor], object], what: str) -> int:
-    """Do something to one motor or all, and say so."""
-    node = node_of(options)
-    with open_line(port_of(options)) as line:
-        motor = line.unit(node).motor(options.motor)
-        act(motor)
-    return _tell(options, _who(motor), f"{_name(motor)}: {what}")
-
-
-def _checked(file: str) -> Checked:
-    """Check a program file and show on standard error what there is to say about it."""
-    checked = check_source(read_source(Path(file)))
-    for diagnostic in checked.diagnostics:
-        show(checked.source, diagnostic, sys.stderr)
-    return checked
-
-
 def _programs(motor: Motor) -> dict[Motor, list[str]]:
     """The commands in the memory of a motor, or of all; nothing of a broadcast."""
     if motor.unit.node == BROADCAST:
@@ -373,7 +275,7 @@ def _require_same(plan: Plan | None, held: list[str], motor: Motor) -> None:
         return
     name = plan.checked.source.name
     raise Failure(
-        f"{_name(motor)}: the memory holds another program than {name} "
+        f"{name_of(motor)}: the memory holds another program than {name} "
         f"({_difference(plan.plain, held)}); nothing was stored; rkm04 send {name} comes first",
         NOT_SO,
     )
@@ -384,24 +286,4 @@ def _difference(wanted: list[str], held: list[str]) -> str:
     for place, (want, have) in enumerate(zip(wanted, held, strict=False), 1):
         if want != have:
             return f"command {place} is {have}, not {want}"
-    return f"{_count(len(held), 'command')}, not {len(wanted)}"
-
-
-def _who(motor: Motor) -> dict[str, Any]:
-    return {"node": motor.unit.node, "motor": motor.number}
-
-
-def _name(motor: Motor) -> str:
-    """A motor, or those that are meant, in words."""
-    unit = "all units" if motor.unit.node == BROADCAST else f"unit {motor.unit.node}"
-    return f"{unit}, {'all motors' if motor.number == ALL_MOTORS else f'motor {motor.number}'}"
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number or 'no'} {what}{'' if number == 1 else 's'}"
-
-
-def _tell(options: Namespace, answer: dict[str, Any], text: str) -> int:
-    """Print an answer as the user wants it."""
-    print(json.dumps(answer, indent=2) if options.json else text)
-    return DONE
+    return f"{count_of(len(held), 'command')}, not {len(wanted)}"

@@ -50,10 +50,10 @@ COMMANDS = (
     CommandRow("stop", "stop motors down their ramps, and their programs (K)",
                "rkm04 stop --port COM5", ACTS, 0),
     CommandRow("resume", "go on where stop has stopped (C75)",
-               "rkm04 resume --port COM5 --motor 2", ACTS, 1),
+               "rkm04 resume --port COM5 --motor 2", ACTS, 0),
     CommandRow("reset", "stop a motor and forget its program (\\)",
                "rkm04 reset --port COM5 --motor 2", ACTS, 1),
-    CommandRow("speed", "change the speed of the move in progress (V)",
+    CommandRow("speed", "change the speed of moves in progress (V); motors that stand get nothing",
                "rkm04 speed 500 --port COM5", ACTS, 1),
     CommandRow("scan", "ask addresses 1 to 16 who is there",
                "rkm04 scan --port COM5", LINE, None),
@@ -89,7 +89,12 @@ def add_client_commands(add: Add) -> None:
 def _add_own(name: str, command: argparse.ArgumentParser) -> None:
     """Add the arguments that only one command has."""
     if name in ("send", "diff"):
-        command.add_argument("file", metavar="FILE", help="a program file")
+        command.add_argument("file", metavar="FILE", help="a program file; -: standard input")
+    if name == "send":
+        command.add_argument(
+            "--stream", action="store_true",
+            help="feed a program of any length as memory gets free; Ctrl-C stops the motor",
+        )  # fmt: skip
     elif name == "store":
         command.add_argument(
             "file", metavar="FILE", nargs="?", help="store only if this program is in the memory"

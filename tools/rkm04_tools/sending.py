@@ -3,38 +3,42 @@
 Programs go in canonical form, cut at borders of commands. What needs several messages must not run
 before all of it has arrived. So `[` goes before it and `]` behind. Where that would change the
 program, because it has brackets of its own (one `]` releases every `[`) or leaves no room for two
-more, the motor is reset, stopped by K, and resumed by C75 behind the last message.
+more, the motor is reset, held by `[`, and stopped by K; `]` is the first command behind that, and
+C75 follows the last message. (K alone does nothing to a motor at rest.)
+
+K, C75 and V that are the whole text go as they are: alone in a message each acts at once.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
+from itertools import takewhile
 from typing import TYPE_CHECKING
 
 from rkm04_tools.check import Checked, check_source
 from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.frame import BROADCAST
 from rkm04_tools.host import Command, parse
-from rkm04_tools.line_errors import UnitRefused, UnitRestarted
+from rkm04_tools.line_errors import UnitRefused, UnitRestarted, UnknownMessage
+from rkm04_tools.lint import ALONE, COMMANDS_MAX, stored
 from rkm04_tools.messages import ALL_MOTORS, MOTORS
 from rkm04_tools.source import Source
 
 if TYPE_CHECKING:
-    from rkm04_tools.line import Motor
+    from rkm04_tools.line import Motor, Unit
 
 FRAME_BYTES_MAX = 1024
 ENVELOPE_BYTES_MAX = 2 + 1 + 2 + 2 + 4
 """Flags, address, number, message number and motor, FCS; number and FCS may be escaped."""
 TEXT_BYTES_MAX = FRAME_BYTES_MAX - ENVELOPE_BYTES_MAX
-MEMORY_COMMANDS = 700
 STAND_SECONDS = 30.0
 POLL_SECONDS = 0.05
 
-ALONE = {"HALT": "rkm04 stop", "RESUME": "rkm04 resume"}
-"""Commands that act only alone in a message, and what sends them so."""
+SENT_BY = {"HALT": "rkm04 stop", "RESUME": "rkm04 resume"}
+"""What sends the commands that act only alone in a message."""
 BRACKETS = ("HOLD", "RELEASE")
 
 Tell = Callable[[int, int], None]
@@ -60,9 +64,11 @@ class Plan:
     checked: Checked
     commands: Sequence[Command]
     """What is stored, without what the plan adds."""
-    hold: Hold
-    texts: Sequence[str]
-    notes: Sequence[str]
+    hold: Hold = Hold.NOTHING
+    texts: Sequence[str] = ()
+    notes: Sequence[str] = ()
+    resets: bool = False
+    """Whether the memory is emptied first."""
 
     @property
     def plain(self) -> list[str]:
@@ -71,7 +77,7 @@ class Plan:
 
     def is_held(self, held: Sequence[str]) -> bool:
         """Whether these commands of a memory are the program, with or without added brackets."""
-        return list(held) in (self.plain, ["[", *self.plain, "]"])
+        return without_hold(held) == without_hold(self.plain)
 
 
 @dataclass(frozen=True)
@@ -94,11 +100,24 @@ def check_program(text: str, name: str = "the program") -> Checked:
     return checked
 
 
+def without_hold(held: Sequence[str]) -> list[str]:
+    """The commands of a memory without the brackets that sending has added."""
+    leading = list(takewhile(lambda command: command in ("[", "]"), held))
+    if "]" in leading:
+        return list(held[len(leading) - leading[::-1].index("]") :])
+    inside = held[1:-1]
+    wrapped = held[:1] == ["["] and held[-1] == "]" and not {"[", "]"}.intersection(inside)
+    return list(inside) if wrapped else list(held)
+
+
 def plan_program(checked: Checked) -> Plan:
     """Choose the messages for a program without errors."""
+    alone = checked.parsed.commands
+    if len(alone) == 1 and alone[0].opcode in ALONE:
+        return Plan(checked, [], Hold.NOTHING, [alone[0].text], [])
     before, reset, behind = _at_last_reset(checked.parsed.commands)
     left_out = [command for command in behind if command.opcode in ALONE]
-    commands = [command for command in behind if command.opcode not in ALONE]
+    commands = stored(checked.parsed.commands)
     notes = [_left_out_note(checked.source, command) for command in left_out]
     if before:
         notes.append(f"{len(before)} of its commands stand before \\ and would never run: not sent")
@@ -106,14 +125,19 @@ def plan_program(checked: Checked) -> Plan:
     tokens = [command.text for command in commands]
     if not start and not tokens:
         raise Failure(f"{checked.source.name}: there is nothing in it to be sent", NOT_SO)
+    if len(tokens) > COMMANDS_MAX:
+        raise Failure(
+            f"{checked.source.name}: has {len(tokens)} commands, and the memory holds "
+            f"{COMMANDS_MAX}; nothing was sent; rkm04 send --stream feeds them as memory gets free",
+            NOT_SO,
+        )
     if left_out and len(tokens) == 1 and not reset:
         start = ["K"]  # inside a message it does nothing, but V alone would be a change of speed
     if _length([*start, *tokens]) <= TEXT_BYTES_MAX:
-        return Plan(checked, commands, Hold.NOTHING, ["".join([*start, *tokens])], notes)
+        return Plan(checked, commands, Hold.NOTHING, ["".join([*start, *tokens])], notes, reset)
     hold = _hold(checked.source, commands, reset)
-    if hold is Hold.BRACKETS:
-        tokens = [*start, "[", *tokens, "]"]
-    return Plan(checked, commands, hold, _packed(tokens), notes)
+    tokens = [*start, "[", *tokens, "]"] if hold is Hold.BRACKETS else ["]", *tokens]
+    return Plan(checked, commands, hold, _packed(tokens), notes, reset)
 
 
 def held_commands(motor: Motor) -> list[str]:
@@ -131,6 +155,7 @@ def held_commands(motor: Motor) -> list[str]:
 def send_program(motor: Motor, checked: Checked, tell: Tell = silent) -> Sent:
     """Send a program without errors, which runs when all of it has arrived."""
     plan = plan_program(checked)
+    _require_room(motor, plan)
     if plan.hold is not Hold.STOP:
         return _send_texts(motor, plan, tell)
     sent = _send_texts(motor, plan, tell, _halt(motor, plan))
@@ -143,8 +168,8 @@ def load_program(motor: Motor, checked: Checked) -> Sent:
 
     The motor is stopped as by K: `resume` makes it run.
     """
-    plan = replace(plan_program(checked), hold=Hold.STOP)
-    plan = replace(plan, texts=_packed(plan.plain))
+    plan = plan_program(checked)
+    plan = replace(plan, hold=Hold.STOP, texts=_packed(["]", *plan.plain]))
     return _send_texts(motor, plan, silent, _halt(motor, plan))
 
 
@@ -154,7 +179,7 @@ def _session(motor: Motor) -> int:
 
 def _send_texts(motor: Motor, plan: Plan, tell: Tell, session: int | None = None) -> Sent:
     """Send all texts in one session, which may have begun before."""
-    overflow = False
+    overflow, is_stopped = False, session is not None
     for done, text in enumerate(plan.texts):
         tell(done, len(plan.texts))
         if session is not None and session != _session(motor):
@@ -163,10 +188,11 @@ def _send_texts(motor: Motor, plan: Plan, tell: Tell, session: int | None = None
         try:
             overflow = motor.command(text) or overflow
         except UnitRefused as refusal:
-            raise _placed(refusal, plan) from None
+            raise placed(refusal, plan) from None
         session = _session(motor)
     tell(len(plan.texts), len(plan.texts))
-    return Sent(len(plan.commands), len(plan.texts), overflow, plan.notes)
+    # What overwrites only the brackets of the hold loses nothing.
+    return Sent(len(plan.commands), len(plan.texts), overflow and not is_stopped, plan.notes)
 
 
 def _at_last_reset(commands: Sequence[Command]) -> tuple[list[Command], bool, list[Command]]:
@@ -182,7 +208,7 @@ def _left_out_note(source: Source, command: Command) -> str:
     place = source.place(command.offset)
     return (
         f"{command.text} in line {place.line}, column {place.column} was not sent: it acts only "
-        f"alone in a message ({ALONE[command.opcode]})"
+        f"alone in a message ({SENT_BY[command.opcode]})"
     )
 
 
@@ -192,7 +218,7 @@ def _length(tokens: Sequence[str]) -> int:
 
 def _hold(source: Source, commands: Sequence[Command], reset: bool) -> Hold:
     own = any(command.opcode in BRACKETS for command in commands)
-    full = len(commands) <= MEMORY_COMMANDS < len(commands) + len(BRACKETS)
+    full = len(commands) + len(BRACKETS) > COMMANDS_MAX
     if not own and not full:
         return Hold.BRACKETS
     if reset:
@@ -215,26 +241,79 @@ def _packed(tokens: Sequence[str]) -> list[str]:
 
 def _halt(motor: Motor, plan: Plan) -> int:
     """Reset and stop a motor, so that what is stored then waits for C75; return the session."""
+    name = plan.checked.source.name
     if motor.unit.node == BROADCAST:
         raise Failure(
-            f"{plan.checked.source.name}: cannot go to all units at once, as it needs several "
-            "messages and leaves no way to hold it; send it to each unit",
+            f"{name}: cannot go to all units at once, as it needs several messages and leaves no "
+            "way to hold it; send it to each unit",
             NOT_SO,
         )
-    motor.reset()
+    if len(plan.commands) + len(BRACKETS) > COMMANDS_MAX and is_locked(motor.unit):
+        raise Failure(f"{name}: has no room for [ and ] while T40 is on; send C40 first", NOT_SO)
+    motor.command("\\[")
     session = _session(motor)
     end = time.monotonic() + STAND_SECONDS
     numbers = MOTORS if motor.number == ALL_MOTORS else [motor.number]
-    # K has no effect on a motor that is still slowing down because of \.
+    # Until it stands it has not come to [, and K would do nothing.
     while any(motor.unit.motor(number).table() for number in numbers):
         if time.monotonic() > end:
             raise Failure("the motor is still slowing down; send again when it stands", NOT_SO)
         time.sleep(POLL_SECONDS)
     motor.stop()
+    _require_stopped(motor, numbers)
     return session
 
 
-def _placed(refusal: UnitRefused, plan: Plan) -> UnitRefused:
+def _require_stopped(motor: Motor, numbers: Collection[int]) -> None:
+    """Refuse to go on where a program would run at once; an original unit does not tell."""
+    try:
+        status = motor.unit.status()
+    except UnknownMessage:
+        return
+    if not all(status.motors[number - 1].stopped for number in numbers):
+        raise Failure("the motor could not be held by K; nothing more was sent", NOT_SO)
+
+
+def is_locked(unit: Unit) -> bool:
+    """Whether T40 is on: a full memory ignores commands. An original unit does not tell."""
+    try:
+        return unit.status().memory_locked
+    except UnknownMessage:
+        return False
+
+
+def _require_room(motor: Motor, plan: Plan) -> None:
+    """Refuse to overwrite what is in the memory and may not have run."""
+    if motor.unit.node == BROADCAST or not plan.commands or plan.resets:
+        return
+    if [command.opcode for command in plan.commands] == ["SPEED"]:
+        return  # of a motor that moves it is not stored
+    for number in MOTORS if motor.number == ALL_MOTORS else [motor.number]:
+        each = motor.unit.motor(number)
+        if _has_run_all(each):
+            continue
+        room = COMMANDS_MAX - len(held_commands(each))
+        if len(plan.texts) > 1:
+            room -= len(BRACKETS)
+        if len(plan.commands) > room:
+            raise Failure(
+                f"{plan.checked.source.name}: has {len(plan.commands)} commands, and the memory of "
+                f"motor {number} has room for {max(room, 0)} more; nothing was sent; begin it with "
+                "\\, which stops the motor, or send it when the program there has run",
+                NOT_SO,
+            )
+
+
+def _has_run_all(motor: Motor) -> bool:
+    """Whether all that is stored has run, and may be overwritten."""
+    try:
+        status = motor.unit.status()
+    except UnknownMessage:
+        return False
+    return status.motors[motor.number - 1].at_rest and not status.memory_locked
+
+
+def placed(refusal: UnitRefused, plan: Plan) -> UnitRefused:
     """Say where the program has what the unit refuses; the unit tells the character only."""
     source = plan.checked.source
     for command in plan.commands:

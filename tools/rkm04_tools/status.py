@@ -95,6 +95,12 @@ class MotorStatus:
     awaited: Awaited | None = None
 
     @property
+    def at_rest(self) -> bool:
+        """Whether it stands, and all that is stored has run."""
+        busy = self.moving or self.running or self.stopped
+        return not (busy or self.failed or self.ended)
+
+    @property
     def text(self) -> str:
         """The state in words."""
         words = [

@@ -16,7 +16,7 @@ from collections.abc import Iterator
 import uvicorn
 
 from rkm04_tools import host
-from rkm04_tools.client import PORT_VARIABLE, reading_node_of
+from rkm04_tools.client_base import PORT_VARIABLE, reading_node_of
 from rkm04_tools.failure import DONE, NO_CONNECTION, Failure
 from rkm04_tools.service import virtual
 from rkm04_tools.service.app import make_app

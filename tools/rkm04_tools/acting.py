@@ -1,0 +1,197 @@
+"""K, C75, `\\` and V sent to motors, and what has become of it: asked for, not supposed.
+
+A unit tells what its motors do by Get Status. One that does not know it is asked for positions
+again and again: what moves is seen, what stands is not known for sure. Nobody answers a broadcast.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import Any
+
+from rkm04_tools.failure import Failure
+from rkm04_tools.frame import BROADCAST
+from rkm04_tools.line import Unit
+from rkm04_tools.line_errors import LineError, UnknownMessage
+from rkm04_tools.messages import ALL_MOTORS, MOTORS
+from rkm04_tools.status import MotorStatus
+
+STAND_SECONDS = 1.0
+"""How long motors are given to come to a stand before it is told that they brake."""
+LOOK_SECONDS = 1.0
+"""How long positions are watched for a change: at least a step where nobody moves slower."""
+QUIET_SECONDS = 0.5
+"""Without a change so long a motor is told to stand, where only positions are known."""
+POLL_SECONDS = 0.05
+BROADCAST_NOTE = "NOT CONFIRMED: no unit answers a broadcast; look at each motor, or ask each unit"
+
+
+@dataclass(frozen=True)
+class Told:
+    """What a motor does behind an order. `done`: whether it obeys; None: nobody knows."""
+
+    motor: int
+    text: str
+    done: bool | None
+
+    def as_json(self) -> dict[str, Any]:
+        """For scripts."""
+        return {"motor": self.motor, "state": self.text, "done": self.done}
+
+
+def numbers_of(number: int) -> list[int]:
+    """The motor of a number, or all four for 0."""
+    return list(MOTORS) if number == ALL_MOTORS else [number]
+
+
+def stop(unit: Unit, number: int) -> list[Told]:
+    """Send K, and tell what each motor does then; nothing of a broadcast."""
+    try:
+        unit.motor(number).stop()
+    except LineError as error:
+        raise _unconfirmed("K", error) from None
+    if unit.node == BROADCAST:
+        return []
+    try:
+        return _behind_stop(unit, number)
+    except LineError as error:
+        raise _unconfirmed("K was taken, but whether the motors stand", error) from None
+
+
+def resume(unit: Unit, number: int) -> list[Told]:
+    """Send C75, and tell which motors go on; nothing of a broadcast."""
+    before = states(unit, number)
+    unit.motor(number).resume()
+    if unit.node == BROADCAST:
+        return []
+    after = states(unit, number)
+    if before is None or after is None:
+        return [Told(each, "was told to go on", None) for each in numbers_of(number)]
+    return [_resumed(*both) for both in zip(before, after, strict=True)]
+
+
+def reset(unit: Unit, number: int) -> list[Told]:
+    """Send \\, and tell what each motor does then; nothing of a broadcast."""
+    unit.motor(number).reset()
+    return [] if unit.node == BROADCAST else _behind_stop(unit, number)
+
+
+def change_speed(unit: Unit, number: int, steps_per_s: int) -> list[Told]:
+    """Send V to those motors that move: to others it would be a command of their program."""
+    if unit.node == BROADCAST:
+        raise Failure(
+            "node 0 means all units, and none can say which of its motors move; name one, 1 to 16"
+        )
+    moving = _moving(unit, number)
+    told = []
+    for each in numbers_of(number):
+        if each in moving:
+            unit.motor(each).set_speed(steps_per_s)
+            told.append(_sped(unit, each, steps_per_s))
+        else:
+            told.append(Told(each, moving_not(unit, each), False))
+    return told
+
+
+def moving_not(unit: Unit, number: int) -> str:
+    """Why a motor gets no V."""
+    state = states(unit, number)
+    if state is None:
+        return "has not moved while it was watched: nothing was sent"
+    return f"{_does(state[0])}: nothing was sent"
+
+
+def states(unit: Unit, number: int) -> list[MotorStatus] | None:
+    """What motors do; None: the unit cannot tell."""
+    if unit.node == BROADCAST:
+        return None
+    try:
+        motors = unit.status().motors
+    except UnknownMessage:
+        return None
+    return [motors[each - 1] for each in numbers_of(number)]
+
+
+def _behind_stop(unit: Unit, number: int) -> list[Told]:
+    """Wait a while for the motors to stand."""
+    end = time.monotonic() + STAND_SECONDS
+    while True:
+        found = states(unit, number)
+        if found is None:
+            return _behind_stop_by_positions(unit, number)
+        if not any(each.moving for each in found) or time.monotonic() > end:
+            return [_stopped(each) for each in found]
+        time.sleep(POLL_SECONDS)
+
+
+def _behind_stop_by_positions(unit: Unit, number: int) -> list[Told]:
+    end = time.monotonic() + STAND_SECONDS
+    while (moved := _moved(unit, number, QUIET_SECONDS)) and time.monotonic() < end:
+        pass
+    return [
+        Told(each, "still moves", None)
+        if each in moved
+        else Told(each, f"has not moved for {QUIET_SECONDS} s", None)
+        for each in numbers_of(number)
+    ]
+
+
+def _stopped(motor: MotorStatus) -> Told:
+    if motor.running:
+        return Told(motor.motor, f"WAS NOT STOPPED: {motor.text}", False)
+    if motor.moving:
+        return Told(motor.motor, "still brakes", True)
+    why = " (rkm04 resume goes on)" if motor.stopped else ""
+    return Told(motor.motor, f"{_does(motor)}{why}", True)
+
+
+def _does(motor: MotorStatus) -> str:
+    """What a motor does that does not run its program."""
+    if motor.running:
+        return motor.text if motor.moving else f"stands, {motor.text}"
+    if motor.moving:
+        return "brakes"
+    return "stands" if motor.at_rest else f"stands, {motor.text}"
+
+
+def _resumed(before: MotorStatus, after: MotorStatus) -> Told:
+    if not before.stopped:
+        return Told(after.motor, f"was not stopped by K ({before.text}): C75 does nothing", False)
+    if after.stopped:
+        return Told(after.motor, "goes on when it stands", after.moving)
+    return Told(after.motor, f"goes on: {after.text}", True)
+
+
+def _sped(unit: Unit, number: int, steps_per_s: int) -> Told:
+    """Look whether the move was still there: else V has become a command of the program."""
+    state = states(unit, number)
+    if state and not state[0].moving:
+        text = f"has come to a stand meanwhile: V{steps_per_s} may be in its memory now"
+        return Told(number, text, False)
+    return Told(number, f"speed {steps_per_s} steps/s", True)
+
+
+def _moving(unit: Unit, number: int) -> set[int]:
+    """Those that run a move of their program."""
+    found = states(unit, number)
+    if found is None:
+        return _moved(unit, number)
+    return {each.motor for each in found if each.moving and each.running}
+
+
+def _moved(unit: Unit, number: int, seconds: float = LOOK_SECONDS) -> set[int]:
+    """Those whose positions change."""
+    end = time.monotonic() + seconds
+    first = unit.positions()
+    moved: set[int] = set()
+    wanted = numbers_of(number)
+    while time.monotonic() < end and len(moved) < len(wanted):
+        time.sleep(POLL_SECONDS)
+        now = unit.positions()
+        moved |= {each for each in wanted if now[each - 1] != first[each - 1]}
+    return moved
+
+
+def _unconfirmed(what: str, error: Failure) -> Failure:
+    return Failure(f"NOT CONFIRMED: {what}: {error}; use the emergency stop", error.status)
