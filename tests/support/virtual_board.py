@@ -117,31 +117,31 @@ class Modelled:
     folder: Path
 
     @cached_property
-    def outputs(self) -> Edges:
+    def changes(self) -> list[tuple[int, str, int]]:
+        """All changes of levels, in order: time in ns, signal, level."""
         text = (self.folder / "board.vcd").read_text()
-        names = {code: OUTPUT.fullmatch(name) for code, name in SIGNAL.findall(text)}
-        edges: Edges = {}
-        nanoseconds = 0
-        for line in text.partition("$dumpvars")[2].partition("$end")[2].splitlines():
-            if line[:1] == "#":
-                nanoseconds = int(line[1:])
-            elif line[:1] in ("0", "1") and (name := names.get(line[1:])):
-                tick = nanoseconds * TICK_HZ // 10**9
-                edges.setdefault(int(name[1]), []).append((tick, int(line[0])))
-        return edges
-
-    def edges(self, signal: str) -> list[tuple[float, int]]:
-        """The changes of a signal: time in ms, and level."""
-        text = (self.folder / "board.vcd").read_text()
-        code = next(code for code, name in SIGNAL.findall(text) if name == signal)
+        names = dict(SIGNAL.findall(text))
         found = []
         nanoseconds = 0
         for line in text.partition("$dumpvars")[2].partition("$end")[2].splitlines():
             if line[:1] == "#":
                 nanoseconds = int(line[1:])
-            elif line in ("0" + code, "1" + code):
-                found.append((nanoseconds / 1e6, int(line[0])))
+            elif line[:1] in ("0", "1") and line[1:] in names:
+                found.append((nanoseconds, names[line[1:]], int(line[0])))
         return found
+
+    @cached_property
+    def outputs(self) -> Edges:
+        edges: Edges = {}
+        for nanoseconds, signal, level in self.changes:
+            if name := OUTPUT.fullmatch(signal):
+                tick = nanoseconds * TICK_HZ // 10**9
+                edges.setdefault(int(name[1]), []).append((tick, level))
+        return edges
+
+    def edges(self, signal: str) -> list[tuple[float, int]]:
+        """The changes of a signal: time in ms, and level."""
+        return [(ns / 1e6, level) for ns, name, level in self.changes if name == signal]
 
     @cached_property
     def positions(self) -> list[int]:
@@ -168,11 +168,13 @@ class Modelled:
 
 @dataclass(frozen=True)
 class VirtualBoard:
-    """The virtual board with the image of the reference board in it."""
+    """The virtual board with the image of a board in it; `wires` is what else than what the header
+    says is at its pins."""
 
     program: Path
     image: board.Image
     folder: Path
+    wires: str = ""
 
     def simulate(
         self, programs: Mapping[int, bytes], seconds: float, inputs: str = ""
@@ -193,7 +195,7 @@ class VirtualBoard:
         """Run the image, with a script for the line and one for the inputs, under the judge."""
         steps = self.folder / "board.csv"
         arguments = ["--elf", str(self.image.file("elf")), "--for", f"{seconds:.6f}"]
-        arguments += self._file("pins", virtual_board.board_pins(self.image.board))
+        arguments += self._file("pins", self.wires or virtual_board.board_pins(self.image.board))
         arguments += ["--steps", str(steps), "--vcd", str(self.folder / "board.vcd")]
         arguments += ["--line-log", str(self.folder / "log.txt")]
         if "--timer-start" not in options:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import pytest
 from checks import board_pins
 from rkm04_tools import board
+from wires import wires
 
 GOOD = (board.BOARDS / "rkm04-f405" / "board.h").read_text()
-ROW = re.compile(r"^\| (\w+) \| P([A-K]\d+) \|", re.MULTILINE)
 
 
 @pytest.mark.parametrize("name", board.names())
@@ -20,10 +19,29 @@ def test_a_board_has_nothing_wrong(name: str) -> None:
 
 @pytest.mark.parametrize("name", board.names())
 def test_the_table_of_a_board_has_the_pins_of_its_header(name: str) -> None:
-    folder = board.BOARDS / name
-    pins = board_pins.read_board((folder / "board.h").read_text()).pins
+    pins = board_pins.read_board((board.BOARDS / name / "board.h").read_text()).pins
 
-    assert ROW.findall((folder / "README.md").read_text()) == [(p.signal, p.pin) for p in pins]
+    assert [(w.signal, w.pin) for w in wires(name)] == [(p.signal, p.pin) for p in pins]
+
+
+# Datasheet DS8626, table 9, of the pins that the boards have on the step timer and the line.
+FUNCTIONS = {
+    "A0": "TIM2_CH1", "A1": "TIM2_CH2", "A2": "TIM2_CH3", "A3": "TIM2_CH4", "A5": "TIM2_CH1",
+    "A9": "USART1_TX", "A10": "USART1_RX", "D8": "USART3_TX", "D9": "USART3_RX",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", board.names())
+def test_the_table_of_a_board_names_functions_that_the_datasheet_gives_its_pins(name: str) -> None:
+    rows = {wire.signal: wire for wire in wires(name)}
+    steps = [rows[f"STEP_{channel}"] for channel in range(1, 5)]
+    ends = {end: rows[f"LINE_{end}"] for end in ("TX", "RX")}
+
+    assert [wire.note.split(",")[0] for wire in steps] == [f"TIM2 channel {c}" for c in range(1, 5)]
+    assert [FUNCTIONS[wire.pin] for wire in steps] == [f"TIM2_CH{c}" for c in range(1, 5)]
+    assert {end: FUNCTIONS[wire.pin] for end, wire in ends.items()} == {
+        end: f"{wire.note}_{end}" for end, wire in ends.items()
+    }
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,8 @@
 """The image of the board when its processor goes wrong: hung, astray, without its crystal.
 
-Four motors run stored programs and hold an output each when the fault comes. Then the outputs must
-be safe, the board must start again without starting the programs, tell why over the line, and do as
-it is told.
+Four motors run stored programs and hold two outputs each when the fault comes. Then the outputs
+must be safe, the board must start again without starting the programs, tell why over the line, and
+do as it is told.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ VERSION, GET_STATUS, SET_COMMAND = b"\x01", b"\xc8", b"\x021"
 TOLD_VERSION = b"\x01\x10" + board.version().encode()
 MOTORS = range(1, 5)
 SPEED = 4000
-PROGRAM = b"S2000V%dA40000T0%dF100000R"
+PROGRAM = b"S2000V%dA40000T0%dT0%dF100000R"
 FAULT_MS = 150.0
 RESTART_MS = 60.0
 """From a reset until the unit answers, with room."""
@@ -53,7 +53,8 @@ def run(
 ) -> Modelled:
     """Run with stored programs and a fault; later ask for version and status, then send a move."""
     path = unit.folder / "flash"
-    path.write_bytes(flash(area(1, [record(m, 1 + m, PROGRAM % (SPEED, m)) for m in MOTORS])))
+    programs = [record(m, 1 + m, PROGRAM % (SPEED, m, 4 + m)) for m in MOTORS]
+    path.write_bytes(flash(area(1, programs)))
     script = ask(ask_ms, VERSION) + ask(ask_ms + 30, GET_STATUS)
     script += ask(ask_ms + TOLD_MS, SET_COMMAND + b"\\S2000V2000F7R")
     faults = ["--fault", f"{fault_ms:.6f}:{fault}"] if fault else []
