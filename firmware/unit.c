@@ -149,6 +149,16 @@ static void unit_feed(struct unit *unit)
     }
 }
 
+/* T41 and C41 are for all motors that stand, also for those polled before the one that has run it. */
+static void unit_connect(struct unit *unit)
+{
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        if (!mover_is_moving(&unit->mover[motor])) {
+            mover_connect(&unit->mover[motor], !unit->io.simulating);
+        }
+    }
+}
+
 uint64_t unit_poll(struct unit *unit)
 {
     uint16_t variables = unit->io.variables;
@@ -162,6 +172,7 @@ uint64_t unit_poll(struct unit *unit)
         wake = program < wake ? program : wake;
         wake = led < wake ? led : wake;
     }
+    unit_connect(unit);
     unit_feed(unit);
     /* A motor polled before the one that wrote a variable may be waiting for it. */
     return unit->io.variables != variables ? now : wake;

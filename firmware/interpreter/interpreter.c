@@ -42,7 +42,6 @@ void interpreter_clear(struct interpreter *interpreter)
     interpreter->compound.sections = 0;
     interpreter->compound_done = false;
     interpreter->mark_outputs = 0;
-    interpreter->order_outputs = 0;
     interpreter->loop_depth = 0;
     interpreter->call_depth = 0;
     interpreter->guard_high = 0;
@@ -67,12 +66,36 @@ void interpreter_fail(struct interpreter *interpreter, enum interpreter_error er
     interpreter_trace(interpreter, now_ticks, HAL_TRACE_ERROR, error);
 }
 
+bool interpreter_has_run_all(const struct interpreter *interpreter)
+{
+    return interpreter->next == interpreter->memory.written;
+}
+
+/* Whether X can act: in a program that is being executed, and before what has come to a motor at rest. */
+static bool is_executing(const struct interpreter *interpreter)
+{
+    switch ((enum interpreter_state)interpreter->state) {
+    case INTERPRETER_IDLE:
+        return !interpreter_has_run_all(interpreter);
+    case INTERPRETER_RESETTING:
+    case INTERPRETER_ENDED:
+    case INTERPRETER_FAILED:
+        return false;
+    case INTERPRETER_RUNNING:
+    case INTERPRETER_HELD:
+    case INTERPRETER_MOVING:
+    case INTERPRETER_WAIT_TIME:
+    case INTERPRETER_WAIT_LEVEL:
+    case INTERPRETER_STOPPED:
+        break;
+    }
+    return true;
+}
+
 /* Has X acted? The mover stops a move by itself; this sees all the rest, and an X while another stop is going on. */
 static void watch_total_stop(struct interpreter *interpreter, uint64_t now_ticks)
 {
-    bool ended = interpreter->state == INTERPRETER_ENDED || interpreter->state == INTERPRETER_FAILED ||
-                 interpreter->state == INTERPRETER_RESETTING;
-    if (ended || (io_inputs(interpreter->io) & interpreter->total_stop) == 0) {
+    if (!is_executing(interpreter) || (io_inputs(interpreter->io) & interpreter->total_stop) == 0) {
         return;
     }
     interpreter_stop(interpreter, HAL_TRACE_STOP_TOTAL, now_ticks);
@@ -96,7 +119,7 @@ static bool advance_running(struct interpreter *interpreter, uint64_t now_ticks)
     if (interpreter->next < oldest) {
         interpreter->next = oldest;
     }
-    if (interpreter->next == memory->written) {
+    if (interpreter_has_run_all(interpreter)) {
         interpreter->state = INTERPRETER_IDLE;
         interpreter_trace(interpreter, now_ticks, HAL_TRACE_END, 0);
         return false;
@@ -110,7 +133,7 @@ static bool advance_running(struct interpreter *interpreter, uint64_t now_ticks)
 
 static bool advance_idle(struct interpreter *interpreter)
 {
-    if (interpreter->next == interpreter->memory.written) {
+    if (interpreter_has_run_all(interpreter)) {
         return false;
     }
     interpreter->state = INTERPRETER_RUNNING;
@@ -200,7 +223,7 @@ bool interpreter_is_idle(const struct interpreter *interpreter)
     }
     switch ((enum interpreter_state)interpreter->state) {
     case INTERPRETER_IDLE:
-        return interpreter->next == interpreter->memory.written;
+        return interpreter_has_run_all(interpreter);
     case INTERPRETER_HELD:
         return !is_released(interpreter);
     case INTERPRETER_STOPPED:

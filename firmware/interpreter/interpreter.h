@@ -63,7 +63,8 @@ enum interpreter_state {
 
 struct interpreter_loop {
     uint32_t body;  /* ordinal of the first command of the body */
-    uint32_t left;  /* passes still to run, this one included */
+    uint16_t left;  /* passes still to run, this one included */
+    uint8_t calls;  /* the depth of calls at which it was begun: the `.` from there closes it */
 };
 
 struct interpreter {
@@ -112,7 +113,7 @@ struct interpreter {
     struct motion_order order;
     struct mover_guards order_guards;
     bool order_backward;
-    uint8_t order_outputs;  /* to be set when the last section begins; 0 when they have been */
+    uint8_t order_outputs;  /* to be set when the last section begins, if still on in mark_outputs; 0 when they have */
     uint64_t wait_left;     /* ticks */
 };
 

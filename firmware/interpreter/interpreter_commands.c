@@ -145,7 +145,7 @@ static void run_call(struct interpreter *interpreter, uint32_t label, uint64_t n
     run_jump(interpreter, label, now_ticks);
 }
 
-/* Goes back behind the youngest call. */
+/* Goes back behind the youngest call; what it has begun and not ended of loops is closed. */
 static void run_return(struct interpreter *interpreter, uint64_t now_ticks)
 {
     if (interpreter->call_depth == 0) {
@@ -154,17 +154,39 @@ static void run_return(struct interpreter *interpreter, uint64_t now_ticks)
     }
     interpreter->call_depth--;
     interpreter->next = interpreter->calls[interpreter->call_depth];
+    while (interpreter->loop_depth > 0 &&
+           interpreter->loops[interpreter->loop_depth - 1U].calls > interpreter->call_depth) {
+        interpreter->loop_depth--;
+    }
 }
 
-/* Begins a loop of so many passes. */
+/* The depth at which a loop begins whose L has been reached: its own if it is open since the youngest call, as the
+ * program has jumped out of it, else inside all that are open. */
+static uint8_t find_loop(const struct interpreter *interpreter)
+{
+    for (uint8_t i = 0; i < interpreter->loop_depth; i++) {
+        const struct interpreter_loop *loop = &interpreter->loops[i];
+        if (loop->body == interpreter->next && loop->calls == interpreter->call_depth) {
+            return i;
+        }
+    }
+    return interpreter->loop_depth;
+}
+
+/* Begins a loop of so many passes; one that is open begins anew, and those inside it are closed. */
 static void run_loop(struct interpreter *interpreter, uint32_t passes, uint64_t now_ticks)
 {
-    if (interpreter->loop_depth == INTERPRETER_LOOPS_MAX) {
+    uint8_t depth = find_loop(interpreter);
+    if (depth == INTERPRETER_LOOPS_MAX) {
         interpreter_fail(interpreter, INTERPRETER_ERROR_LOOP_DEPTH, now_ticks);
         return;
     }
-    interpreter->loops[interpreter->loop_depth] = (struct interpreter_loop){.body = interpreter->next, .left = passes};
-    interpreter->loop_depth++;
+    interpreter->loops[depth] = (struct interpreter_loop){
+        .body = interpreter->next,
+        .left = (uint16_t)passes,
+        .calls = interpreter->call_depth,
+    };
+    interpreter->loop_depth = (uint8_t)(depth + 1U);
 }
 
 /* Begins the next pass of the innermost loop, or leaves it. */

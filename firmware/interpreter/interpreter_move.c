@@ -19,6 +19,11 @@ static bool order_is_endless(const struct motion_order *order)
     return order->section[0].steps == MOTION_ENDLESS_STEPS;
 }
 
+bool interpreter_order_is_jog(const struct interpreter *interpreter)
+{
+    return order_is_endless(&interpreter->order) && interpreter->order_guards.halt_high == 0;
+}
+
 static int64_t order_steps(const struct motion_order *order)
 {
     uint64_t steps = 0;
@@ -33,11 +38,13 @@ static int64_t signed_steps(const struct interpreter *interpreter, int64_t steps
     return interpreter->order_backward ? -steps : steps;
 }
 
-/* The last section has begun: each output only once, also if K and C75 come in between. */
+/* The last section has begun: each output only once, also if K and C75 come in between, and only if its function is
+ * still on. */
 static void set_order_outputs(struct interpreter *interpreter, uint64_t now_ticks)
 {
+    unsigned outputs = interpreter->order_outputs & interpreter->mark_outputs;
     for (unsigned i = 0; i < UNIT_OUTPUTS; i++) {
-        if (((unsigned)interpreter->order_outputs >> i & 1U) != 0) {
+        if ((outputs >> i & 1U) != 0) {
             io_set(interpreter->io, i + 1U, true, interpreter->motor + 1U, now_ticks);
         }
     }
@@ -143,26 +150,36 @@ static void leave_move(struct interpreter *interpreter, enum hal_trace_stop caus
     }
 }
 
-void interpreter_watch_move(struct interpreter *interpreter, uint64_t now_ticks)
+static void end_move(struct interpreter *interpreter)
 {
-    struct mover *mover = interpreter->mover;
-    if (!interpreter->under_way) {
-        return;
-    }
-    mover_poll(mover);
-    if (mover_take_mark(mover)) {
-        set_order_outputs(interpreter, now_ticks);
-    }
-    if (mover_is_moving(mover)) {
-        return;
-    }
-    enum hal_trace_stop cause = mover_stop_cause(mover);
+    const struct mover *mover = interpreter->mover;
     int64_t steps = (int64_t)mover_steps_made(mover);
     interpreter->under_way = false;
     interpreter_trace(interpreter, mover_end_tick(mover), HAL_TRACE_DONE, signed_steps(interpreter, steps));
     interpreter_raise_clock(interpreter, mover_end_tick(mover));
-    spend_guards(interpreter, cause);
-    leave_move(interpreter, cause, now_ticks);
+    spend_guards(interpreter, mover_stop_cause(mover));
+}
+
+/* T41 and C41, whoever has switched them, get to a motor here: where it stands, and before its next move. */
+void interpreter_watch_move(struct interpreter *interpreter, uint64_t now_ticks)
+{
+    struct mover *mover = interpreter->mover;
+    bool ended = false;
+    if (interpreter->under_way) {
+        mover_poll(mover);
+        if (mover_take_mark(mover)) {
+            set_order_outputs(interpreter, now_ticks);
+        }
+        if (mover_is_moving(mover)) {
+            return;
+        }
+        end_move(interpreter);
+        ended = true;
+    }
+    mover_connect(mover, !interpreter->io->simulating);
+    if (ended) {
+        leave_move(interpreter, mover_stop_cause(mover), now_ticks);
+    }
 }
 
 void interpreter_stop(struct interpreter *interpreter, enum hal_trace_stop cause, uint64_t now_ticks)

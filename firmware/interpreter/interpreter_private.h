@@ -12,6 +12,9 @@ void interpreter_clear(struct interpreter *interpreter);
 
 void interpreter_trace(const struct interpreter *interpreter, uint64_t tick, enum hal_trace_event event, int64_t value);
 
+/* Whether no command is left of what is stored. */
+bool interpreter_has_run_all(const struct interpreter *interpreter);
+
 /* The clock never goes back. */
 void interpreter_raise_clock(struct interpreter *interpreter, uint64_t tick);
 
@@ -25,12 +28,16 @@ void interpreter_run(struct interpreter *interpreter, const struct program_instr
 /* Lays a single section in `order`, at the present A and S. */
 void interpreter_order_section(struct interpreter *interpreter, uint64_t steps, uint32_t speed_steps_per_s);
 
+/* Whether the present or last move is a run without end, G+ or G-. */
+bool interpreter_order_is_jog(const struct interpreter *interpreter);
+
 /* Begins the move in `order` at the clock. `halt_high` is the input that ends a limit run, as a mask; `outputs` are
  * set when the last section begins. */
 void interpreter_begin_move(struct interpreter *interpreter, bool backward, uint8_t halt_high, uint8_t outputs,
                             uint64_t now_ticks);
 
-/* Sees what the mover has done: the last section has begun, the move has ended. */
+/* Sees what the mover has done: the last section has begun, the move has ended; where the motor stands, simulation is
+ * switched on or off. */
 void interpreter_watch_move(struct interpreter *interpreter, uint64_t now_ticks);
 
 /* Stops the motor if it moves, and tells why the program stops. */

@@ -1,6 +1,14 @@
 #include "interpreter_private.h"
 
-/* K: the motor stops, and with it the program. */
+/* Whether nothing is left to be done, if main has seen it or not. */
+static bool is_at_rest(const struct interpreter *interpreter, uint64_t now_ticks)
+{
+    bool can_go_on = interpreter->state == INTERPRETER_IDLE || interpreter->state == INTERPRETER_RUNNING ||
+                     interpreter->state == INTERPRETER_WAIT_TIME;
+    return can_go_on && interpreter->clock <= now_ticks && interpreter_has_run_all(interpreter);
+}
+
+/* K: the motor stops, and with it the program. A motor at rest has nothing to stop. */
 static void take_halt(struct interpreter *interpreter, uint64_t now_ticks)
 {
     switch ((enum interpreter_state)interpreter->state) {
@@ -11,16 +19,18 @@ static void take_halt(struct interpreter *interpreter, uint64_t now_ticks)
     case INTERPRETER_STOPPED:
         interpreter->resuming = false;
         return;
-    case INTERPRETER_WAIT_TIME:
-        interpreter->wait_left = interpreter->clock > now_ticks ? interpreter->clock - now_ticks : 0;
-        break;
     case INTERPRETER_RUNNING:
     case INTERPRETER_IDLE:
     case INTERPRETER_HELD:
     case INTERPRETER_MOVING:
+    case INTERPRETER_WAIT_TIME:
     case INTERPRETER_WAIT_LEVEL:
         break;
     }
+    if (is_at_rest(interpreter, now_ticks)) {
+        return;
+    }
+    interpreter->wait_left = interpreter->clock > now_ticks ? interpreter->clock - now_ticks : 0;
     interpreter_stop(interpreter, HAL_TRACE_STOP_COMMAND, now_ticks);
     interpreter->resume_state = interpreter->state;
     interpreter->state = INTERPRETER_STOPPED;
@@ -124,6 +134,23 @@ bool interpreter_load(struct interpreter *interpreter, const uint8_t *text, uint
     return true;
 }
 
+/* Whether K has stopped, or is stopping, a run without end behind which nothing was stored: a jog. A guard may have
+ * begun to stop it before. */
+static bool is_jog_stopped(const struct interpreter *interpreter)
+{
+    bool in_move = interpreter->resume_state == INTERPRETER_MOVING || interpreter->resume_state == INTERPRETER_RUNNING;
+    return interpreter->state == INTERPRETER_STOPPED && in_move && interpreter_order_is_jog(interpreter) &&
+           interpreter_has_run_all(interpreter);
+}
+
+/* Nothing of the run is left to go on with; what has been stored behind it follows when the motor stands. */
+static void end_jog(struct interpreter *interpreter)
+{
+    interpreter->order.sections = 0;
+    interpreter->resuming = false;
+    interpreter->state = interpreter->under_way ? INTERPRETER_MOVING : INTERPRETER_RUNNING;
+}
+
 bool interpreter_take(struct interpreter *interpreter, const uint8_t *text, uint32_t length,
                       const struct program_summary *summary, uint64_t now_ticks)
 {
@@ -133,7 +160,12 @@ bool interpreter_take(struct interpreter *interpreter, const uint8_t *text, uint
     if (summary->commands == 1 && take_alone(interpreter, &summary->first, now_ticks)) {
         return false;
     }
+    bool jog_stopped = is_jog_stopped(interpreter);
     (void)take_program(interpreter, text, length, now_ticks, &overflow);
+    if (jog_stopped && interpreter->state == INTERPRETER_STOPPED && !interpreter_has_run_all(interpreter)) {
+        end_jog(interpreter);
+        interpreter_raise_clock(interpreter, now_ticks);
+    }
     if (interpreter->state == INTERPRETER_IDLE) {
         interpreter_raise_clock(interpreter, now_ticks);
     }

@@ -3,7 +3,6 @@
 #include <assert.h>
 
 #include "hal_io.h"
-#include "hal_step.h"
 #include "hal_trace.h"
 
 static_assert(UNIT_INPUTS <= 8 && UNIT_OUTPUTS <= 8, "inputs and outputs have a bit of a byte each");
@@ -65,6 +64,5 @@ void io_set(struct io *io, unsigned number, bool level, unsigned motor, uint64_t
 void io_simulate(struct io *io, bool on)
 {
     io->simulating = on;
-    hal_step_connect(!on);
     hal_io_write_outputs(on ? 0 : io->outputs);
 }

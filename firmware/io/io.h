@@ -17,7 +17,7 @@ struct io {
     uint8_t outputs;         /* bit 0 is BO1: what programs see and what the pins show unless simulating */
     uint16_t variables;      /* bit 0 is number 80 */
     bool memory_locked;      /* T40: a full program memory refuses commands */
-    bool simulating;         /* T41: STEP, DIR and BO are disconnected and held at 0 */
+    bool simulating;         /* T41: BO are disconnected and held at 0; STEP and DIR follow when their motor stands */
 };
 
 /* Everything 0, outputs connected; writes the output pins. */
@@ -35,7 +35,7 @@ bool io_level(const struct io *io, unsigned number);
 /* Sets or clears an output (1-8) or variable (80-95); `now_ticks` and `motor` (1-4, 0 = the unit) are for the trace. */
 void io_set(struct io *io, unsigned number, bool level, unsigned motor, uint64_t now_ticks);
 
-/* Switches simulation (T41) on or off: STEP, DIR and outputs are disconnected from their pins or connected again. */
+/* Switches simulation (T41) on or off: the outputs are disconnected from their pins or connected again at once. */
 void io_simulate(struct io *io, bool on);
 
 #endif

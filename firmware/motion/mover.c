@@ -12,7 +12,7 @@ enum {
 
 void mover_init(struct mover *mover, unsigned motor)
 {
-    *mover = (struct mover){.motor = (uint8_t)motor};
+    *mover = (struct mover){.motor = (uint8_t)motor, .connected = true};
     step_channel_init(&mover->channel, motor);
 }
 
@@ -259,6 +259,20 @@ int64_t mover_position_steps(const struct mover *mover)
 void mover_set_position(struct mover *mover, int64_t position_steps)
 {
     step_channel_set_position(&mover->channel, position_steps);
+}
+
+void mover_connect(struct mover *mover, bool connected)
+{
+    if (connected == mover->connected) {
+        return;
+    }
+    mover->connected = connected;
+    if (connected) {
+        mover_set_position(mover, mover->real_steps);
+    } else {
+        mover->real_steps = mover_position_steps(mover);
+    }
+    hal_step_connect(mover->motor, connected);
 }
 
 bool mover_take_mark(struct mover *mover)

@@ -37,10 +37,12 @@ struct mover {
     _Atomic bool moving;
     _Atomic bool stopping;    /* the stop is to be planned */
     bool braking;
+    bool connected;           /* STEP and DIR reach their pins */
     uint8_t motor;
+    int64_t real_steps;       /* while not connected: the position at which the motor has stayed */
 };
 
-/* Stands at position 0. */
+/* Stands at position 0, connected. */
 void mover_init(struct mover *mover, unsigned motor);
 
 /* Begins a move at `start_tick`, the unit's time, which may be up to 200 us past: the first pulse comes a whole step
@@ -78,6 +80,10 @@ uint64_t mover_steps_made(const struct mover *mover);
 /* The absolute position; set only while standing. */
 int64_t mover_position_steps(const struct mover *mover);
 void mover_set_position(struct mover *mover, int64_t position_steps);
+
+/* Disconnects STEP and DIR from their pins, or connects them again; only while standing. What is made while they are
+ * disconnected the motor does not make, so its position then goes back to what it was when they were. */
+void mover_connect(struct mover *mover, bool connected);
 
 /* Whether the last section of a move of several has begun since the last call. */
 bool mover_take_mark(struct mover *mover);

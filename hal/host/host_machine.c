@@ -79,9 +79,11 @@ static uint64_t next_input_tick(const struct host_machine *machine)
 
 static void make_edge(struct host_machine *machine, unsigned motor)
 {
+    const struct host_listener *listener = &machine->listener;
+    void (*tell)(void *, uint64_t, unsigned, bool) = machine->connected[motor] ? listener->step : listener->simulated;
     machine->pulses++;
-    if (machine->connected && machine->listener.step != NULL) {
-        machine->listener.step(machine->listener.context, machine->now, motor, machine->backward[motor]);
+    if (tell != NULL) {
+        tell(listener->context, machine->now, motor, machine->backward[motor]);
     }
 }
 

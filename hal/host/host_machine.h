@@ -39,6 +39,8 @@ enum {
 struct host_listener {
     void *context;
     void (*step)(void *context, uint64_t tick, unsigned motor, bool backward); /* rising edge of STEP at the pin */
+    void (*simulated)(void *context, uint64_t tick, unsigned motor, bool backward); /* one that is disconnected */
+    void (*connection)(void *context, uint64_t tick, unsigned motor, bool connected); /* of STEP and DIR */
     void (*direction)(void *context, uint64_t tick, unsigned motor, bool backward);
     void (*led)(void *context, uint64_t tick, unsigned motor, bool on);
     void (*input)(void *context, uint64_t tick, uint8_t levels);
@@ -113,7 +115,7 @@ struct host_machine {
     bool edge_made[UNIT_MOTORS];       /* `armed` is no more the edge but its interrupt, which is late */
     bool backward[UNIT_MOTORS];        /* DIR as set; the pin shows it while connected */
     bool led[UNIT_MOTORS];
-    bool connected;                    /* STEP and DIR reach their pins; so they do at the start */
+    bool connected[UNIT_MOTORS];       /* STEP and DIR reach their pins; so they do at the start */
     bool step_held;
     bool plan_held;
     uint8_t inputs;

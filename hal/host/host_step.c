@@ -3,23 +3,20 @@
 #include "base_tick.h"
 #include "host_private.h"
 
-/* Sets DIR of a motor and the connection of all; tells of the pin if it changes. */
-static void set_pin(struct host_machine *machine, unsigned motor, bool backward, bool connected)
+/* Sets DIR and the connection of a motor; tells of what changes. */
+static void set_pins(struct host_machine *machine, unsigned motor, bool backward, bool connected)
 {
-    bool before = machine->connected && machine->backward[motor];
+    const struct host_listener *listener = &machine->listener;
+    bool before = machine->connected[motor] && machine->backward[motor];
     bool after = connected && backward;
+    if (machine->connected[motor] != connected && listener->connection != NULL) {
+        listener->connection(listener->context, machine->now, motor, connected);
+    }
     machine->backward[motor] = backward;
-    if (before != after && machine->listener.direction != NULL) {
-        machine->listener.direction(machine->listener.context, machine->now, motor, after);
+    machine->connected[motor] = connected;
+    if (before != after && listener->direction != NULL) {
+        listener->direction(listener->context, machine->now, motor, after);
     }
-}
-
-static void connect_pins(struct host_machine *machine, bool connected)
-{
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        set_pin(machine, motor, machine->backward[motor], connected);
-    }
-    machine->connected = connected;
 }
 
 void host_step_reset(struct host_machine *machine)
@@ -27,9 +24,8 @@ void host_step_reset(struct host_machine *machine)
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         machine->armed[motor] = TICK_NEVER;
         machine->edge_made[motor] = false;
-        set_pin(machine, motor, false, machine->connected);
+        set_pins(machine, motor, false, true);
     }
-    connect_pins(machine, true);
 }
 
 void hal_step_arm(unsigned motor, uint32_t tick)
@@ -61,12 +57,15 @@ void hal_step_set_direction(unsigned motor, bool backward)
     struct host_machine *machine = host_current();
     assert(motor < UNIT_MOTORS);
     assert(machine->armed[motor] == TICK_NEVER);
-    set_pin(machine, motor, backward, machine->connected);
+    set_pins(machine, motor, backward, machine->connected[motor]);
 }
 
-void hal_step_connect(bool connected)
+void hal_step_connect(unsigned motor, bool connected)
 {
-    connect_pins(host_current(), connected);
+    struct host_machine *machine = host_current();
+    assert(motor < UNIT_MOTORS);
+    assert(machine->armed[motor] == TICK_NEVER);
+    set_pins(machine, motor, machine->backward[motor], connected);
 }
 
 uint32_t hal_step_lead_ticks(void)

@@ -20,8 +20,9 @@ bool hal_step_disarm(unsigned motor);
 /* Sets DIR: false forward, true backward. Called only while no pulse is armed. Main. */
 void hal_step_set_direction(unsigned motor, bool backward);
 
-/* Connects STEP and DIR of all motors to their pins, or holds the pins at 0 while all else runs on. Main. */
-void hal_step_connect(bool connected);
+/* Connects STEP and DIR of a motor to their pins, or holds the pins at 0 while all else runs on; at first they are
+ * connected. Called only while the motor stands: DIR moves where no pulse is near. Main. */
+void hal_step_connect(unsigned motor, bool connected);
 
 /* Ticks that the backend wants between the planning of a change and the pulse at which it takes effect: at least
  * what planning takes. 0 where planning takes no time. Main. */

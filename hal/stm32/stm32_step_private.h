@@ -60,6 +60,7 @@ struct stm32_channel {
     volatile uint32_t *compare;
     uint32_t one;              /* mode 1 of this channel in the register */
     bool backward;
+    bool connected;
 };
 
 struct stm32_step {
@@ -69,7 +70,6 @@ struct stm32_step {
     uint32_t falling; /* of those whose pulse is being ended by the channel */
     uint32_t waiting; /* of those falling that have a pulse to be armed behind it */
     uint32_t edge[UNIT_MOTORS]; /* of a plain channel, the client knows it; else the armed edge, or the last one */
-    bool connected;
     bool may_move;
     uint32_t modes[2];
     struct stm32_channel channel[UNIT_MOTORS];
@@ -92,7 +92,7 @@ static inline void set_mode(const struct stm32_channel *channel, uint32_t mode)
 static inline uint32_t armed_mode(unsigned motor)
 {
     uint32_t mode = (stm32_step.special & flag_of(motor)) != 0 ? MODE_RISE : MODE_AFTER;
-    return stm32_step.connected ? mode : MODE_LOW;
+    return stm32_step.channel[motor].connected ? mode : MODE_LOW;
 }
 
 /* The channels that have an edge to come. */

@@ -4,9 +4,10 @@
 
 static const uint8_t direction_pins[UNIT_MOTORS] = {STM32_PIN_DIR_1, STM32_PIN_DIR_2, STM32_PIN_DIR_3, STM32_PIN_DIR_4};
 
-static void write_direction(unsigned motor, bool connected)
+static void write_direction(unsigned motor)
 {
-    bool high = connected && stm32_step.channel[motor].backward;
+    const struct stm32_channel *channel = &stm32_step.channel[motor];
+    bool high = channel->connected && channel->backward;
     stm32_pin_write(direction_pins[motor], high == (BOARD_DIR_LEVEL == 1U));
 }
 
@@ -17,62 +18,29 @@ static void wait_until_past(uint32_t start, uint32_t ticks)
 }
 
 /* Waits a few microseconds: what DIR has to stand still behind the last pulse, and before the next. */
-void hal_step_set_direction(unsigned motor, bool backward)
+static void set_pins(unsigned motor, bool backward, bool connected)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
-    if (channel->backward == backward) {
+    if (channel->backward == backward && channel->connected == connected) {
         return;
     }
     wait_until_past(edge_of(motor), HOLD_TICKS);
     channel->backward = backward;
-    write_direction(motor, stm32_step.connected);
+    channel->connected = connected;
+    write_direction(motor);
     wait_until_past(TIM2_CNT, SETUP_TICKS);
 }
 
-static void write_directions(bool connected)
+void hal_step_set_direction(unsigned motor, bool backward)
 {
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        write_direction(motor, connected);
-    }
+    set_pins(motor, backward, stm32_step.channel[motor].connected);
 }
 
-/* A pulse that is being made, or is about to be, ends as it began: whole, or not at all. Its interrupt arms the next
- * one in the right mode. */
-static void write_mode(unsigned motor)
+/* STEP is low at rest, connected or not: the next pulse is armed in the right mode. Without the crystal nothing is ever
+ * connected. */
+void hal_step_connect(unsigned motor, bool connected)
 {
-    uint32_t flag = flag_of(motor);
-    uint32_t edge = edge_of(motor);
-    bool armed = (enabled() & flag) != 0;
-    if (armed && (int32_t)(edge - TIM2_CNT) <= (int32_t)WRITE_TICKS) {
-        stm32_step.edge[motor] = edge;
-        set_enabled(stm32_step.plain & ~flag, stm32_step.special | flag);
-    } else {
-        set_mode(&stm32_step.channel[motor], armed ? armed_mode(motor) : (uint32_t)MODE_LOW);
-    }
-}
-
-static void write_all_modes(bool connected)
-{
-    uint32_t mask = stm32_mask();
-    stm32_step.connected = connected;
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        write_mode(motor);
-    }
-    stm32_unmask(mask);
-}
-
-/* DIR stands still around the pulses that come before and behind. Without the crystal nothing is ever connected. */
-void hal_step_connect(bool connected)
-{
-    if (connected && stm32_step.may_move) {
-        write_directions(true);
-        wait_until_past(TIM2_CNT, SETUP_TICKS);
-        write_all_modes(true);
-    } else {
-        write_all_modes(false);
-        wait_until_past(TIM2_CNT, HOLD_TICKS);
-        write_directions(false);
-    }
+    set_pins(motor, stm32_step.channel[motor].backward, connected && stm32_step.may_move);
 }
 
 /* All four pins low and the counter running; the pins may be handed over to the timer now. */
@@ -92,9 +60,10 @@ void stm32_step_start(bool may_move)
             .mode = &TIM2_CCMR1 + motor / 2U,
             .compare = &TIM2_CCR1 + motor,
             .one = motor % 2U == 0 ? TIM2_CCMR1_OC1M(1U) : TIM2_CCMR1_OC2M(1U),
+            .connected = may_move,
         };
+        set_mode(&stm32_step.channel[motor], MODE_LOW);
     }
-    write_all_modes(may_move);
     TIM2_CCER = TIM2_CCER_CC1E | TIM2_CCER_CC2E | TIM2_CCER_CC3E | TIM2_CCER_CC4E |
                 (BOARD_STEP_LEVEL == 1U ? 0U : levels);
     set_enabled(0, 0);

@@ -65,11 +65,6 @@ void hal_io_write_outputs(uint8_t levels)
     (void)levels;
 }
 
-void hal_step_connect(bool connected)
-{
-    (void)connected;
-}
-
 bool hal_board_may_move(void)
 {
     return true;
@@ -178,6 +173,12 @@ void mover_set_position(struct mover *mover, int64_t position_steps)
     bench.position = position_steps;
 }
 
+void mover_connect(struct mover *mover, bool connected)
+{
+    FUZZ_REQUIRE(!mover->moving);
+    mover->connected = connected;
+}
+
 bool mover_take_mark(struct mover *mover)
 {
     (void)mover;
@@ -199,7 +200,9 @@ static void require_bounds(const struct interpreter *interpreter)
     FUZZ_REQUIRE((interpreter->state == INTERPRETER_FAILED) == (interpreter->error != INTERPRETER_ERROR_NONE));
     FUZZ_REQUIRE(interpreter->under_way || !bench.mover.moving);
     for (unsigned i = 0; i < interpreter->loop_depth; i++) {
-        FUZZ_REQUIRE(interpreter->loops[i].body <= memory->written && is_in(interpreter->loops[i].left, 1, 255));
+        const struct interpreter_loop *loop = &interpreter->loops[i];
+        FUZZ_REQUIRE(loop->body <= memory->written && is_in(loop->left, 1, 255));
+        FUZZ_REQUIRE(loop->calls <= interpreter->call_depth && (i == 0 || loop[-1].calls <= loop->calls));
     }
     for (unsigned i = 0; i < interpreter->call_depth; i++) {
         FUZZ_REQUIRE(interpreter->calls[i] <= memory->written);

@@ -19,7 +19,14 @@ from typing import Any
 import debug_info
 from elftools.elf.elffile import ELFFile
 from emulator import symbols
-from unicorn import UC_ARCH_ARM, UC_HOOK_CODE, UC_MODE_MCLASS, UC_MODE_THUMB, Uc
+from unicorn import (
+    UC_ARCH_ARM,
+    UC_HOOK_CODE,
+    UC_HOOK_MEM_WRITE,
+    UC_MODE_MCLASS,
+    UC_MODE_THUMB,
+    Uc,
+)
 from unicorn.arm_const import (
     UC_ARM_REG_LR,
     UC_ARM_REG_PC,
@@ -32,6 +39,7 @@ from unicorn.arm_const import (
 
 FLASH, RAM, MEBIBYTE = 0x0800_0000, 0x2000_0000, 0x10_0000
 TIMER, PERIPHERALS = 0x4000_0000, 0x4000_1000
+PORTS, PORT_BYTES, BSRR = 0x4002_0000, 0x400, 0x18  # RM0090, table 1 and 8.4.7
 RETURN = FLASH + 0xF_0000
 CLIENT, SEGMENT, CHANNELS, CHANNEL_BYTES = (
     RAM + 0xE_0000, RAM + 0xE_1000, RAM + 0xE_2000, 0x1000
@@ -150,6 +158,9 @@ class StepRig:
         machine.mem_map(PERIPHERALS, MEBIBYTE)
         machine.mmio_map(TIMER, 0x1000, self._read, None, self._write, None)
         machine.hook_add(UC_HOOK_CODE, self._instruction)
+        self.pin_writes: list[tuple[int, tuple[int, int], bool]] = []  # tick, port and pin, level
+        ports = {"begin": PORTS, "end": PORTS + 9 * PORT_BYTES - 1}
+        machine.hook_add(UC_HOOK_MEM_WRITE, self._pin_write, **ports)
         for address, data in _load(image):
             machine.mem_write(address, data)
         self._in_main = False
@@ -160,6 +171,16 @@ class StepRig:
         machine.mem_write(CLIENT + _offset(image, "hal_client", "channel"), channels)
         self.call("stm32_step_set_client", CLIENT)
         self.timer.edges.clear()
+        self.pin_writes.clear()
+
+    def _pin_write(
+        self, _machine: Uc, _access: int, address: int, _size: int, value: int, _data: Any
+    ) -> None:
+        port, register = divmod(address - PORTS, PORT_BYTES)
+        if register == BSRR:
+            bits = (value & 0xFFFF) | (value >> 16 & 0xFFFF)
+            pin = bits.bit_length() - 1
+            self.pin_writes.append((self.timer.now, (port, pin), bool(value & 1 << pin)))
 
     def _read(self, _machine: Uc, offset: int, _size: int, _data: Any) -> int:
         return self.timer.read(offset)
@@ -214,9 +235,10 @@ class StepRig:
         """Arm the first edge of what was queued."""
         self.call("step_channel_run", self._channel(motor))
 
-    def start(self, motor: int, ticks: Sequence[int]) -> None:
+    def start(self, motor: int, ticks: Sequence[int], backward: bool = False) -> None:
         """Start a move with an edge at each tick, each on a segment of its own."""
-        self.call("step_channel_begin", self._channel(motor), self.timer.counter, 0)
+        begin = (self._channel(motor), self.timer.counter, int(backward))
+        self.call("step_channel_begin", *begin)
         for tick in ticks:
             self.push(motor, tick)
         self.go(motor)

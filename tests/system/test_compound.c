@@ -108,6 +108,45 @@ void test_y_without_steps_is_an_error(void)
     TEST_ASSERT_EQUAL_INT64(INTERPRETER_ERROR_NO_STEPS, bench_event(&bench, 1, HAL_TRACE_ERROR, 0)->value);
 }
 
+/* On at the first Y, but not any more when the last section begins: one section or two, run again, by another T. */
+TEST_CASE("T52 F10 Y Y R C52 C02 W5 R W5", "R")
+TEST_CASE("T52 F10 Y Y C52 R", "R")
+TEST_CASE("T52 F10 Y C52 R", "R")
+TEST_CASE("T52 F10 Y C52 T53 R", "R")
+TEST_CASE("F10 T52 Y C52 Y T51 T53 R", "")
+void test_no_output_is_set_by_a_function_that_has_been_switched_off(const char *text, const char *again)
+{
+    bench_send(&bench, 1, "[ S500 V500 A2000");
+    bench_send(&bench, 1, text);
+    bench_send(&bench, 1, again);
+    bench_do(&bench, 1, "]");
+    TEST_ASSERT_EQUAL_HEX8(0x00, bench.machine.outputs);
+    TEST_ASSERT_EQUAL_UINT32(0, bench_count(&bench, 1, HAL_TRACE_ERROR));
+}
+
+TEST_CASE("T52 T53 F10 Y Y C53 R", 0x02)
+TEST_CASE("T52 F10 Y Y C52 T52 R", 0x02)
+TEST_CASE("T52 F10 Y C52 T52 R", 0x02)
+TEST_CASE("F10 Y T52 Y R", 0x00)
+void test_what_counts_is_on_at_the_first_y_and_when_the_last_section_begins(const char *text, unsigned outputs)
+{
+    bench_send(&bench, 1, "[ S500 V500 A2000");
+    bench_send(&bench, 1, text);
+    bench_do(&bench, 1, "]");
+    TEST_ASSERT_EQUAL_HEX8(outputs, bench.machine.outputs);
+}
+
+/* K in the first section; what is left is a move of its own, and its last section begins in it. */
+void test_a_function_switched_on_by_the_first_y_counts_after_k_and_c75(void)
+{
+    bench_send(&bench, 1, "S500 V500 A2000 T52 F50 Y Y R");
+    bench_run_pulses(&bench, 1, 20);
+    bench_do(&bench, 1, "K");
+    TEST_ASSERT_EQUAL_HEX8(0x00, bench.machine.outputs);
+    bench_do(&bench, 1, "C75");
+    TEST_ASSERT_EQUAL_HEX8(0x02, bench.machine.outputs);
+}
+
 /* The last section begins when the step before it has been made. */
 TEST_CASE("T51", 1)
 TEST_CASE("T55", 5)
@@ -156,7 +195,6 @@ void test_the_output_is_not_set(const char *text)
     TEST_ASSERT_FALSE(bench_output(&bench, 3));
 }
 
-TEST_CASE("T53 F2 Y C53 Y R")
 TEST_CASE("T53 F2 Y Y R C53")
 void test_switching_the_function_off_clears_nothing_that_began(const char *text)
 {

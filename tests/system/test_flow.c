@@ -148,3 +148,64 @@ void test_the_place_stays_when_the_program_idles(void)
     bench_do(&bench, 1, "T01 T02");
     TEST_ASSERT_EQUAL_STRING("     0; 2", bench_ask(&bench, 7, 1));
 }
+
+/* With input 1 at 1 the program jumps out of its loop each time, for ever. */
+TEST_CASE("@1 L10 R I01H5 E @5 W10 J1")
+TEST_CASE("@1 L10 L9 L8 R I01H5 E E E @5 W10 J1")
+TEST_CASE("@1 L10 @2 L9 R I01H5 E E @5 W10 J2")
+TEST_CASE("@1 '3 W10 J1 @3 L10 R I01H5 E @5 .")
+TEST_CASE("L2 @1 '3 W10 J1 E @3 L10 L2 R I01H5 E E @5 .")
+void test_jumping_out_of_loops_can_go_on_for_ever(const char *text)
+{
+    bench_set_input(&bench, 1, true);
+    bench_send(&bench, 1, "[ S1000 F10");
+    bench_send(&bench, 1, text);
+    bench_send(&bench, 1, "]");
+    bench_run_ms(&bench, 1010);
+    TEST_ASSERT_EQUAL_UINT32(51, bench_count(&bench, 1, HAL_TRACE_MOVE));
+    TEST_ASSERT_EQUAL_UINT32(0, bench_count(&bench, 1, HAL_TRACE_ERROR));
+}
+
+/* Variable 80 is the memory of the program: out of the loop once, after one R. */
+TEST_CASE("@1 L3 R I80H2 T80 J1 @2 E", 1 + 3)
+TEST_CASE("@1 L3 L2 R I80H2 T80 J1 @2 E E", 1 + 6)
+TEST_CASE("L2 @1 L3 R I80H2 T80 J1 @2 E E", 1 + 6)
+TEST_CASE("L3 '1 E J9 @1 L5 R I80H2 T80 . E @2 E .", 1 + 5 + 5)
+void test_a_loop_reached_again_begins_anew(const char *text, unsigned passes)
+{
+    bench_send(&bench, 1, "[ S2000 V2000 F1");
+    bench_send(&bench, 1, text);
+    bench_do(&bench, 1, "@9 ]");
+    TEST_ASSERT_EQUAL_UINT32(passes, bench_pulses(&bench, 1));
+    TEST_ASSERT_EQUAL_UINT32(0, bench_count(&bench, 1, HAL_TRACE_ERROR));
+}
+
+/* A loop that the subroutine has left open is not that of the E behind the call. */
+TEST_CASE("'1 E J9 @1 L5 .", INTERPRETER_ERROR_LOOP_END)
+TEST_CASE("L2 '1 E E J9 @1 L5 .", INTERPRETER_ERROR_LOOP_END)
+TEST_CASE("L2 '1 E J9 @1 L5 .", INTERPRETER_ERROR_NONE)
+TEST_CASE("L2 '1 E J9 @1 '2 L3 . @2 L5 L6 .", INTERPRETER_ERROR_NONE)
+TEST_CASE("L2 L2 L2 L2 L2 '1 E E E E E J9 @1 L2 '2 . @2 L2 L2 .", INTERPRETER_ERROR_NONE)
+TEST_CASE("L2 L2 L2 L2 L2 '1 E E E E E J9 @1 L2 '2 . @2 L2 L2 L2 .", INTERPRETER_ERROR_LOOP_DEPTH)
+void test_a_return_closes_the_loops_begun_since_the_call(const char *text, int error)
+{
+    bench_send(&bench, 1, "[");
+    bench_send(&bench, 1, text);
+    bench_do(&bench, 1, "@9 ]");
+    TEST_ASSERT_EQUAL_INT(error, bench.unit.interpreter[0].error);
+}
+
+/* A subroutine that calls itself from its loop: each call has a loop of its own. */
+void test_a_loop_is_not_the_one_of_a_call_before(void)
+{
+    bench_do(&bench, 1, "[ S2000 V2000 F1 '1 J9 @1 L3 R I80H2 T80 '1 @2 E . @9 ]");
+    TEST_ASSERT_EQUAL_UINT32(6, bench_pulses(&bench, 1));
+    TEST_ASSERT_EQUAL_UINT32(0, bench_count(&bench, 1, HAL_TRACE_ERROR));
+}
+
+/* The E in the subroutine ends the loop of the caller; the loop begun behind it is the subroutine's. */
+void test_a_subroutine_may_end_the_loop_of_its_caller(void)
+{
+    bench_do(&bench, 1, "[ L1 '1 E J9 @1 E L3 . @9 ]");
+    TEST_ASSERT_EQUAL_INT(INTERPRETER_ERROR_LOOP_END, bench.unit.interpreter[0].error);
+}

@@ -254,11 +254,12 @@ void test_k_stops_a_program_that_loops_without_waiting(void)
     TEST_ASSERT_GREATER_THAN_UINT32(writes, bench_count(&bench, 1, HAL_TRACE_VAR));
 }
 
-TEST_CASE("T02")
-TEST_CASE("T02 [ W1")
+TEST_CASE("W10")
+TEST_CASE("[ W1")
 void test_while_stopped_new_commands_are_stored_and_wait(const char *before)
 {
-    bench_do(&bench, 1, before);
+    bench_send(&bench, 1, before);
+    bench_run_ms(&bench, 5);
     bench_send(&bench, 1, "K");
     bench_do(&bench, 1, "] T01");
     bench_run_ms(&bench, 100);
@@ -269,11 +270,51 @@ void test_while_stopped_new_commands_are_stored_and_wait(const char *before)
 
 void test_what_waited_while_stopped_begins_at_c75(void)
 {
-    bench_do(&bench, 1, "K");
+    bench_send(&bench, 1, "O03");
+    bench_run_ms(&bench, 5);
+    bench_send(&bench, 1, "K");
+    bench_set_input(&bench, 3, true);
     bench_do(&bench, 1, "S1000 F1 R");
     bench_run_ms(&bench, 500);
+    uint64_t resumed = bench_now(&bench);
     bench_do(&bench, 1, "C75");
-    TEST_ASSERT_EQUAL_UINT64(501 * TICKS_PER_MS, bench_pulse_tick(&bench, 1, 1));
+    TEST_ASSERT_EQUAL_UINT64(resumed + TICKS_PER_MS, bench_pulse_tick(&bench, 1, 1));
+}
+
+/* Rest: nothing has come yet, all has run, and the very pass in which the last of it has. */
+TEST_CASE("", 0)
+TEST_CASE("T02", 10)
+TEST_CASE("S1000 F5 R", 10)
+TEST_CASE("S1000 F5 R", 5)
+TEST_CASE("W5", 5)
+TEST_CASE("\\", 0)
+void test_k_to_a_motor_at_rest_does_nothing(const char *before, unsigned ms)
+{
+    bench_send(&bench, 1, before);
+    bench_run_ticks(&bench, ms * TICKS_PER_MS + 1);
+    TEST_ASSERT_EQUAL_UINT8(0, bench_send(&bench, 1, "K"));
+    bench_do(&bench, 1, "T01 S1000 F3 R");
+    TEST_ASSERT_TRUE(bench_output(&bench, 1));
+    TEST_ASSERT_EQUAL_UINT32(0, bench_count(&bench, 1, HAL_TRACE_STOP));
+    TEST_ASSERT_EQUAL_INT(INTERPRETER_IDLE, bench_state(&bench, 1));
+}
+
+void test_k_before_the_commands_that_have_just_come_stops_them(void)
+{
+    bench_send(&bench, 1, "T01");
+    bench_do(&bench, 1, "K");
+    TEST_ASSERT_FALSE(bench_output(&bench, 1));
+    bench_do(&bench, 1, "C75");
+    TEST_ASSERT_TRUE(bench_output(&bench, 1));
+}
+
+void test_c75_after_k_at_rest_has_no_effect(void)
+{
+    bench_do(&bench, 1, "S1000 F5 R");
+    bench_do(&bench, 1, "K");
+    bench_do(&bench, 1, "C75");
+    TEST_ASSERT_EQUAL_UINT32(1, bench_count(&bench, 1, HAL_TRACE_MOVE));
+    TEST_ASSERT_EQUAL_INT(INTERPRETER_IDLE, bench_state(&bench, 1));
 }
 
 void test_k_while_held_keeps_the_hold(void)

@@ -89,13 +89,46 @@ void test_x_ends_a_program_that_waits_or_runs(const char *text)
     TEST_ASSERT_EQUAL_INT64(HAL_TRACE_STOP_TOTAL, bench_event(&bench, 1, HAL_TRACE_STOP, 0)->value);
 }
 
-void test_x_acts_while_the_motor_idles(void)
+/* At rest before there was a move, and behind one that X has watched. */
+TEST_CASE("X03")
+TEST_CASE("X03 S1000 F5 R")
+TEST_CASE("X03 W5")
+void test_a_short_x_while_the_motor_rests_does_nothing(const char *text)
+{
+    bench_do(&bench, 1, text);
+    bench_run_ms(&bench, 10);
+    bench_set_input(&bench, 3, true);
+    bench_run_ms(&bench, 10);
+    bench_set_input(&bench, 3, false);
+    bench_do(&bench, 1, "T01 S1000 F7 B7 R");
+    TEST_ASSERT_TRUE(bench_output(&bench, 1));
+    TEST_ASSERT_EQUAL_INT64(-7, bench_event(&bench, 1, HAL_TRACE_DONE,
+                                            bench_count(&bench, 1, HAL_TRACE_DONE) - 1U)->value);
+    TEST_ASSERT_EQUAL_UINT32(0, bench_count(&bench, 1, HAL_TRACE_STOP));
+}
+
+void test_x_that_is_still_1_acts_before_the_first_new_command(void)
+{
+    bench_do(&bench, 1, "X03");
+    bench_set_input(&bench, 3, true);
+    bench_run_ms(&bench, 10);
+    TEST_ASSERT_EQUAL_UINT32(0, bench_count(&bench, 1, HAL_TRACE_STOP));
+    bench_do(&bench, 1, "T01 T02");
+    TEST_ASSERT_FALSE(bench_output(&bench, 1));
+    TEST_ASSERT_EQUAL_INT(INTERPRETER_ENDED, bench_state(&bench, 1));
+    TEST_ASSERT_EQUAL_UINT32(1, bench_count(&bench, 1, HAL_TRACE_STOP));
+}
+
+void test_a_guard_of_x_stays_for_the_moves_behind_a_rest(void)
 {
     bench_do(&bench, 1, "X03");
     bench_set_input(&bench, 3, true);
     bench_set_input(&bench, 3, false);
-    bench_do(&bench, 1, "T01");
-    TEST_ASSERT_FALSE(bench_output(&bench, 1));
+    bench_send(&bench, 1, "S1000 F500 R T01");
+    bench_run_pulses(&bench, 1, 50);
+    bench_set_input(&bench, 3, true);
+    bench_run_idle(&bench);
+    TEST_ASSERT_EQUAL_INT(INTERPRETER_ENDED, bench_state(&bench, 1));
 }
 
 void test_x_ends_a_program_that_k_has_stopped(void)

@@ -8,6 +8,7 @@ import pytest
 from step_rig import DIER, LOW, MOTORS, WRAP
 
 START = 1000
+HOLD_TICKS = SETUP_TICKS = 420  # of DIR, 5 us
 SLACK = 40  # a few looks at the counter
 
 AROUND_WRAP = [-300, -211, -210, -43, -42, -41, -1, 0, 1, 2, 42, 300]
@@ -281,91 +282,116 @@ def test_a_halted_channel_starts_anew_at_any_time(make_rig, width):
 # Disconnecting and connecting
 
 
-def test_disconnected_channels_keep_their_time_and_their_pins_low(make_rig):
+def test_a_disconnected_channel_keeps_its_time_and_its_pin_low(make_rig):
     rig = make_rig()
-    rig.call("hal_step_connect", 0)
+    rig.call("hal_step_connect", 1, 0)
     now = rig.timer.now
-    rig.start(1, [now + 3000 * i for i in range(1, 6)])
+    ticks = [now + 3000 * i for i in range(1, 6)]
+    rig.start(1, ticks)
+    rig.start_steady(2, ticks[0], 3000, len(ticks))
 
     rig.run(30_000)
 
-    assert rig.timer.edges == []
+    assert rig.rises(1) == []
     assert rig.pulses(1) == 5
+    assert rig.rises(2) == ticks
     assert rig.late == 0
 
 
-def test_a_train_may_be_disconnected_and_connected_again(make_rig):
+def test_pulses_reach_the_pin_again_when_it_is_connected_again(make_rig):
     rig = make_rig()
-    ticks = [START + 5000 * i for i in range(1, 10)]
-    rig.start_steady(1, ticks[0], 5000, len(ticks))
+    rig.call("hal_step_connect", 1, 0)
+    rig.start_steady(1, rig.timer.now + 3000, 3000, 3)
+    rig.run(20_000)
 
-    rig.run(12_000)
-    rig.call("hal_step_connect", 0)
-    rig.run(15_000)
-    rig.call("hal_step_connect", 1)
-    rig.run(25_000)
+    rig.call("hal_step_connect", 1, 1)
+    ticks = [rig.timer.now + 3000 * i for i in range(1, 4)]
+    rig.start_steady(1, ticks[0], 3000, 3)
+    rig.run(20_000)
 
-    assert rig.rises(1) == [*ticks[:2], *ticks[5:]]
-    assert rig.pulses(1) == 9
+    assert rig.rises(1) == ticks
+    assert rig.late == 0
 
 
 @pytest.mark.parametrize("connected", [False, True])
-@pytest.mark.parametrize("masked", [False, True])
-def test_pins_may_be_connected_at_any_moment_of_an_edge(make_rig, width, connected, masked):
-    """A pulse is made whole or not at all, the time goes on, and what follows is right."""
+def test_a_motor_may_be_switched_at_any_moment_of_the_edges_of_others(make_rig, width, connected):
+    """The pulses of channels that share its registers are all made."""
     ticks = [START + 4000 * i for i in range(1, 6)]
-    around = ticks[2]
-    for offset in itertools.chain(range(-30, 10, 1 + masked), range(10, width + 60, 11)):
+    for offset in itertools.chain(
+        range(-900, -840, 9), range(-30, 10, 3), range(10, width + 60, 23)
+    ):
         rig = make_rig()
-        rig.call("hal_step_connect", 0 if connected else 1)
+        rig.call("hal_step_connect", 1, 0 if connected else 1)
         rig.start_steady(0, ticks[0], 4000, len(ticks))
         rig.start(3, ticks)
-        rig.run(around - 2000 - rig.timer.now)
-        # Connecting waits for the set-up time of DIR before it touches STEP.
-        at = around + offset - (422 if connected else 0)
-        rig.go_to(at) if masked else rig.run(at - rig.timer.now)
+        rig.run(ticks[2] + offset - rig.timer.now)
 
-        rig.call("hal_step_connect", int(connected))
+        rig.call("hal_step_connect", 1, int(connected))
         rig.run(20_000)
 
-        for motor in (0, 3):
-            rises = rig.rises(motor)
-            expected = ticks[3:] if connected else ticks[:2]
-            assert rises in (expected, sorted([*expected, around])), offset
-            assert rig.pulses(motor) == len(ticks)
-            assert not rig.is_running(motor)
+        assert rig.rises(0) == ticks, offset
+        assert rig.rises(3) == ticks, offset
         assert rig.late == 0
 
 
-@pytest.mark.parametrize("edge", [-43, -1, 0, 1, 2])
-def test_pins_may_be_connected_around_the_wrap(make_rig, edge):
-    ticks = [WRAP + edge + 4000 * i for i in range(-1, 3)]
-    for offset in range(-32, 70, 6):
-        rig = make_rig(WRAP - 10_000)
-        rig.start_steady(0, ticks[0], 4000, len(ticks))
-        rig.run(ticks[1] + offset - rig.timer.now)
+def test_without_the_crystal_nothing_is_ever_connected(make_rig):
+    rig = make_rig()
+    rig.call("stm32_step_start", 0)
+    rig.call("hal_step_connect", 1, 1)
+    rig.start_steady(1, rig.timer.now + 3000, 3000, 3)
 
-        rig.call("hal_step_connect", 0)
-        rig.run(1500)
-        rig.call("hal_step_connect", 1)
-        rig.run(10_000)
+    rig.run(20_000)
 
-        assert rig.rises(0) in (ticks, [ticks[0], *ticks[2:]]), offset
-        assert rig.pulses(0) == len(ticks)
-        assert rig.late == 0
+    assert rig.rises(1) == []
 
 
-def test_a_late_edge_keeps_its_place_when_the_pins_are_connected(make_rig):
-    for wait in range(0, 60, 4):
-        rig = make_rig()
-        rig.start(0, [START + 500, START + 500, START + 4000])
-        rig.run(500 + wait)
+# DIR
 
-        rig.call("hal_step_connect", 0)
-        rig.run(300)
-        rig.call("hal_step_connect", 1)
-        rig.run(8000)
 
-        assert rig.pulses(0) == 3
-        assert rig.rises(0)[-1] == START + 4000
-        assert rig.late == 1
+def test_dir_falls_behind_the_hold_time_when_its_motor_is_disconnected(make_rig):
+    rig = make_rig()
+    rig.call("hal_step_set_direction", 1, 1)
+    _, pin, _ = rig.pin_writes[-1]
+    rig.start(0, [rig.timer.now + 500])
+    rig.start(1, [rig.timer.now + 700], backward=True)
+    rig.run(800)
+    rig.pin_writes.clear()
+
+    rig.call("hal_step_connect", 1, 0)
+
+    ((tick, fallen, level),) = rig.pin_writes
+    assert (fallen, level) == (pin, False)
+    assert tick >= rig.rises(1)[0] + HOLD_TICKS
+
+
+def test_dir_comes_back_the_set_up_time_before_a_connected_motor_can_move(make_rig):
+    rig = make_rig()
+    rig.call("hal_step_set_direction", 1, 1)
+    _, pin, _ = rig.pin_writes[-1]
+    rig.call("hal_step_connect", 1, 0)
+    rig.pin_writes.clear()
+
+    rig.call("hal_step_connect", 1, 1)
+
+    ((tick, risen, level),) = rig.pin_writes
+    assert (risen, level) == (pin, True)
+    assert rig.timer.now >= tick + SETUP_TICKS
+
+
+def test_dir_of_a_disconnected_motor_stays_at_0(make_rig):
+    rig = make_rig()
+    rig.call("hal_step_connect", 1, 0)
+
+    rig.call("hal_step_set_direction", 1, 1)
+
+    assert [level for _, _, level in rig.pin_writes] == [False, False]
+
+
+def test_what_is_connected_already_is_left_alone(make_rig):
+    rig = make_rig()
+    before = rig.timer.now
+
+    rig.call("hal_step_connect", 1, 1)
+
+    assert rig.pin_writes == []
+    assert rig.timer.now == before

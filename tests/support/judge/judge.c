@@ -138,7 +138,7 @@ static void judge_too_close(struct judge *judge, unsigned number, uint64_t tick)
 static void judge_pins(struct judge *judge, unsigned number, uint64_t tick, bool backward)
 {
     const struct judge_motor *motor = &judge->motor[number];
-    if (motor->hidden) {
+    if (motor->disconnected) {
         return;
     }
     if (motor->has_dir_edge && tick - motor->dir_tick < judge->limits.dir_setup_ticks) {
@@ -170,7 +170,7 @@ static void judge_any_pulse(struct judge *judge, uint64_t tick, unsigned number,
     }
     judge->tick = tick;
     judge_too_close(judge, number, tick);
-    if (motor->hidden || judge->without_moves) {
+    if (judge->without_moves) {
         motor->made++;
     } else if (!motor->moving || tick <= motor->start_tick) {
         judge_complain(judge, judge_key(JUDGE_RULE_OUTSIDE, number, 0),
@@ -227,7 +227,7 @@ void judge_direction(struct judge *judge, uint64_t tick, unsigned number, bool b
         return;
     }
     struct judge_motor *motor = &judge->motor[number];
-    if (!motor->hidden && motor->has_pulse && tick - motor->last_tick < judge->limits.dir_hold_ticks) {
+    if (motor->has_pulse && tick - motor->last_tick < judge->limits.dir_hold_ticks) {
         judge_complain(judge, judge_key(JUDGE_RULE_DIR, number, 0),
                        "motor %u: DIR moves behind a pulse at tick %" PRIu64, number, tick);
     }
@@ -236,18 +236,20 @@ void judge_direction(struct judge *judge, uint64_t tick, unsigned number, bool b
     motor->has_dir_edge = true;
 }
 
-void judge_hide(struct judge *judge)
+void judge_connect(struct judge *judge, uint64_t tick, unsigned number, bool connected)
 {
-    for (unsigned i = 1; i <= JUDGE_MOTORS; i++) {
-        judge->motor[i].hidden = judge->motor[i].hidden || judge->motor[i].moving;
-        judge->motor[i].dir = 0;
+    struct judge_motor *motor = &judge->motor[number];
+    if (motor->moving) {
+        judge_complain_move(judge, number, JUDGE_RULE_CONNECTION,
+                            connected ? "is connected at" : "is disconnected at", tick);
     }
+    motor->disconnected = !connected;
 }
 
 void judge_position(struct judge *judge, unsigned number, int64_t position)
 {
     struct judge_motor *motor = &judge->motor[number];
-    if (motor->moving && !motor->hidden && motor->has_position && position != motor->position) {
+    if (motor->moving && motor->has_position && position != motor->position) {
         judge_complain(judge, judge_key(JUDGE_RULE_POSITION, number, 0),
                        "motor %u: the position %" PRId64 " is not the pulses made, %" PRId64, number, position,
                        motor->position);

@@ -21,7 +21,8 @@
  *  7 DIR stands still around each pulse, STEP  DIR edges against pulses; on the host machine not how soon behind one,
  *    high and low long enough                  and not the width of STEP: the board's driver has both in
  *                                              hal/stm32/stm32_step_setup.c, tests/tools/test_stm32_step.py shows them.
- *                                              STEP low is what is left of the interval, bounded by 2
+ *                                              STEP low is what is left of the interval, bounded by 2. Both are
+ *                                              disconnected and connected while the motor stands: judge_connect
  *  8 no gap inside a move                      intervals against the slowest place of the plan (or the lowest speed),
  *                                              and no pulse overdue when the run is over
  *  9 no pulse too many after a stop            the plan ends where the stop lets it
@@ -91,7 +92,7 @@ struct judge_motor {
     bool has_position;
     bool moving;
     bool planned;              /* the order of the move is known */
-    bool hidden;               /* its pulses do not reach the pins, or did not for a time */
+    bool disconnected;         /* its pulses do not reach the pins (T41) */
     bool cut;                  /* a stop or an error fell into the move */
     bool nothing;              /* a guard had its level at the start: no pulse may come */
     bool unexplained;          /* a move without end has ended, and no cause has come yet */
@@ -114,7 +115,7 @@ struct judge_limits judge_default_limits(void);
 
 void judge_init(struct judge *judge, const struct judge_limits *limits);
 
-/* A pulse at the pin, as an edge with a direction, or as a line of a file with the position behind it. */
+/* A pulse, as an edge with a direction, or as a line of a file with the position behind it. */
 void judge_pulse(struct judge *judge, uint64_t tick, unsigned motor, bool backward);
 void judge_pulse_to(struct judge *judge, uint64_t tick, unsigned motor, int64_t position);
 
@@ -130,8 +131,8 @@ void judge_event(struct judge *judge, uint64_t tick, unsigned motor, enum hal_tr
 /* Right behind the event MOVE: what was ordered, and the position. From now on the move is judged pulse by pulse. */
 void judge_order(struct judge *judge, unsigned motor, const struct motion_order *order, int64_t position);
 
-/* The pins are disconnected (T41): the moves in progress are not judged any more. */
-void judge_hide(struct judge *judge);
+/* STEP and DIR of a motor are disconnected (T41) or connected again: never inside a move. Pulses are told as before. */
+void judge_connect(struct judge *judge, uint64_t tick, unsigned motor, bool connected);
 
 /* After a pass of main: what the unit holds for the position; its interpreters; and the end of all that. */
 void judge_position(struct judge *judge, unsigned motor, int64_t position);

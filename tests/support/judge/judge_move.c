@@ -53,7 +53,6 @@ static void begin_move(struct judge *judge, uint64_t tick, unsigned number, int6
     motor->way = steps > 0 ? 1 : steps < 0 ? -1 : 0;
     motor->moving = true;
     motor->planned = false;
-    motor->hidden = false;
     motor->cut = false;
     motor->nothing = false;
 }
@@ -123,17 +122,14 @@ static void end_move(struct judge *judge, uint64_t tick, unsigned number, int64_
                        "motor %u: done without a move at %" PRIu64, number, tick);
         return;
     }
-    if (!motor->hidden) {
-        judge_count(judge, number, told);
-        judge_target(judge, number, told);
-        if (motor->planned) {
-            judge_plan_end(judge, number, tick);
-        } else {
-            judge_free_end(judge, number);
-        }
+    judge_count(judge, number, told);
+    judge_target(judge, number, told);
+    if (motor->planned) {
+        judge_plan_end(judge, number, tick);
+    } else {
+        judge_free_end(judge, number);
     }
     motor->moving = false;
-    motor->hidden = false;
 }
 
 /* A stop, or an error: it explains why a move ends early, and a plan that is known says where. It takes effect at the
@@ -148,7 +144,7 @@ static void cut_move(struct judge *judge, uint64_t tick, unsigned number, int64_
     bool before_all = tick <= motor->start_tick && motor->made == 0 && !motor->cut;
     motor->nothing = motor->nothing || before_all;
     motor->cut = true;
-    if (!motor->planned || motor->hidden) {
+    if (!motor->planned) {
         return;
     }
     if (cause == HAL_TRACE_STOP_LIMIT) {
@@ -178,7 +174,7 @@ void judge_motor_event(struct judge *judge, uint64_t tick, unsigned number, enum
         motor->unexplained = false;
         break;
     case HAL_TRACE_SPEED:
-        if (motor->moving && motor->planned && !motor->hidden) {
+        if (motor->moving && motor->planned) {
             judge_curve_change_speed(&motor->curve, motor->made + 1U, (uint32_t)value);
             motor->leg = NULL;
         }
@@ -197,7 +193,7 @@ void judge_restart(struct judge *judge)
     for (unsigned i = 1; i <= JUDGE_MOTORS; i++) {
         struct judge_motor *motor = &judge->motor[i];
         motor->moving = false;
-        motor->hidden = false;
+        motor->disconnected = false;
         motor->unexplained = false;
         motor->position = 0;
         motor->has_position = false;
@@ -212,7 +208,7 @@ static void judge_overdue(struct judge *judge, uint64_t tick, unsigned number)
 {
     struct judge_motor *motor = &judge->motor[number];
     uint64_t next = motor->made + 1U;
-    if (!motor->moving || motor->hidden || !motor->planned || motor->nothing || next > motor->curve.last) {
+    if (!motor->moving || !motor->planned || motor->nothing || next > motor->curve.last) {
         return;
     }
     long double due = (long double)motor->start_tick + judge_curve_tick(&motor->curve, next);

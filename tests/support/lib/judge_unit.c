@@ -9,6 +9,8 @@ void judge_unit_begin(struct judged_unit *judged, uint64_t epoch)
     judged->machine->listener = (struct host_listener){
         .context = judged,
         .step = judge_unit_step,
+        .simulated = judge_unit_step,
+        .connection = judge_unit_connection,
         .direction = judge_unit_direction,
         .trace = judge_unit_trace,
     };
@@ -20,13 +22,15 @@ void judge_unit_step(void *judged, uint64_t tick, unsigned motor, bool backward)
     judge_pulse(self->judge, tick, motor + 1U, backward);
 }
 
-/* T41 takes DIR from its pins and gives it back: those are edges, too. */
+void judge_unit_connection(void *judged, uint64_t tick, unsigned motor, bool connected)
+{
+    struct judged_unit *self = judged;
+    judge_connect(self->judge, tick, motor + 1U, connected);
+}
+
 void judge_unit_direction(void *judged, uint64_t tick, unsigned motor, bool backward)
 {
     struct judged_unit *self = judged;
-    if (self->unit->io.simulating) {
-        judge_hide(self->judge);
-    }
     judge_direction(self->judge, tick, motor + 1U, backward);
 }
 
@@ -48,9 +52,6 @@ uint64_t judge_unit_pass(void *judged)
 {
     struct judged_unit *self = judged;
     uint64_t wake = unit_poll(self->unit);
-    if (self->unit->io.simulating) {
-        judge_hide(self->judge);
-    }
     for (unsigned i = 0; i < UNIT_MOTORS; i++) {
         judge_position(self->judge, i + 1U, mover_position_steps(&self->unit->mover[i]));
         judge_interpreter(self->judge, i + 1U, &self->unit->interpreter[i]);

@@ -25,6 +25,7 @@ void judge_unit_begin(struct judged_unit *judged, uint64_t epoch);
 /* The machine's listeners, for a bench that has its own in front of them. The machine counts motors from 0 at the pins
  * and from 1 in the trace. */
 void judge_unit_step(void *judged, uint64_t tick, unsigned motor, bool backward);
+void judge_unit_connection(void *judged, uint64_t tick, unsigned motor, bool connected);
 void judge_unit_direction(void *judged, uint64_t tick, unsigned motor, bool backward);
 void judge_unit_trace(void *judged, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value);
 

@@ -33,6 +33,7 @@ static void stepped(void *context, uint64_t tick, unsigned motor, bool backward)
     (void)motor;
     (void)backward;
     bench->last_edge_tick = tick;
+    bench->edges++;
 }
 
 static bool step_isr(void *context, unsigned motor)
@@ -78,6 +79,7 @@ void mover_bench_init(struct mover_bench *bench)
     bench->event_count = 0;
     bench->stops_sensed = 0;
     bench->last_edge_tick = 0;
+    bench->edges = 0;
 }
 
 void mover_bench_start(struct mover_bench *bench, const struct motion_order *order, struct mover_guards guards,

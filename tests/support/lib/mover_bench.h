@@ -23,6 +23,7 @@ struct mover_bench {
     unsigned event_count;
     unsigned stops_sensed;   /* how often mover_sense_isr said that it stopped the move */
     uint64_t last_edge_tick;
+    unsigned edges;          /* pulses at the pin */
     struct host_input input;
 };
 

@@ -7,6 +7,8 @@
 
 static struct host_machine machine;
 static unsigned edges;
+static unsigned simulated_edges;
+static unsigned connections;
 static uint64_t edge_tick;
 static unsigned turns;
 static uint64_t turn_tick;
@@ -21,6 +23,24 @@ static void step_seen(void *context, uint64_t tick, unsigned motor, bool backwar
     edges++;
     edge_tick = tick;
     edge_backward = backward;
+}
+
+static void simulated_seen(void *context, uint64_t tick, unsigned motor, bool backward)
+{
+    (void)context;
+    (void)tick;
+    (void)motor;
+    (void)backward;
+    simulated_edges++;
+}
+
+static void connection_seen(void *context, uint64_t tick, unsigned motor, bool connected)
+{
+    (void)context;
+    TEST_ASSERT_EQUAL_UINT64(40, tick);
+    TEST_ASSERT_EQUAL_UINT(2, motor);
+    TEST_ASSERT_FALSE(connected);
+    connections++;
 }
 
 static void direction_seen(void *context, uint64_t tick, unsigned motor, bool backward)
@@ -65,7 +85,8 @@ static void begin_at(uint64_t epoch)
 {
     static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&machine, epoch);
-    machine.listener = (struct host_listener){.step = step_seen, .direction = direction_seen};
+    machine.listener = (struct host_listener){
+        .step = step_seen, .simulated = simulated_seen, .direction = direction_seen};
     host_machine_select(&machine);
     hal_run_start(&client);
 }
@@ -73,6 +94,8 @@ static void begin_at(uint64_t epoch)
 void setUp(void)
 {
     edges = 0;
+    simulated_edges = 0;
+    connections = 0;
     turns = 0;
     begin_at(0);
 }
@@ -182,32 +205,48 @@ void test_an_edge_tells_the_direction_of_its_motor(void)
 
 void test_a_disconnected_motor_runs_on_but_shows_no_edge(void)
 {
-    hal_step_connect(false);
+    hal_step_connect(0, false);
     hal_step_arm(0, 10);
+    hal_step_arm(1, 10);
 
     run_until(100);
 
-    TEST_ASSERT_EQUAL_UINT(0, edges);
-    TEST_ASSERT_EQUAL_UINT64(1, machine.pulses);
+    TEST_ASSERT_EQUAL_UINT(1, edges);
+    TEST_ASSERT_EQUAL_UINT(1, simulated_edges);
+    TEST_ASSERT_EQUAL_UINT64(2, machine.pulses);
 }
 
 void test_disconnecting_puts_the_direction_pin_to_0(void)
 {
     hal_step_set_direction(1, true);
+    hal_step_set_direction(2, true);
 
-    hal_step_connect(false);
+    hal_step_connect(1, false);
 
-    TEST_ASSERT_EQUAL_UINT(2, turns);
+    TEST_ASSERT_EQUAL_UINT(3, turns);
+    TEST_ASSERT_EQUAL_UINT(1, turn_motor);
     TEST_ASSERT_FALSE(pin_backward);
+}
+
+void test_a_connection_is_told_when_it_changes(void)
+{
+    machine.listener.connection = connection_seen;
+    run_until(40);
+
+    hal_step_connect(2, true);
+    hal_step_connect(2, false);
+    hal_step_connect(2, false);
+
+    TEST_ASSERT_EQUAL_UINT(1, connections);
 }
 
 void test_a_direction_set_while_disconnected_shows_when_connected(void)
 {
-    hal_step_connect(false);
+    hal_step_connect(3, false);
     hal_step_set_direction(3, true);
     TEST_ASSERT_EQUAL_UINT(0, turns);
 
-    hal_step_connect(true);
+    hal_step_connect(3, true);
 
     TEST_ASSERT_EQUAL_UINT(1, turns);
     TEST_ASSERT_TRUE(pin_backward);
@@ -215,15 +254,16 @@ void test_a_direction_set_while_disconnected_shows_when_connected(void)
 
 void test_a_restart_connects_and_turns_the_pins_forward(void)
 {
-    hal_step_connect(false);
+    hal_step_connect(3, false);
     hal_step_set_direction(3, true);
-    hal_step_connect(true);
+    hal_step_connect(3, true);
     hal_step_set_direction(0, true);
-    hal_step_connect(false);
+    hal_step_connect(0, false);
 
     host_machine_restart(&machine);
 
-    TEST_ASSERT_TRUE(machine.connected);
+    TEST_ASSERT_TRUE(machine.connected[0]);
+    TEST_ASSERT_TRUE(machine.connected[3]);
     TEST_ASSERT_FALSE(machine.backward[0]);
     TEST_ASSERT_FALSE(machine.backward[3]);
     TEST_ASSERT_FALSE(pin_backward);

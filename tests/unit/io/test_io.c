@@ -1,6 +1,5 @@
 #include "io.h"
 #include "mock_hal_io.h"
-#include "mock_hal_step.h"
 #include "mock_hal_trace.h"
 #include "unity.h"
 
@@ -10,11 +9,9 @@ static struct io io;
 
 void setUp(void)
 {
-    hal_step_connect_Ignore();
     hal_io_write_outputs_Ignore();
     hal_trace_Ignore();
     io_init(&io);
-    hal_step_connect_StopIgnore();
     hal_io_write_outputs_StopIgnore();
 }
 
@@ -36,14 +33,12 @@ static void set_output(unsigned number, bool level, uint8_t pins)
 
 static void simulate(bool on, uint8_t pins)
 {
-    hal_step_connect_Expect(!on);
     hal_io_write_outputs_Expect(pins);
     io_simulate(&io, on);
 }
 
-void test_init_clears_and_connects_the_pins(void)
+void test_init_clears_the_pins(void)
 {
-    hal_step_connect_Expect(true);
     hal_io_write_outputs_Expect(0);
     io_init(&io);
 }
@@ -56,7 +51,6 @@ void test_init_makes_everything_0(void)
     io.memory_locked = true;
     io.simulating = true;
 
-    hal_step_connect_Expect(true);
     hal_io_write_outputs_Expect(0);
     io_init(&io);
 
@@ -184,10 +178,9 @@ void test_clearing_a_variable_is_traced_with_a_negative_number(void)
     io_set(&io, 80, false, 4, now_ticks);
 }
 
-void test_simulation_disconnects_the_motors_and_clears_the_output_pins(void)
+void test_simulation_clears_the_output_pins(void)
 {
     set_output(4, true, 0x08);
-    hal_step_connect_Expect(false);
     hal_io_write_outputs_Expect(0);
     io_simulate(&io, true);
     TEST_ASSERT_TRUE(io.simulating);
@@ -208,12 +201,11 @@ void test_outputs_set_while_simulating_are_traced(void)
     io_set(&io, 4, true, 1, now_ticks);
 }
 
-void test_the_end_of_simulation_connects_the_motors_and_shows_the_outputs(void)
+void test_the_end_of_simulation_shows_the_outputs(void)
 {
     set_output(1, true, 0x01);
     simulate(true, 0);
     io_set(&io, 4, true, 1, now_ticks);
-    hal_step_connect_Expect(true);
     hal_io_write_outputs_Expect(0x09);
     io_simulate(&io, false);
     TEST_ASSERT_FALSE(io.simulating);

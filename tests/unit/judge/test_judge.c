@@ -350,13 +350,31 @@ void test_13_and_14_the_digest_tells_runs_apart(void)
     TEST_ASSERT_NOT_EQUAL_HEX64(judge_digest(&other), judge_digest(&judge));
 }
 
-void test_moves_that_the_pins_do_not_show_are_not_judged(void)
+TEST_CASE(false)
+TEST_CASE(true)
+void test_pins_are_not_switched_inside_a_move(bool connected)
 {
     begin();
     feed(1, RAMP_PULSE);
-    judge_hide(&judge);
-    end();
+    judge_connect(&judge, ticks[RAMP_PULSE], 1, connected);
+    assert_found(connected ? "is connected at" : "is disconnected at");
+}
+
+void test_a_move_that_the_pins_do_not_show_is_judged_but_for_dir(void)
+{
+    judge_direction(&judge, 0, 1, true);
+    judge_connect(&judge, 0, 1, false);
+    feed_all();
     assert_none();
+}
+
+void test_dir_is_judged_again_when_the_pins_are_connected_again(void)
+{
+    judge_direction(&judge, 0, 1, true);
+    judge_connect(&judge, 0, 1, false);
+    judge_connect(&judge, 0, 1, true);
+    feed_all();
+    assert_found("DIR shows the other way");
 }
 
 void test_a_restart_forgets_what_was_begun(void)

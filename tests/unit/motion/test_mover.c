@@ -167,3 +167,61 @@ void test_a_move_has_corners_while_it_lasts(void)
 
     TEST_ASSERT_EQUAL_UINT(0, mover_corners(&bench.mover, corners));
 }
+
+static struct motion_order order_of(uint64_t steps)
+{
+    return (struct motion_order){
+        .section = {{steps, 1000, 2000}}, .start_speed_steps_per_s = 1000, .sections = 1};
+}
+
+static void move(uint64_t steps)
+{
+    struct motion_order order = order_of(steps);
+    mover_start(&bench.mover, &order, false, bench.machine.epoch + bench.machine.now, &no_guards);
+    mover_bench_run(&bench);
+}
+
+void test_a_mover_is_connected_at_first(void)
+{
+    mover_connect(&bench.mover, true);
+
+    move(7);
+
+    TEST_ASSERT_EQUAL_UINT(7, bench.edges);
+}
+
+void test_a_disconnected_mover_counts_but_shows_no_pulse(void)
+{
+    mover_connect(&bench.mover, false);
+
+    move(7);
+
+    TEST_ASSERT_EQUAL_UINT(0, bench.edges);
+    TEST_ASSERT_EQUAL_INT64(7, mover_position_steps(&bench.mover));
+}
+
+void test_the_position_goes_back_when_a_mover_is_connected_again(void)
+{
+    move(5);
+    mover_connect(&bench.mover, false);
+    move(7);
+    mover_set_position(&bench.mover, 1000);
+
+    mover_connect(&bench.mover, true);
+
+    TEST_ASSERT_EQUAL_INT64(5, mover_position_steps(&bench.mover));
+}
+
+void test_a_mover_that_is_disconnected_twice_goes_back_to_where_it_first_was(void)
+{
+    move(5);
+    mover_connect(&bench.mover, false);
+    move(7);
+    mover_connect(&bench.mover, false);
+
+    mover_connect(&bench.mover, true);
+    mover_connect(&bench.mover, true);
+    move(1);
+
+    TEST_ASSERT_EQUAL_INT64(6, mover_position_steps(&bench.mover));
+}
