@@ -56,16 +56,99 @@ def test_a_line_that_goes_on_is_no_statement() -> None:
     assert list(mutants(source)) == []
 
 
-def test_what_is_listed_as_equivalent_stands_in_its_file() -> None:
-    for file, old, new in mutation.equivalents():
-        found = mutants((ROOT / file).read_text())
-        assert any((one.old.strip(), one.new.strip()) == (old, new) for one in found), (file, old)
+def test_what_is_listed_as_equivalent_is_a_mutant_of_its_file() -> None:
+    modules = {
+        f"firmware/{one.folder}/{name}": one for one in mutation.MODULES for name in one.files
+    }
+    there = {
+        file: {
+            mutation.key_of(modules[file], Path(file).name, one).key()
+            for one in mutants((ROOT / file).read_text())
+        }
+        for file in {change.file for change in mutation.equivalents()}
+    }
+
+    listed = mutation.equivalents()
+
+    assert len({change.key() for change in listed}) == len(listed)
+    assert [str(change) for change in listed if change.key() not in there[change.file]] == []
+
+
+SOURCE = """\
+enum { MANY = 3 };
+
+int f(int a)
+{
+    int b = a + 1;
+    call(b);
+    return a + 1;
+}
+
+int g(int a)
+{
+    return a + 1;
+}
+"""
+
+
+def keys(source: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """How the mutants of a source are listed."""
+    monkeypatch.setattr(mutation, "ROOT", tmp_path)
+    path = tmp_path / "firmware/link/a.c"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(source)
+    module = mutation.Module("link", "link", ("a.c",), ())
+    return [str(mutation.key_of(module, "a.c", one)) for one in mutants(source)]
+
+
+def test_a_mutant_is_named_by_function_and_expression(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    named = keys(SOURCE, tmp_path, monkeypatch)
+
+    assert len(set(named)) == len(named)
+    assert named[0] == "firmware/link/a.c\n- MANY = 3\n+ MANY = 4"
+    assert "firmware/link/a.c f 1\n- a + 1\n+ a - 1" in named
+    assert "firmware/link/a.c f 2\n- a + 1\n+ a + 0" in named
+    assert "firmware/link/a.c f\n- call(b);\n+ ;" in named
+    assert "firmware/link/a.c g\n- a + 1\n+ a - 1" in named
+
+
+def test_the_name_of_a_mutant_outlives_what_does_not_concern_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    other = SOURCE.replace("int b = a + 1;", "uint32_t c = a + 1; /* why */").replace("MANY", "FEW")
+    other = other.replace("call(b)", "call(\n        c,\n        MANY)")
+
+    before, after = (keys(text, tmp_path, monkeypatch) for text in (SOURCE, other))
+
+    assert [key for key in before if key not in after] == [
+        key for key in before if "MANY" in key or "call" in key
+    ]
+
+
+def test_a_mutant_that_is_listed_is_not_tried(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    key = keys("int f(int a)\n{\n    return a < 2;\n}\n", tmp_path, monkeypatch)
+    (tmp_path / "list.txt").write_text(f"{key[0]}\n+ a  >=  2\nNo test sees it.\n")
+    monkeypatch.setattr(mutation, "EQUIVALENT", tmp_path / "list.txt")
+
+    listed = {change.key() for change in mutation.equivalents()}
+
+    module = mutation.Module("link", "link", ("a.c",), ())
+    tried = [
+        one.new
+        for name, one in mutation.mutants_of(module, 1)
+        if mutation.key_of(module, name, one).key() not in listed
+    ]
+    assert sorted(tried) == ["1", "3"]
 
 
 def test_an_entry_without_a_reason_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (tmp_path / "list.txt").write_text("a.c\n- x\n+ y\n")
+    (tmp_path / "list.txt").write_text("a.c f\n- x\n+ y\n")
     monkeypatch.setattr(mutation, "EQUIVALENT", tmp_path / "list.txt")
 
     with pytest.raises(AssertionError):

@@ -21,7 +21,7 @@ PARSER = Parser(Language(tree_sitter_c.language()))
 COMMENT = r"/\*.*?\*/|//[^\n]*"
 TEXT = r'"(?:\\.|[^"\\\n])*"|' + r"'(?:\\.|[^'\\\n])*'"
 TOKEN = re.compile(
-    rf"(?P<skipped>\s+|{COMMENT})|{TEXT}|\w[\w.]*|->|\+\+|--|\.\.\.|(?:<<|>>|[-+*/%&|^<>=!])="
+    rf"(?P<skipped>\s+|{COMMENT})|{TEXT}|[A-Za-z_]\w*|\.?\d[\w.]*|->|\+\+|--|\.\.\.|(?:<<|>>|[-+*/%&|^<>=!])="
     r"|<<|>>|&&|\|\||##|\S",
     re.DOTALL,
 )
@@ -147,6 +147,8 @@ class Source:
     def phrase(self, begin: int, end: int) -> tuple[int, int]:
         """The smallest expression around a part of it, or the declaration or statement."""
         node = self.root.descendant_for_byte_range(begin, end)
+        if node is not None and node.type in STATEMENTS:
+            return begin, end
         while node is not None and node.parent is not None:
             if node.type in PHRASES and (node.start_byte, node.end_byte) != (begin, end):
                 break
@@ -180,6 +182,7 @@ class Source:
         return found[number - 1]
 
 
+STATEMENTS = ("expression_statement", "declaration")
 PHRASES = (
     "binary_expression", "unary_expression", "update_expression", "assignment_expression",
     "conditional_expression", "call_expression", "subscript_expression", "init_declarator",

@@ -2,7 +2,8 @@
 
 A mutant is compiled by itself and linked in front of the module's library, so that one takes half
 a second. One whose object is that of the original is no change. Others that no test can see are in
-tests/mutation/equivalent.txt, with the reason; any other that survives is a failure.
+tests/mutation/equivalent.txt by function and expression, with the reason; any other that survives
+is a failure.
 """
 
 from __future__ import annotations
@@ -24,6 +25,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from queue import SimpleQueue
 
+from checks.c_changes import Change, Key, read_changes
+from checks.c_source import source as parsed
 from checks.mutation_operators import Mutant, mutants
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -243,25 +246,27 @@ class Score:
         )
 
 
-Key = tuple[str, str, str]
-
-
-def equivalents() -> set[Key]:
-    """The mutants that are listed: file, line, what it may be changed to; with a reason."""
-    listed = set()
-    for block in EQUIVALENT.read_text().split("\n\n"):
-        lines = [line for line in block.splitlines() if not line.startswith("#")]
-        if lines:
-            new = [line.removeprefix("+ ").strip() for line in lines if line.startswith("+ ")]
-            good = lines[1].startswith("- ") and new and lines[2 + len(new) :]
-            assert good, f"a file, a line, changed lines, a reason: {block}"
-            listed |= {(lines[0], lines[1].removeprefix("- ").strip(), one) for one in new}
+def equivalents() -> list[Change]:
+    """The mutants that are listed, each with a reason."""
+    listed = []
+    for changes, reason in read_changes(EQUIVALENT.read_text()):
+        assert reason, f"no reason: {changes[0]}"
+        listed += changes
     return listed
 
 
-def key_of(module: Module, name: str, mutant: Mutant) -> Key:
-    """How a mutant is listed; a line that stands in several places has one key for all of them."""
-    return f"firmware/{module.folder}/{name}", mutant.old.strip(), mutant.new.strip()
+def key_of(module: Module, name: str, mutant: Mutant) -> Change:
+    """How a mutant is listed: by the smallest expression around what it changes."""
+    path = f"firmware/{module.folder}/{name}"
+    text = (ROOT / path).read_text()
+    source = parsed(text)
+    function = source.function_at(mutant.begin)
+    begin, end = source.phrase(mutant.begin, mutant.end)
+    old = text[begin:end]
+    new = text[begin : mutant.begin] + mutant.new + text[mutant.end : end]
+    places = source.find_all(function, old)
+    number = places.index((begin, end)) + 1 if len(places) > 1 else 0
+    return Change(path, function, number, old, new)
 
 
 def mutants_of(module: Module, seed: int) -> list[tuple[str, Mutant]]:
@@ -279,7 +284,6 @@ def mutate(
 ) -> Score | None:
     """Try mutants of a module until an end, some at a time; survivors are shown as they appear."""
     score = Score()
-    places = Counter(key_of(module, *one) for one in work)
     benches: SimpleQueue[Bench] = SimpleQueue()
     for number in range(jobs):
         bench = Bench(module, number)
@@ -288,15 +292,13 @@ def mutate(
         benches.put(bench)
 
     def become(one: tuple[str, Mutant]) -> str:
-        key = key_of(module, *one)
-        if key in listed and places[key] == 1:
+        if key_of(module, *one).key() in listed:
             return "listed"
         if time.monotonic() > end:
             return "left"
         bench = benches.get()
         try:
-            result = bench.try_one(*one)
-            return "listed" if result == "survived" and key in listed else result
+            return bench.try_one(*one)
         finally:
             benches.put(bench)
 
@@ -305,8 +307,7 @@ def mutate(
             score.counts[result] += 1
             if result == "survived":
                 score.survivors.append((name, mutant))
-                path, old, new = key_of(module, name, mutant)
-                print(f"\n{path}\n- {old}\n+ {new}\n(line {mutant.line + 1})")
+                print(f"\n{key_of(module, name, mutant)}")
                 sys.stdout.flush()
     return score
 
@@ -335,7 +336,7 @@ def main() -> int:
         print("the preset host is not built")
         return 1
     print(f"seed {options.seed}")
-    listed = equivalents()
+    listed = {each.key() for each in equivalents()}
     good = True
     end = time.monotonic() + options.minutes * 60
     for place, module in enumerate(chosen):

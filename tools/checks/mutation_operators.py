@@ -39,18 +39,15 @@ DECLARATION = re.compile(r"^ +\w+ \*?\w+( = .*)?;$")
 
 @dataclass(frozen=True)
 class Mutant:
-    """A source with one line changed."""
+    """A source in which something else stands at one place."""
 
-    line: int  # from 0
-    old: str
+    begin: int
+    end: int
     new: str
 
     def apply(self, source: str) -> str:
         """The source with this change."""
-        lines = source.split("\n")
-        assert lines[self.line] == self.old
-        lines[self.line] = self.new
-        return "\n".join(lines)
+        return source[: self.begin] + self.new + source[self.end :]
 
 
 def blank_out(source: str) -> str:
@@ -82,10 +79,11 @@ def is_statement(lines: list[str], place: int) -> bool:
 
 def mutants(source: str) -> Iterator[Mutant]:
     """All mutants of a source, in its order."""
-    lines = source.split("\n")
     code = blank_out(source).split("\n")
+    start = 0
     for place, line in enumerate(code):
         for begin, end, text in replacements(line):
-            yield Mutant(place, lines[place], lines[place][:begin] + text + lines[place][end:])
+            yield Mutant(start + begin, start + end, text)
         if is_statement(code, place):
-            yield Mutant(place, lines[place], ";")
+            yield Mutant(start + len(line) - len(line.lstrip()), start + len(line), ";")
+        start += len(line) + 1
