@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
-from playwright.sync_api import expect
+from playwright.sync_api import FilePayload, Locator, expect
 from service_page import ServicePage
 
 GOOD = "\\ C100\nS100 V1000 A2000\nF400 R"
@@ -76,22 +75,134 @@ def test_drafts_survive_a_reload(page):
     assert page.text() == "F22 R"
 
 
-def test_a_program_is_saved_by_key_as_it_stands(page):
-    page.page.evaluate("delete window.showSaveFilePicker")
-    page.write(GOOD)
+def save(page: ServicePage) -> tuple[str, bytes]:
+    """Save the shown program by key; return name and content of the file."""
+    page.page.evaluate("() => { delete window.showSaveFilePicker; }")
     with page.page.expect_download() as download:
         page.page.keyboard.press("ControlOrMeta+s")
-    assert download.value.suggested_filename == "motor1.rks"
-    assert Path(download.value.path()).read_text(encoding="utf-8") == GOOD
+    return download.value.suggested_filename, Path(download.value.path()).read_bytes()
 
 
-@pytest.mark.parametrize("encoding", ["utf-8", "windows-1250"])
-def test_a_file_is_opened_whatever_its_encoding(page, tmp_path, encoding):
-    file = tmp_path / "stůl.rks"
-    file.write_bytes("{ žlutý kůň } F7 R".encode(encoding))
+def open_file(page: ServicePage, name: str, content: bytes) -> None:
+    file: FilePayload = {"name": name, "mimeType": "text/plain", "buffer": content}
     page.page.locator("#file").set_input_files(file)
-    expect(page.page.locator("#file-name")).to_have_text("stůl.rks")
-    assert page.text() == "{ žlutý kůň } F7 R"
+
+
+def name_of(page: ServicePage) -> Locator:
+    return page.page.locator("#file-name")
+
+
+def test_a_program_is_saved_by_key_as_it_stands(page):
+    page.write(GOOD)
+    assert save(page) == ("motor1.rks", GOOD.encode())
+
+
+def test_a_file_is_saved_as_it_was_opened_byte_for_byte(page):
+    lines = "{ žlutý kůň }\nF7 R\nW5"
+    unix, dos, mac = lines, lines.replace("\n", "\r\n"), lines.replace("\n", "\r")
+    mixed = "F1 R\r\nF2 R\nF3 R\rF4 R\r\n"
+    files = [
+        *(text.encode(code) for text in (unix, dos) for code in ("utf-8", "utf-8-sig", "cp1250")),
+        mac.encode("cp1250"),
+        mixed.encode(),
+        (dos + "\r\n\x1a").encode("cp1250"),
+        (dos + "\x1a\x1a\0\0").encode(),
+        bytes(range(32, 256)).replace(b"{", b"").replace(b"}", b"") + b"\r\n",
+        b"\xef\xbb\xbf",
+        b"",
+    ]
+    for number, content in enumerate(files):
+        open_file(page, f"{number}.rks", content)
+        expect(name_of(page)).to_have_text(f"{number}.rks")
+        assert save(page) == (f"{number}.rks", content)
+        if number < 6:
+            assert page.text() == lines
+
+
+def test_what_was_not_edited_of_a_file_keeps_its_bytes(page):
+    open_file(page, "a.rks", "{ kůň }\r\nF7 R\r\n\x1a".encode("cp1250"))
+    expect(page.page.locator("#file-form")).to_have_text("ANSI (1250) · CRLF · 1A")
+    type_in_line(page, "F7 R", " W9\nW8")
+    assert save(page)[1] == "{ kůň }\r\nF7 R W9\r\nW8\r\n\x1a".encode("cp1250")
+
+    page.page.reload()
+    page.ready()
+    assert save(page)[1] == "{ kůň }\r\nF7 R W9\r\nW8\r\n\x1a".encode("cp1250")
+
+    open_file(page, "b.rks", b"F1 R\nF2 R\r\nF3 R\r\nF4 R\nF5 R\n")
+    expect(name_of(page)).to_have_text("b.rks")
+    type_in_line(page, "F3 R", "\nW3")
+    assert save(page)[1] == b"F1 R\nF2 R\r\nF3 R\r\nW3\nF4 R\nF5 R\n"
+
+
+def type_in_line(page: ServicePage, line: str, text: str) -> None:
+    page.page.locator(".cm-line", has_text=line).click()
+    page.page.keyboard.press("End")
+    page.page.keyboard.insert_text(text)
+
+
+def test_characters_that_the_encoding_lacks_make_the_file_utf_8_and_the_page_says_so(page):
+    open_file(page, "a.rks", "{ kůň }\r\nF7 R".encode("cp1250"))
+    type_in_line(page, "F7 R", " { Ω }")
+    assert save(page)[1] == "{ kůň }\r\nF7 R { Ω }".encode()
+    expect(page.page.locator("#file-trouble")).to_contain_text("saved as UTF-8")
+    expect(page.page.locator("#file-form")).to_have_text("CRLF")
+
+
+def test_undo_brings_back_the_program_and_its_file(page):
+    open_file(page, "a.rks", b"F1 R\r\n")
+    type_in_line(page, "F1 R", " W1")
+    open_file(page, "b.rks", b"\xef\xbb\xbfF2 R")
+    expect(name_of(page)).to_have_text("b.rks")
+    page.page.locator(".cm-content").click()
+
+    page.page.keyboard.press("ControlOrMeta+z")
+    expect(name_of(page)).to_have_text("a.rks")
+    assert save(page) == ("a.rks", b"F1 R W1\r\n")
+    page.page.keyboard.press("ControlOrMeta+y")
+    assert save(page) == ("b.rks", b"\xef\xbb\xbfF2 R")
+
+
+def test_what_is_no_program_is_refused_by_name_and_the_program_stays(page):
+    page.write(GOOD)
+    trouble = page.page.locator("#file-trouble")
+    for content, words in (
+        (b"F1 R\n" * 40_001, "a.rks: larger than 200,000 bytes"),
+        ("F1 R".encode("utf-16"), "this is UTF-16; save it as UTF-8 or ANSI"),
+        (b"\x7fELF\0\0\0", "this is not a text file"),
+    ):
+        open_file(page, "a.rks", content)
+        expect(trouble).to_contain_text(words)
+        assert page.text() == GOOD
+    open_file(page, "good.rks", b"F1 R")
+    expect(trouble).to_be_hidden()
+
+
+def test_a_text_that_is_too_long_is_told_in_words_and_the_page_stays_quick(page):
+    paste(page, "{ a }\n" * 40_000)
+    expect(page.page.locator("#verdict")).to_have_text(
+        "not checked: the text is too long; 200000 characters are the most"
+    )
+    expect(page.page.locator("#plan-status")).to_contain_text("Not computed: the text is too long")
+    paste(page, "Q\n" * 99_000)
+    expect(page.page.locator("#verdict")).to_have_text("errors: 99,000")
+    paste(page, GOOD)
+    expect(page.page.locator("#verdict")).to_have_text("no errors")
+
+
+def paste(page: ServicePage, text: str) -> None:
+    """Put a text in the place of the shown program as the clipboard does."""
+    page.page.locator(".cm-content").click()
+    page.page.keyboard.press("ControlOrMeta+a")
+    page.page.evaluate(
+        """(text) => {
+            const clipboardData = new DataTransfer();
+            clipboardData.setData("text/plain", text);
+            const event = { clipboardData, bubbles: true, cancelable: true };
+            document.querySelector(".cm-content").dispatchEvent(new ClipboardEvent("paste", event));
+        }""",
+        text,
+    )
 
 
 def test_an_example_brings_its_inputs(page):

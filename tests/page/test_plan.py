@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 
-from playwright.sync_api import expect
+import pytest
+from playwright.sync_api import Locator, expect
 from service_page import ServicePage
 
 PIXELS = """([canvas_of, colour]) => {
@@ -15,12 +16,42 @@ PIXELS = """([canvas_of, colour]) => {
     probe.remove();
     const canvas = document.querySelector(canvas_of);
     const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-    let count = 0;
+    let [count, top, bottom] = [0, canvas.height, 0];
     for (let i = 0; i < data.length; i += 4) {
-        count += wanted.every((value, k) => Math.abs(value - data[i + k]) < 8) && data[i + 3] > 200;
+        if (wanted.every((value, k) => Math.abs(value - data[i + k]) < 8) && data[i + 3] > 200) {
+            const row = Math.floor(i / 4 / canvas.width);
+            [count, top, bottom] = [count + 1, Math.min(top, row), Math.max(bottom, row)];
+        }
     }
-    return count;
+    return [count, (bottom - top) / canvas.height];
 }"""
+
+
+LEVELS = """(canvas_of) => {
+    const canvas = document.querySelector(canvas_of);
+    const probe = document.createElement("span");
+    probe.style.color = "var(--motor-1)";
+    document.body.append(probe);
+    const wanted = getComputedStyle(probe).color.match(/\\d+/g).map(Number);
+    probe.remove();
+    const context = canvas.getContext("2d");
+    const { data, width, height } = context.getImageData(0, 0, canvas.width, canvas.height);
+    const is = (x, y) =>
+        wanted.every((value, k) => Math.abs(value - data[4 * (y * width + x) + k]) < 8);
+    let levels = 0;
+    let before = false;
+    for (let y = 0; y < height; y += 1) {
+        let longest = 0;
+        for (let x = 0, run = 0; x < width; x += 1) {
+            run = is(x, y) ? run + 1 : 0;
+            longest = Math.max(longest, run);
+        }
+        levels += longest > 20 && !before;
+        before = longest > 20;
+    }
+    return levels;
+}"""
+"""How many horizontal stretches the line of motor 1 has."""
 
 
 def pixels(page: ServicePage, plot: str, motor: int) -> int:
@@ -29,8 +60,28 @@ def pixels(page: ServicePage, plot: str, motor: int) -> int:
 
 
 def coloured(page: ServicePage, canvas: str, colour: str) -> int:
-    count: int = page.page.evaluate(PIXELS, [canvas, colour])
+    count: int = page.page.evaluate(PIXELS, [canvas, colour])[0]
     return count
+
+
+def height(page: ServicePage, plot: str, motor: int) -> float:
+    """The part of a plot's height over which the line of a motor goes, from 0 to 1."""
+    part: float = page.page.evaluate(PIXELS, [f"#{plot} canvas", f"--motor-{motor}"])[1]
+    return part
+
+
+def surface(page: ServicePage, plot: str) -> Locator:
+    return page.page.locator(f"#{plot} .u-over")
+
+
+def drag(page: ServicePage, start: float, end: float) -> None:
+    """Choose a part of the time in the plot of the position, from 0 to 1 of what is seen."""
+    box = surface(page, "plan-position").bounding_box()
+    assert box
+    page.page.mouse.move(box["x"] + box["width"] * start, box["y"] + 20)
+    page.page.mouse.down()
+    page.page.mouse.move(box["x"] + box["width"] * end, box["y"] + 30, steps=5)
+    page.page.mouse.up()
 
 
 def seen(page: ServicePage) -> tuple[float, float]:
@@ -99,12 +150,7 @@ def test_dragging_zooms_both_plots_to_what_was_chosen(page):
     page.write("S100 V1000 A2000 F4000 R")
     page.expect_pulses(4000)
     _, last = seen(page)
-    box = page.page.locator("#plan-position .u-over").bounding_box()
-    assert box
-    page.page.mouse.move(box["x"] + box["width"] * 0.25, box["y"] + 20)
-    page.page.mouse.down()
-    page.page.mouse.move(box["x"] + box["width"] * 0.75, box["y"] + 30, steps=5)
-    page.page.mouse.up()
+    drag(page, 0.25, 0.75)
     start, end = seen(page)
     assert abs(start - last / 4) < last / 50
     assert abs(end - last * 3 / 4) < last / 50
@@ -136,3 +182,78 @@ def test_outputs_that_the_program_sets_are_drawn_below(page):
     assert coloured(page, "#plan-outputs", "--output") > 100
     page.write("F400 R")
     expect(rows).to_be_hidden()
+
+
+def test_a_motion_far_from_zero_fills_its_plot(page):
+    for place in (900_000, -900_000, 1_999_000_000):
+        page.write(f"={place} S100 V1000 A2000 F400 R W300 D R")
+        page.expect_pulses(800)
+        assert height(page, "plan-position", 1) > 0.5
+        assert height(page, "plan-speed", 1) > 0.5
+
+
+def test_the_axis_follows_what_is_zoomed_to(page):
+    page.write("S100 V16000 A60000 G900000 W1000 S100 V100 F50 R")
+    page.expect_pulses(900_050)
+    _, last = seen(page)
+    drag(page, 1 - 1 / last, 1)
+    page.page.locator("#zoom-in").click()
+    expect(page.plan).to_have_attribute("data-steps", re.compile("^[1-9]"))
+    assert height(page, "plan-position", 1) > 0.4
+
+
+def test_the_zoom_goes_down_to_single_pulses_drawn_as_stairs(page):
+    page.write("S2000 V16000 A60000 F16000 R")
+    page.expect_pulses(16_000)
+    assert page.plan.get_attribute("data-steps") == "0"
+    box = surface(page, "plan-position").bounding_box()
+    assert box
+    page.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 20)
+    for _ in range(60):
+        page.page.mouse.wheel(0, -100)
+    expect(page.plan).to_have_attribute("data-steps", re.compile("^[78]$"))
+    start, end = seen(page)
+    assert 0.0004 < end - start < 0.0006
+
+    stairs = page.page.evaluate(LEVELS, "#plan-position canvas")
+    assert stairs == pytest.approx(8, abs=1)
+
+
+def test_the_cursor_reads_the_pulse_that_it_is_at(page):
+    page.write("S100 V100 F5 R")
+    page.expect_pulses(5)
+    box = surface(page, "plan-position").bounding_box()
+    assert box
+    words = page.page.locator("#plan-motors label").first
+    for part, steps in ((0.1, 0), (0.3, 1), (0.5, 2), (0.9, 4)):
+        page.page.mouse.move(box["x"] + box["width"] * part, box["y"] + 20)
+        expect(words).to_contain_text(f"{steps} steps")
+
+
+def test_another_program_is_seen_whole_and_an_edited_one_where_it_was(page):
+    page.write("S100 V1000 A2000 F4000 R")
+    page.expect_pulses(4000)
+    drag(page, 0.25, 0.5)
+    part = seen(page)
+    page.page.locator(".cm-content").click()
+    page.page.keyboard.press("ControlOrMeta+End")
+    page.page.keyboard.type(" R")
+    page.expect_pulses(8000)
+    assert seen(page) == part
+
+    page.page.locator("#examples").select_option(label="4-loop.rks")
+    expect(page.plan).not_to_have_attribute("data-pulses", "8000")
+    assert seen(page)[0] == 0
+    assert seen(page)[1] > part[1]
+
+
+def test_what_the_service_refuses_is_not_called_an_error_of_the_program(page):
+    page.write("F400 R")
+    page.expect_pulses(400)
+    page.page.route("**/api/*", lambda route: route.abort())
+    page.page.keyboard.type(" R")
+    expect(page.page.locator("#plan-status")).to_contain_text("Not computed")
+    verdict = page.page.locator("#verdict")
+    expect(verdict).to_contain_text("not checked: the service does not answer")
+    expect(verdict).to_have_attribute("data-kind", "unknown")
+    page.page.unroute("**/api/*")

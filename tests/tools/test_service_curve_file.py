@@ -58,6 +58,43 @@ def test_a_short_move_keeps_every_pulse(curve, tmp_path):
     assert [position for *_, position in line[-3:]] == [400, 400, 400]
 
 
+def test_single_pulses_are_told_with_their_times_where_they_are_few(curve, tmp_path):
+    _, told = curve("\\ S100 V100 F3 R W20 =900 B2 R", steps="steps.csv")
+    rows = [row.split(",") for row in (tmp_path / "steps.csv").read_text().splitlines()[2:]]
+    pulses = [(int(tick) / TICK_HZ, int(position)) for tick, _, position in rows]
+
+    line = told["motors"][0]
+    assert line["before"] == 0
+    times = [seconds for seconds, position in line["steps"] if position != 900]
+    assert [position for _, position in line["steps"]] == [1, 2, 3, 900, 899, 898]
+    assert [position for _, position in pulses] == [1, 2, 3, 899, 898]
+    assert times == pytest.approx([seconds for seconds, _ in pulses], abs=1e-6)
+
+
+def test_a_part_tells_its_own_pulses_and_the_position_at_its_beginning(curve):
+    _, told = curve("\\ S100 V100 F300 R", from_=1.005, to=1.035, points=24)
+    line = told["motors"][0]
+
+    assert (line["before"], line["steps"]) == (
+        100,
+        [[pytest.approx(1.01, abs=1e-5), 101], [pytest.approx(1.02, abs=1e-5), 102],
+         [pytest.approx(1.03, abs=1e-5), 103]],
+    )  # fmt: skip
+
+
+def test_more_pulses_than_points_are_not_told_one_by_one(curve):
+    assert len(curve("F48 R", points=48)[1]["motors"][0]["steps"]) == 48
+    assert curve("F49 R", points=48)[1]["motors"][0]["steps"] is None
+
+
+def test_a_position_that_is_written_before_the_first_move_is_where_the_curve_begins(curve):
+    _, told = curve("\\ =900000 S100 V100 F2 R")
+    line = told["motors"][0]
+
+    assert line["before"] == 900_000
+    assert next(position for t, _, position in points(line) if t > 0) == 900_000
+
+
 def test_a_move_begins_and_ends_at_speed_0(curve):
     _, told = curve("\\ S100 V1000 A2000 W300 F400 R W200")
     line = points(told["motors"][0])

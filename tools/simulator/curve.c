@@ -38,13 +38,28 @@ static void put_point(const struct curve *curve, struct curve_motor *motor, uint
     thin_put(&motor->thin, &point);
 }
 
+/* Keeps a single change of the position, if it belongs to the part. */
+static void put_change(const struct curve *curve, struct curve_motor *motor, const struct timeline_event *event)
+{
+    uint32_t room = curve->range.points;
+    if (event->tick <= curve->range.from_tick) {
+        motor->steps_before = event->value;
+    } else if (event->tick <= curve->range.to_tick && motor->steps_count <= room) {
+        if (motor->steps_count < room) {
+            motor->steps[motor->steps_count] = (struct curve_step){.tick = event->tick, .position = event->value};
+        }
+        motor->steps_count++;
+    }
+}
+
 bool curve_begin(struct curve *curve, struct outfile *file, const struct curve_range *range)
 {
     *curve = (struct curve){.file = file, .range = *range, .cut_tick = TICK_NEVER};
     curve->outputs = malloc(range->points * sizeof *curve->outputs);
     bool good = curve->outputs != NULL;
     for (unsigned i = 0; i < UNIT_MOTORS && good; i++) {
-        good = thin_begin(&curve->motors[i].thin, range->points);
+        curve->motors[i].steps = malloc(range->points * sizeof *curve->motors[i].steps);
+        good = thin_begin(&curve->motors[i].thin, range->points) && curve->motors[i].steps != NULL;
         if (good) {
             put_point(curve, &curve->motors[i], 0, 0);
         }
@@ -115,10 +130,12 @@ void curve_put(struct curve *curve, const struct timeline_event *event)
         put_outputs(curve, event);
     } else if (motor != NULL && event->kind == TIMELINE_STEP) {
         put_step(curve, motor, event);
+        put_change(curve, motor, event);
     } else if (motor != NULL && event->kind == TIMELINE_TRACE) {
         put_trace(curve, motor, event);
     } else if (motor != NULL && event->kind == TIMELINE_POSITION) {
         put_position(curve, motor, event);
+        put_change(curve, motor, event);
     }
 }
 
@@ -171,6 +188,27 @@ static void put_list(struct curve *curve, const struct thin *thin, const char *n
     put_text(curve, "]");
 }
 
+/* ,"before":position,"steps":[[time,position],...] */
+static void put_steps(struct curve *curve, const struct curve_motor *motor)
+{
+    put_text(curve, ",\"before\":");
+    outfile_commit(curve->file, line_put_signed(outfile_reserve(curve->file, ITEM_BYTES_MAX), motor->steps_before));
+    if (motor->steps_count > curve->range.points) {
+        put_text(curve, ",\"steps\":null");
+        return;
+    }
+    put_text(curve, ",\"steps\":[");
+    for (uint32_t i = 0; i < motor->steps_count; i++) {
+        char *at = line_put_string(outfile_reserve(curve->file, ITEM_BYTES_MAX), i == 0 ? "[" : ",[");
+        at = put_time(at, motor->steps[i].tick);
+        *at++ = ',';
+        at = line_put_signed(at, motor->steps[i].position);
+        *at++ = ']';
+        outfile_commit(curve->file, at);
+    }
+    put_text(curve, "]");
+}
+
 static void put_motor(struct curve *curve, unsigned motor)
 {
     const struct thin *thin = &curve->motors[motor].thin;
@@ -180,6 +218,7 @@ static void put_motor(struct curve *curve, unsigned motor)
     put_list(curve, thin, ",\"t\":[", put_point_time);
     put_list(curve, thin, ",\"speed\":[", put_point_speed);
     put_list(curve, thin, ",\"position\":[", put_point_position);
+    put_steps(curve, &curve->motors[motor]);
     put_text(curve, "}");
 }
 
@@ -217,6 +256,8 @@ void curve_discard(struct curve *curve)
 {
     for (unsigned i = 0; i < UNIT_MOTORS; i++) {
         thin_discard(&curve->motors[i].thin);
+        free(curve->motors[i].steps);
+        curve->motors[i].steps = NULL;
     }
     free(curve->outputs);
     curve->outputs = NULL;

@@ -2,10 +2,14 @@
  * The curve file: speed and position of every motor over time, thinned (thin.h) so that it can be drawn at once however
  * long the simulation was. One JSON object:
  *
- * {"motors":[{"motor":1,"t":[0.000000,...],"speed":[0.000,...],"position":[0,...]},...],
+ * {"motors":[{"motor":1,"t":[0.000000,...],"speed":[0.000,...],"position":[0,...],
+ *             "before":0,"steps":[[0.010000,1],...]},...],
  *  "outputs":[[0.500000,2,1],...],"outputs_cut":null}
  * Times in seconds, speeds in steps/s with the sign of the direction: the mean of each interval between two pulses in
- * its middle, and 0 outside moves. Outputs: time, number, level of each change; after as many as a line has points
+ * its middle, and 0 outside moves. Steps: time and new position of every single pulse, and of every position that was
+ * written, in the part of the time, which begins at the position `before`; null if there are more than a line has
+ * points.
+ * Outputs: time, number, level of each change; after as many as a line has points
  * the rest is left out, and outputs_cut is the time from which.
  */
 #ifndef CURVE_H
@@ -31,8 +35,17 @@ struct curve_range {
     uint64_t to_tick;
 };
 
+/* A change of the position: a pulse, or a position that was written. */
+struct curve_step {
+    uint64_t tick;
+    int64_t position;
+};
+
 struct curve_motor {
     struct thin thin;
+    struct curve_step *steps; /* of the part */
+    uint32_t steps_count;     /* one more than there is room for: too many, and none is told */
+    int64_t steps_before;     /* the position at the beginning of the part */
     struct thin_point before; /* the last point before the part */
     bool has_before;
     bool is_over;             /* a point behind the part has been taken */

@@ -52,10 +52,22 @@ static void hear_output(void *context, uint64_t tick, uint8_t levels)
     record(context, &(struct timeline_event){.tick = tick, .kind = TIMELINE_OUTPUT, .value = levels});
 }
 
+/* A position that a command has written; those that pulses make are recorded with the pulses. */
+static void record_position(struct run *run, unsigned motor, uint64_t tick)
+{
+    int64_t position = mover_position_steps(&run->unit.mover[motor - 1U]);
+    if (position != run->positions[motor - 1U]) {
+        run->positions[motor - 1U] = position;
+        record(run, &(struct timeline_event){
+                        .tick = tick, .kind = TIMELINE_POSITION, .motor = (uint8_t)motor, .value = position});
+    }
+}
+
 static void hear_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
 {
     struct run *run = context;
     if (event == HAL_TRACE_MOVE) {
+        record_position(run, motor, tick);
         tally_begin_move(&run->tally[motor - 1U], tick, mover_position_steps(&run->unit.mover[motor - 1U]));
     } else if (event == HAL_TRACE_DONE) {
         tally_end_move(&run->tally[motor - 1U], tick);
@@ -67,21 +79,11 @@ static void hear_trace(void *context, uint64_t tick, unsigned motor, enum hal_tr
                                          .value = value});
 }
 
-/* Positions that a command has written; those that pulses make are recorded with the pulses. */
 static void record_positions(struct run *run)
 {
-    for (unsigned i = 0; i < UNIT_MOTORS; i++) {
-        const struct mover *mover = &run->unit.mover[i];
-        int64_t position = run->positions[i];
-        if (!mover_is_moving(mover)) {
-            position = mover_position_steps(mover);
-        }
-        if (position != run->positions[i]) {
-            run->positions[i] = position;
-            record(run, &(struct timeline_event){.tick = run->machine.now,
-                                                 .kind = TIMELINE_POSITION,
-                                                 .motor = (uint8_t)(i + 1U),
-                                                 .value = position});
+    for (unsigned motor = 1; motor <= UNIT_MOTORS; motor++) {
+        if (!mover_is_moving(&run->unit.mover[motor - 1U])) {
+            record_position(run, motor, run->machine.now);
         }
     }
 }

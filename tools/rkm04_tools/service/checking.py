@@ -15,14 +15,23 @@ from rkm04_tools.service.trouble import as_json
 from rkm04_tools.source import Source, read_source
 
 NAME = "the program"
+PROBLEMS_MAX = 100
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 
 def check(text: str) -> dict[str, Any]:
-    """All errors, or else all warnings, and how many commands are stored of it."""
-    checked = check_source(Source(NAME, text))
-    found = [_problem(checked.source, each) for each in checked.diagnostics]
-    return {"problems": found, "commands": len(stored(checked.parsed.commands))}
+    """The errors, or else the warnings, and how many commands are stored of it.
+
+    `more`: so many of them are not told.
+    """
+    checked = check_source(Source(NAME, text), PROBLEMS_MAX)
+    told = checked.diagnostics[:PROBLEMS_MAX]
+    found = len(checked.parsed.errors) or len(checked.diagnostics)
+    return {
+        "problems": [_problem(checked.source, each) for each in told],
+        "more": found - len(told),
+        "commands": len(stored(checked.parsed.commands)),
+    }
 
 
 def first_error(checked: Checked) -> dict[str, Any] | None:

@@ -93,7 +93,7 @@ class Curves:
 
 
 def _checked(wanted: Wanted) -> dict[int, Checked]:
-    return {m: check_source(Source(f"motor {m}", text)) for m, text in wanted.programs.items()}
+    return {m: check_source(Source(f"motor {m}", text), 1) for m, text in wanted.programs.items()}
 
 
 async def _simulate(wanted: Wanted, checked: dict[int, Checked], folder: Path) -> dict[str, Any]:
@@ -164,6 +164,8 @@ def _motor(line: dict[str, Any], run: Run) -> dict[str, Any]:
         "t": line["t"],
         "speed": line["speed"],
         "position": line["position"],
+        "before": line["before"],
+        "steps": line["steps"],
         "moves": run.told["moves"],
         "pulses": run.told["pulses"],
         "peak": run.told["peak_speed"],

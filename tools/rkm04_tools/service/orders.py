@@ -32,7 +32,8 @@ MESSAGES = {
 }
 ACTS = ("resume", "reset", "speed")
 SCHEMES = ("socket", "rfc2217")
-TEXT_MAX = 1_000_000
+TEXT_MAX = 200_000
+"""Characters: more than 700 commands with comments; a stop must not wait for a longer check."""
 PORT_MAX = 1000
 ID_MAX = 1 << 53
 """More than a browser can count exactly."""

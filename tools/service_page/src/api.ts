@@ -1,6 +1,10 @@
-import type { Curve, CurveRequest, Example, Verdict } from "./protocol";
+import type { Curve, CurveRequest, Example, Trouble, Verdict } from "./protocol";
+import { troubleText } from "./trouble";
 
 const SUPERSEDED = 409;
+
+/** The service has answered that it does not do this; the message is why. */
+export class Refused extends Error {}
 
 async function post<T>(path: string, body: unknown): Promise<T | null> {
     const response = await fetch(path, {
@@ -11,9 +15,9 @@ async function post<T>(path: string, body: unknown): Promise<T | null> {
     if (response.status === SUPERSEDED) {
         return null;
     }
-    const answer = (await response.json()) as T & { error?: { cause?: string } | null };
+    const answer = (await response.json()) as T & { error?: Trouble | null };
     if (!response.ok) {
-        throw new Error(answer.error?.cause ?? `${path}: ${response.status}`);
+        throw new Refused(answer.error ? troubleText(answer.error) : `${path}: ${response.status}`);
     }
     return answer;
 }

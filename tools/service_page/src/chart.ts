@@ -1,11 +1,14 @@
 import uPlot from "uplot";
+import { extent, type Quantity } from "./curve";
 import { styleValue } from "./dom";
-import { shortNumber } from "./i18n";
+import { axisNumber } from "./i18n";
 import { MOTORS } from "./protocol";
 
-const AXIS_WIDTH = 62;
+const AXIS_WIDTH = 74;
 const MARGIN_Y = 0.08;
-const SPAN_MIN = 10;
+const SPAN_MIN = { speed: 10, position: 4 };
+/** Distances between the numbers of an axis of whole steps or steps/s: 1, 2, 5, 10 and so on. */
+const WHOLE = Array.from({ length: 36 }, (_, i) => (10 ** Math.floor(i / 3)) * ([1, 2, 5][i % 3] ?? 1));
 const FONT = "12px system-ui, sans-serif";
 const DRAG_MIN_PX = 6;
 
@@ -13,6 +16,8 @@ export type Range = [from: number, to: number];
 
 export interface ChartOptions {
     host: HTMLElement;
+    /** Of speeds 0 is always in sight; positions are seen wherever they are. */
+    quantity: Quantity;
     /** Charts with the same group have one cursor. */
     group: string;
     /** The part of the x axis that is to be seen. */
@@ -28,15 +33,19 @@ export type ChartData = [x: number[], ...motors: (number | null)[][]];
 
 const NO_DATA: ChartData = [[], ...MOTORS.map(() => [])];
 
-/** Zero is always in sight, and the line never touches the frame. */
-function rangeOfValues(_chart: uPlot, least: number | null, most: number | null): Range {
-    const low = Math.min(0, least ?? 0);
-    const high = Math.max(0, low + SPAN_MIN, most ?? 0);
-    const margin = (high - low) * MARGIN_Y;
-    return [low - (low < 0 ? margin : margin / 2), high + margin];
+/** The y axis follows what is seen; the line never touches the frame. */
+function rangeOfValues(seen: Range | null, quantity: Quantity): Range {
+    const [least, most] = seen ?? [0, 0];
+    const zero = quantity === "speed";
+    const low = zero ? Math.min(0, least) : least;
+    const high = zero ? Math.max(0, most) : most;
+    const missing = Math.max(SPAN_MIN[quantity] - (high - low), 0);
+    const margin = (high - low + missing) * MARGIN_Y;
+    return [low - margin - (zero ? 0 : missing / 2), high + margin + (zero ? missing : missing / 2)];
 }
 
-const secondsOf = (_plot: uPlot, ticks: number[]): string[] => ticks.map((tick) => `${shortNumber(tick)} s`);
+const numbersOf = (ticks: number[], distance: number, unit = ""): string[] =>
+    ticks.map((tick) => axisNumber(tick, distance) + unit);
 
 const noWords = (_plot: uPlot, ticks: number[]): string[] => ticks.map(() => "");
 
@@ -44,6 +53,7 @@ const noWords = (_plot: uPlot, ticks: number[]): string[] => ticks.map(() => "")
 export class Chart {
     readonly #plot: uPlot;
     readonly #options: ChartOptions;
+    #data = NO_DATA;
 
     constructor(options: ChartOptions) {
         this.#options = options;
@@ -53,14 +63,18 @@ export class Chart {
     }
 
     setData(data: ChartData): void {
+        this.#data = data;
         this.#plot.setData(data as uPlot.AlignedData, false);
         this.redraw();
     }
 
     /** Draws again, with the range as it is now; values are fitted to what is in sight. */
     redraw(): void {
-        const [min, max] = this.#options.range();
+        const { range, quantity } = this.#options;
+        const [min, max] = range();
+        const [low, high] = rangeOfValues(extent(this.#data, [min, max]), quantity);
         this.#plot.setScale("x", { min, max });
+        this.#plot.setScale("y", { min: low, max: high });
         this.#plot.redraw(false, true);
     }
 
@@ -93,19 +107,25 @@ export class Chart {
             grid: { stroke: () => styleValue("--grid"), width: 1 },
             ticks: { show: false },
             gap: 6,
-            values: (_plot: uPlot, ticks: number[]) => ticks.map(shortNumber),
+            values: (_: uPlot, ticks: number[], _axis: number, _space: number, distance: number) =>
+                numbersOf(ticks, distance),
         };
-        const time = { ...axis, size: this.#options.showsTime ? 26 : 6, space: 70, values: secondsOf };
+        const time: uPlot.Axis = {
+            ...axis,
+            size: this.#options.showsTime ? 26 : 6,
+            space: 84,
+            values: (_, ticks, _axis, _space, distance) => numbersOf(ticks, distance, " s"),
+        };
         return {
             width: 400,
             height: 120,
             padding: [8, 18, 0, 0],
             legend: { show: false },
-            scales: { x: { time: false }, y: { range: rangeOfValues } },
+            scales: { x: { time: false }, y: { auto: false } },
             series: [{}, ...MOTORS.map((motor) => this.#series(motor))],
             axes: [
                 this.#options.showsTime ? time : { ...time, values: noWords },
-                { ...axis, size: AXIS_WIDTH, space: 15 },
+                { ...axis, size: AXIS_WIDTH, space: 15, incrs: WHOLE },
             ],
             cursor: this.#cursor(),
             hooks: {

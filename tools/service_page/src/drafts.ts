@@ -1,3 +1,4 @@
+import { newForm, type FileForm } from "./file_form";
 import { t, type Key } from "./i18n";
 import { MOTORS } from "./protocol";
 import { keep, recall } from "./storage";
@@ -18,18 +19,19 @@ const COMMANDS_WIDTH = 20;
 const firstProgram = (): string =>
     FIRST_PROGRAM.map(([commands, words]) => `${commands.padEnd(COMMANDS_WIDTH)}{ ${t(words)} }\n`).join("");
 
-export interface Draft {
+export interface Draft extends FileForm {
     text: string;
-    /** Name of the file it came from or went to. */
-    name: string;
 }
+
+/** What a program is saved as that comes from no file. */
+export const motorForm = (motor: number): FileForm => newForm(`motor${motor}.rks`);
 
 /** The four programs as they were left; at the first visit, one that shows how programs look. */
 export function recallDrafts(): Draft[] {
-    const kept = recall<Draft[]>("drafts", []);
+    const kept = recall<Partial<Draft>[]>("drafts", []);
     return MOTORS.map((motor, index) => {
         const otherwise = index === 0 ? firstProgram() : "";
-        return kept[index] ?? { text: otherwise, name: `motor${motor}.rks` };
+        return { text: otherwise, ...motorForm(motor), ...kept[index] };
     });
 }
 

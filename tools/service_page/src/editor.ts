@@ -1,7 +1,15 @@
-import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, invertedEffects, isolateHistory } from "@codemirror/commands";
 import { lintGutter, lintKeymap, linter, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, openSearchPanel, search, searchKeymap } from "@codemirror/search";
-import { Compartment, EditorState, type Extension } from "@codemirror/state";
+import {
+    Compartment,
+    EditorState,
+    StateEffect,
+    StateField,
+    Transaction,
+    type Extension,
+    type TransactionSpec,
+} from "@codemirror/state";
 import {
     EditorView,
     drawSelection,
@@ -10,12 +18,26 @@ import {
     keymap,
     lineNumbers,
 } from "@codemirror/view";
+import type { Draft } from "./drafts";
+import { newForm, type FileForm } from "./file_form";
 import { highlighting } from "./highlight";
 import { explain } from "./help";
 import { language, t } from "./i18n";
 import { phrases } from "./phrases";
 import type { Problem } from "./protocol";
 import { toDiagnostic } from "./problems";
+
+const setForm = StateEffect.define<FileForm>();
+
+/** The file that a program is of. Undo brings it back with the text. */
+const formField = StateField.define<FileForm>({
+    create: () => newForm(""),
+    update: (form, { effects }) => effects.reduce((last, effect) => (effect.is(setForm) ? effect.value : last), form),
+});
+
+const formHistory = invertedEffects.of(({ effects, startState }) =>
+    effects.some((effect) => effect.is(setForm)) ? [setForm.of(startState.field(formField))] : [],
+);
 
 /**
  * One editor on the page, with a document, an undo history and a cursor for each of the programs. Programs are
@@ -29,10 +51,10 @@ export class Editor {
     readonly #help: HTMLElement;
     #shown = 0;
 
-    constructor(host: HTMLElement, help: HTMLElement, texts: string[], onEdit: () => void) {
+    constructor(host: HTMLElement, help: HTMLElement, drafts: Draft[], onEdit: () => void) {
         this.#onEdit = onEdit;
         this.#help = help;
-        this.#states = texts.map((text) => this.#newState(text));
+        this.#states = drafts.map((draft) => this.#newState(draft));
         this.#view = new EditorView({ parent: host, state: this.#stateAt(0) });
         language.onChange(() => this.#translate());
     }
@@ -41,14 +63,27 @@ export class Editor {
         return this.#current(index).doc.toString();
     }
 
-    /** Replaces a program; undo brings the old one back. */
-    replace(index: number, text: string): void {
-        const state = this.#current(index);
-        const change = { changes: { from: 0, to: state.doc.length, insert: text } };
+    /** What the file of a program is like. */
+    form(index: number): FileForm {
+        return this.#current(index).field(formField);
+    }
+
+    /** Replaces a program by one of another file; undo brings the old ones back. */
+    replace(index: number, text: string, form: FileForm): void {
+        const changes = { from: 0, to: this.#current(index).doc.length, insert: text };
+        this.#change(index, { changes, effects: setForm.of(form), annotations: isolateHistory.of("full") });
+    }
+
+    /** A program has become one of another file; there is nothing to undo. */
+    setForm(index: number, form: FileForm): void {
+        this.#change(index, { effects: setForm.of(form), annotations: Transaction.addToHistory.of(false) });
+    }
+
+    #change(index: number, change: TransactionSpec): void {
         if (index === this.#shown) {
             this.#view.dispatch(change);
         } else {
-            this.#states[index] = state.update(change).state;
+            this.#states[index] = this.#current(index).update(change).state;
             this.#onEdit();
         }
     }
@@ -108,10 +143,12 @@ export class Editor {
         return index === this.#shown ? this.#view.state : this.#stateAt(index);
     }
 
-    #newState(text: string): EditorState {
+    #newState({ text, ...form }: Draft): EditorState {
         return EditorState.create({
             doc: text,
             extensions: [
+                formField.init(() => form),
+                formHistory,
                 lineNumbers(),
                 highlightActiveLine(),
                 highlightActiveLineGutter(),
@@ -125,7 +162,7 @@ export class Editor {
                 EditorView.lineWrapping,
                 keymap.of([...defaultKeymap, ...historyKeymap, ...searchKeymap, ...lintKeymap]),
                 EditorView.updateListener.of((update) => {
-                    if (update.docChanged) {
+                    if (update.docChanged || update.startState.field(formField) !== update.state.field(formField)) {
                         this.#onEdit();
                     }
                     if (update.docChanged || update.selectionSet) {

@@ -74,11 +74,14 @@ export function numberText(value: number, digits = 0): string {
     return text === "-0" ? "0" : text.replace("-", "−");
 }
 
-/** A number short enough for an axis. */
-export function shortNumber(value: number): string {
+const PLAIN_BELOW = 10_000_000;
+
+/** A number for an axis: short, but never the same as its neighbour, which is `distance` away. */
+export function axisNumber(value: number, distance: number): string {
+    const digits = Math.ceil(Math.log10(Math.abs(value) / distance)) + 1;
     const format: Intl.NumberFormatOptions =
-        Math.abs(value) < 100_000
-            ? { maximumSignificantDigits: 6 }
-            : { notation: "compact", maximumSignificantDigits: 4 };
+        Math.abs(value) < PLAIN_BELOW
+            ? { maximumFractionDigits: Math.max(0, Math.ceil(-Math.log10(distance))) }
+            : { notation: "compact", maximumSignificantDigits: Math.min(Math.max(digits, 4), 21) };
     return value.toLocaleString(LOCALES[language.value], format).replace("-", "−");
 }

@@ -1,4 +1,5 @@
 import { Chart, type ChartData, type Range } from "./chart";
+import type { Quantity } from "./curve";
 import { byId, make } from "./dom";
 import { language, numberText, t } from "./i18n";
 import type { Link } from "./link";
@@ -27,9 +28,9 @@ export class LiveView {
     constructor(link: Link) {
         this.#link = link;
         const range = (): Range => [-SHOWN_SECONDS, 0];
-        const chart = (id: string): Chart =>
-            new Chart({ host: byId(id, HTMLElement), group: "live", range, showsTime: true });
-        this.#charts = [chart("live-speed"), chart("live-position")];
+        const chart = (quantity: Quantity): Chart =>
+            new Chart({ host: byId(`live-${quantity}`, HTMLElement), quantity, group: "live", range, showsTime: true });
+        this.#charts = [chart("speed"), chart("position")];
         for (const [index, button] of this.#inputs.entries()) {
             button.addEventListener("click", () => this.#toggle(index));
         }

@@ -17,10 +17,11 @@ const link = new Link();
 setUpLanguage(byId("language", HTMLSelectElement));
 
 const plan: Plan = new Plan(() => programs.texts());
-const programs: Programs = new Programs(
-    () => plan.programsChanged(),
-    (example) => plan.setInputs(example.inputs ?? []),
-);
+const programs: Programs = new Programs({
+    edit: () => plan.programsChanged(),
+    replace: () => plan.programReplaced(),
+    example: (example) => plan.setInputs(example.inputs ?? []),
+});
 const log = new Log(link, (motor, text) => programs.replace(motor, text));
 const commands = new Commands(link, log, () => {
     const motor = programs.shown.value;
@@ -48,5 +49,11 @@ link.on("answer", ({ message, from, error }) => {
     }
 });
 
+link.isOpen.onChange((isOpen) => {
+    if (isOpen) {
+        programs.check();
+        plan.programsChanged();
+    }
+});
 plan.programsChanged();
 link.open();

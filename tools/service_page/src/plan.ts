@@ -1,6 +1,6 @@
-import { computeCurve } from "./api";
+import { Refused, computeCurve } from "./api";
 import { Chart, type Range } from "./chart";
-import { toChartData, valueAt } from "./curve";
+import { singleSteps, toChartData, valueAt, type Quantity } from "./curve";
 import { byId, debounced, make } from "./dom";
 import { language, numberText, t } from "./i18n";
 import { formatInputs, parseInputs, type InputChange } from "./inputs_text";
@@ -31,7 +31,12 @@ export class Plan {
     readonly #refresh = debounced(TYPING_MS, () => void this.#compute());
     readonly #refine = debounced(ZOOMING_MS, () => void this.#computePart());
     #curve: Curve | null = null;
+    /** What is drawn: the whole, or a part with all its detail. */
+    #drawn: Curve | null = null;
+    /** What is wrong with the programs. */
     #trouble: string | null = null;
+    /** Why nothing could be computed, whatever the programs are. */
+    #unknown: string | null = null;
     #isComputing = false;
     #isStale = false;
     #count = 0;
@@ -39,7 +44,7 @@ export class Plan {
     constructor(programs: () => Record<string, string>) {
         this.#programs = programs;
         this.#legend = this.#addLegend();
-        this.#charts = { speed: this.#chart("plan-speed", false), position: this.#chart("plan-position", true) };
+        this.#charts = { speed: this.#chart("speed", false), position: this.#chart("position", true) };
         this.#inputs.value = recall("inputs", "");
         this.#seconds.value = recall("seconds", "60");
         this.#inputs.addEventListener("input", () => this.#settingsChanged());
@@ -54,6 +59,12 @@ export class Plan {
 
     /** To be called when a program has changed; the curve follows shortly. */
     programsChanged(): void {
+        this.#refresh();
+    }
+
+    /** To be called when another program has taken the place of one: all of it is to be seen. */
+    programReplaced(): void {
+        this.#zoom.leave();
         this.#refresh();
     }
 
@@ -88,10 +99,11 @@ export class Plan {
             return;
         }
         this.#isComputing = true;
+        this.#unknown = null;
         try {
             await this.#fetch(this.#request());
         } catch (error) {
-            this.#trouble = String(error);
+            this.#unknown = error instanceof Refused ? error.message : t("state.noService");
         }
         this.#isComputing = false;
         this.#draw();
@@ -107,6 +119,7 @@ export class Plan {
         if (Object.keys(request.programs).length === 0) {
             this.#curve = null;
             this.#trouble = null;
+            this.#zoom.leave();
             return;
         }
         const curve = await computeCurve(request);
@@ -132,6 +145,10 @@ export class Plan {
         }
     }
 
+    get #isOld(): boolean {
+        return this.#trouble !== null || this.#unknown !== null;
+    }
+
     #zoomed(): void {
         this.#draw();
         this.#refine();
@@ -144,7 +161,7 @@ export class Plan {
             this.#plot({ seconds: 1, ended: true, motors: {}, outputs: [], error: null });
         }
         this.#count += 1;
-        this.#root.dataset.state = this.#trouble !== null ? "old" : this.#curve ? "new" : "empty";
+        this.#root.dataset.state = this.#isOld ? "old" : this.#curve ? "new" : "empty";
         this.#root.dataset.drawn = String(this.#count);
         this.#root.dataset.range = this.#zoom.range.join(" ");
         this.#tell(null);
@@ -152,6 +169,8 @@ export class Plan {
 
     #plot(curve: Curve): void {
         const motors = Object.values(curve.motors);
+        this.#drawn = curve;
+        this.#root.dataset.steps = String(singleSteps(curve, this.#zoom.range));
         this.#root.dataset.points = String(motors.reduce((sum, motor) => sum + motor.t.length, 0));
         this.#root.dataset.pulses = String(motors.reduce((sum, motor) => sum + motor.pulses, 0));
         this.#charts.speed.setData(toChartData(curve, "speed", this.#shown));
@@ -167,12 +186,11 @@ export class Plan {
 
     /** Says what is under the cursor, or what the whole is. */
     #tell(seconds: number | null): void {
-        const isOld = this.#trouble !== null;
-        this.#status.classList.toggle("is-old", isOld);
+        this.#status.classList.toggle("is-old", this.#isOld);
         this.#status.title = this.#trouble ?? "";
         this.#status.textContent = this.#title(seconds);
         for (const [motor, words] of this.#legend) {
-            const one = this.#curve?.motors[motor];
+            const one = (seconds === null ? this.#curve : this.#drawn)?.motors[motor];
             words.replaceChildren(...(one ? this.#lines(one, seconds) : []).map((line) => make("span", {}, line)));
             words.classList.toggle("is-bad", one?.error != null);
             words.title = one ? this.#hint(one) : "";
@@ -182,6 +200,9 @@ export class Plan {
     #title(seconds: number | null): string {
         if (seconds !== null && this.#curve) {
             return t("plan.cursor", { seconds: numberText(seconds, 3) });
+        }
+        if (this.#unknown !== null) {
+            return t("plan.unknown", { cause: this.#unknown });
         }
         if (this.#trouble !== null) {
             return t(this.#curve ? "plan.old" : "plan.none");
@@ -226,9 +247,10 @@ export class Plan {
         return new Map(words);
     }
 
-    #chart(id: string, showsTime: boolean): Chart {
+    #chart(quantity: Quantity, showsTime: boolean): Chart {
         const chart = new Chart({
-            host: byId(id, HTMLElement),
+            host: byId(`plan-${quantity}`, HTMLElement),
+            quantity,
             group: "plan",
             range: () => this.#zoom.range,
             showsTime,

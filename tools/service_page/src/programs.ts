@@ -1,8 +1,9 @@
-import { checkProgram, fetchExamples } from "./api";
+import { Refused, checkProgram, fetchExamples } from "./api";
 import { byId, debounced, make } from "./dom";
-import { keepDrafts, recallDrafts, type Draft } from "./drafts";
+import { keepDrafts, motorForm, recallDrafts } from "./drafts";
 import { Editor } from "./editor";
-import { readProgram, saveProgram } from "./files";
+import { newForm, type FileForm } from "./file_form";
+import { FILE_BYTES_MAX, readProgram, saveProgram } from "./files";
 import { language, numberText, t } from "./i18n";
 import { MOTORS, type Example, type Problem, type Verdict } from "./protocol";
 import { Cell } from "./signal";
@@ -10,34 +11,41 @@ import { Cell } from "./signal";
 const CHECK_MS = 100;
 const NOTHING_FOUND: Verdict = { problems: [] };
 
+const ENCODINGS = { "utf-8": "", "utf-8-bom": "UTF-8 BOM", "windows-1250": "ANSI (1250)" } as const;
+
+export interface ProgramEvents {
+    edit: () => void;
+    /** Another program has taken the place of one. */
+    replace: () => void;
+    example: (example: Example) => void;
+}
+
 interface Tab {
     button: HTMLButtonElement;
     name: HTMLElement;
     /** What the parser said of the text that it saw last. */
     verdict: Verdict;
     checked: string | null;
+    /** Why the text that is there now has not been checked; null if it has. */
+    trouble: string | null;
 }
 
 /** The programs of the four motors: one editor, four tabs, files, examples, and the verdict of the parser. */
 export class Programs {
     /** Motor whose program is shown. */
     readonly shown = new Cell<number>(MOTORS[0]);
-    readonly #drafts: Draft[] = recallDrafts();
     readonly #editor: Editor;
     readonly #tabs: Tab[];
     readonly #verdict = byId("verdict", HTMLElement);
     readonly #examples = byId("examples", HTMLSelectElement);
     readonly #checkSoon = debounced(CHECK_MS, () => void this.#checkAll());
-    readonly #onEdit: () => void;
-    readonly #onExample: (example: Example) => void;
+    readonly #on: ProgramEvents;
 
-    constructor(onEdit: () => void, onExample: (example: Example) => void) {
-        this.#onEdit = onEdit;
-        this.#onExample = onExample;
+    constructor(on: ProgramEvents) {
+        this.#on = on;
         this.#tabs = MOTORS.map((motor) => this.#tab(motor));
-        const texts = this.#drafts.map((draft) => draft.text);
         const help = byId("command-help", HTMLElement);
-        this.#editor = new Editor(byId("editor", HTMLElement), help, texts, () => this.#edited());
+        this.#editor = new Editor(byId("editor", HTMLElement), help, recallDrafts(), () => this.#edited());
         this.#listen();
         void this.#loadExamples();
         this.shown.watch((motor) => this.#show(motor - 1));
@@ -55,10 +63,17 @@ export class Programs {
         return this.#editor.text(motor - 1);
     }
 
-    replace(motor: number, text: string): void {
+    /** Puts another program in the place of one; without a form, one that is of no file yet. */
+    replace(motor: number, text: string, form: FileForm = motorForm(motor)): void {
         this.shown.set(motor);
-        this.#editor.replace(motor - 1, text);
+        this.#editor.replace(motor - 1, text, form);
         this.#editor.focus();
+        this.#on.replace();
+    }
+
+    /** To be called when the service may answer again. */
+    check(): void {
+        this.#checkSoon();
     }
 
     goTo(line: number, column: number): void {
@@ -86,10 +101,10 @@ export class Programs {
     }
 
     #edited(): void {
-        this.#drafts.forEach((draft, index) => (draft.text = this.#editor.text(index)));
-        keepDrafts(this.#drafts);
+        keepDrafts(MOTORS.map((_, index) => ({ ...this.#editor.form(index), text: this.#editor.text(index) })));
+        this.#showFile();
         this.#checkSoon();
-        this.#onEdit();
+        this.#on.edit();
     }
 
     async #checkAll(): Promise<void> {
@@ -101,27 +116,35 @@ export class Programs {
         if (text === tab.checked) {
             return;
         }
+        tab.trouble = null;
         try {
             const verdict = text.trim() === "" ? NOTHING_FOUND : await checkProgram(text);
             if (text === this.#editor.text(index)) {
                 tab.checked = text;
                 tab.verdict = verdict;
                 this.#editor.mark(index, text, verdict.problems);
-                this.#showVerdicts();
             }
-        } catch {
-            this.#verdict.textContent = t("verdict.unknown");
+        } catch (error) {
+            tab.trouble = error instanceof Refused ? `${t("verdict.refused")}: ${error.message}` : t("verdict.unknown");
         }
+        this.#showVerdicts();
     }
 
     #showVerdicts(): void {
-        for (const { button, verdict } of this.#tabs) {
-            button.dataset.verdict = verdictOf(verdict.problems);
+        for (const { button, verdict, trouble } of this.#tabs) {
+            button.dataset.verdict = trouble === null ? verdictOf(verdict.problems) : "unknown";
         }
         const tab = this.#tabs[this.shown.value - 1];
-        if (tab) {
-            const { problems } = tab.verdict;
-            const count = (severity: string): number => problems.filter((one) => one.severity === severity).length;
+        if (tab?.trouble != null) {
+            this.#verdict.dataset.kind = "unknown";
+            this.#verdict.textContent = tab.trouble;
+            byId("command-count", HTMLElement).textContent = "";
+        } else if (tab) {
+            const { problems, more = 0 } = tab.verdict;
+            const count = (severity: string): string => {
+                const told = problems.filter((one) => one.severity === severity).length;
+                return numberText(told === 0 ? 0 : told + more);
+            };
             const isEmpty = (tab.checked ?? "").trim() === "";
             const kind = verdictOf(tab.verdict.problems);
             const words = { errors: count("error"), warnings: count("warning") };
@@ -150,12 +173,16 @@ export class Programs {
         if (tab?.checked != null) {
             this.#editor.mark(index, tab.checked, tab.verdict.problems);
         }
-        this.#showNames();
+        this.#showFile();
         this.#showVerdicts();
     }
 
-    #showNames(): void {
-        byId("file-name", HTMLElement).textContent = this.#drafts[this.shown.value - 1]?.name ?? "";
+    /** The name of the file; how it is written, where that is not as usual. */
+    #showFile(): void {
+        const { name, encoding, end, tail } = this.#editor.form(this.shown.value - 1);
+        byId("file-name", HTMLElement).textContent = name;
+        const parts = [ENCODINGS[encoding], { "\n": "", "\r\n": "CRLF", "\r": "CR" }[end], tail ? "1A" : ""];
+        byId("file-form", HTMLElement).textContent = parts.filter((part) => part !== "").join(" · ");
     }
 
     #translate(): void {
@@ -171,28 +198,33 @@ export class Programs {
 
     async #open(input: HTMLInputElement): Promise<void> {
         const file = input.files?.[0];
+        const motor = this.shown.value;
         if (file) {
-            this.#take(file.name, await readProgram(file));
+            const found = await readProgram(file);
+            const isRead = typeof found === "object";
+            const words = { name: file.name, bytes: numberText(FILE_BYTES_MAX) };
+            this.#sayOfFile(isRead ? "" : t(`file.${found}`, words));
+            if (isRead) {
+                this.replace(motor, found.text, found.form);
+            }
         }
         input.value = "";
     }
 
     async #save(): Promise<void> {
-        const draft = this.#drafts[this.shown.value - 1];
-        if (draft) {
-            draft.name = (await saveProgram(draft.name, draft.text)) ?? draft.name;
-            keepDrafts(this.#drafts);
-            this.#showNames();
+        const index = this.shown.value - 1;
+        const before = this.#editor.form(index);
+        const form = await saveProgram(before, this.#editor.text(index));
+        if (form) {
+            this.#editor.setForm(index, form);
+            this.#sayOfFile(form.encoding === before.encoding ? "" : t("file.becameUtf8", { name: form.name }));
         }
     }
 
-    #take(name: string, text: string): void {
-        const draft = this.#drafts[this.shown.value - 1];
-        if (draft) {
-            draft.name = name;
-        }
-        this.replace(this.shown.value, text);
-        this.#showNames();
+    #sayOfFile(words: string): void {
+        const place = byId("file-trouble", HTMLElement);
+        place.textContent = words;
+        place.hidden = words === "";
     }
 
     async #loadExamples(): Promise<void> {
@@ -201,8 +233,9 @@ export class Programs {
         this.#examples.addEventListener("input", () => {
             const example = examples[Number(this.#examples.value || -1)];
             if (example) {
-                this.#take(example.name, example.text);
-                this.#onExample(example);
+                this.#sayOfFile("");
+                this.replace(this.shown.value, example.text, newForm(example.name));
+                this.#on.example(example);
             }
         });
     }
@@ -215,7 +248,7 @@ export class Programs {
         button.addEventListener("click", () => this.shown.set(motor));
         button.addEventListener("keydown", (event) => this.#moveTab(event, motor));
         byId("tabs", HTMLElement).append(button);
-        return { button, name, verdict: NOTHING_FOUND, checked: null };
+        return { button, name, verdict: NOTHING_FOUND, checked: null, trouble: null };
     }
 
     #moveTab(event: KeyboardEvent, motor: number): void {

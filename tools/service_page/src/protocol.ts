@@ -106,6 +106,8 @@ export interface Problem {
 
 export interface Verdict {
     problems: Problem[];
+    /** So many more were found. */
+    more?: number;
     /** How many commands the program has; told of programs without errors. */
     commands?: number | null;
 }
@@ -116,6 +118,10 @@ export interface MotorCurve {
     /** Steps/s, negative backward. */
     speed: number[];
     position: number[];
+    /** Where it was at the beginning of the part of the time that was asked for. */
+    before: number;
+    /** Every single pulse of that part, and every position that was written; null: too many to be told. */
+    steps: [seconds: number, position: number][] | null;
     moves: number;
     pulses: number;
     peak: number;
