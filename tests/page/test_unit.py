@@ -109,6 +109,7 @@ def test_reset_asks_before_it_acts(page):
     reset.click()
     expect(reset).to_have_text("Really reset?")
     assert "reset" not in page.sent
+    page.page.wait_for_timeout(600)
     reset.click()
     expect(page.answers.first).to_have_attribute("data-message", "reset")
 

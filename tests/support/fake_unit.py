@@ -144,7 +144,9 @@ class FakeLine:
     back without end instead of any answer.
     """
 
-    def __init__(self, *units: FakeUnit, on_pty: bool = False, echo: bool = False) -> None:
+    def __init__(
+        self, *units: FakeUnit, on_pty: bool = False, echo: bool = False, port: int = 0
+    ) -> None:
         self.units = {unit.node: unit for unit in units}
         self.faults: deque[Fault] = deque()
         self.lost_requests = 0
@@ -159,7 +161,7 @@ class FakeLine:
         if on_pty:
             self._open_pty()
         else:
-            self._listener = socket.create_server(("127.0.0.1", 0))
+            self._listener = socket.create_server(("127.0.0.1", port))
             self._listener.settimeout(0.01)
             self.port = f"socket://127.0.0.1:{self._listener.getsockname()[1]}"
             self._thread = threading.Thread(target=self._serve_tcp)

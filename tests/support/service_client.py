@@ -48,6 +48,11 @@ class Reply:
         return json.loads(self.text)
 
 
+def is_moving(motor: dict[str, Any]) -> bool:
+    """Whether a motor moves, as far as its unit tells."""
+    return bool(motor["speed"] if motor["moving"] is None else motor["moving"])
+
+
 class Browser:
     """A web socket; keeps everything that has come."""
 
@@ -99,19 +104,27 @@ class Browser:
         )
 
     def moves(self, motor: int = 1) -> dict[str, Any]:
-        return self.until(lambda m: m["type"] == "live" and not m["motors"][motor - 1]["idle"])
+        return self.until(lambda m: m["type"] == "live" and is_moving(m["motors"][motor - 1]))
 
     def stands(self, motor: int = 1) -> dict[str, Any]:
-        return self.until(lambda m: m["type"] == "live" and m["motors"][motor - 1]["idle"])
+        return self.until(lambda m: m["type"] == "live" and not is_moving(m["motors"][motor - 1]))
+
+    def state(self, wanted: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+        """Wait for a state of the connection."""
+        return self.until(lambda m: m["type"] == "state" and wanted(m))
+
+    def live(self, wanted: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+        """Wait for a look at the unit."""
+        return self.until(lambda m: m["type"] == "live" and wanted(m))
 
     def quiet(self, seconds: float) -> list[dict[str, Any]]:
-        """What comes for a while, live views left out."""
+        """What comes for a while, live views and beats left out."""
         end = time.monotonic() + seconds
         came = []
         while (left := end - time.monotonic()) > 0:
             with contextlib.suppress(TimeoutError):
                 came.append(json.loads(self._socket.recv(left)))
-        return [message for message in came if message["type"] != "live"]
+        return [message for message in came if message["type"] not in ("live", "beat")]
 
     def close(self) -> None:
         self._stack.close()

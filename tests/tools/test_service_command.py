@@ -98,6 +98,45 @@ def test_every_start_has_a_token_of_its_own(build):
     other.end()
 
 
+def free_port() -> int:
+    with socket.create_server(("127.0.0.1", 0)) as found:
+        return int(found.getsockname()[1])
+
+
+def test_a_start_on_the_same_port_is_known_to_the_pages_of_the_last_one(build):
+    port = str(free_port())
+    one = Service(build, "--listen", port)
+    one.end(signal.SIGKILL)
+
+    other = Service(build, "--listen", port)
+
+    kept = build.parent / f"service-{port}.token"
+    assert one.token == other.token == kept.read_text()
+    assert kept.stat().st_mode & 0o777 == 0o600
+    other.end()
+
+
+@pytest.mark.parametrize("spoil", ["others", "short", "link"])
+def test_a_token_that_somebody_else_may_know_is_not_taken(build, tmp_path, spoil):
+    port = str(free_port())
+    kept = build.parent / f"service-{port}.token"
+    known = tmp_path / "known"
+    known.write_text("k" * 32)
+    known.chmod(0o600)
+    if spoil == "link":
+        kept.symlink_to(known)
+    else:
+        kept.write_text("k" * (32 if spoil == "others" else 31))
+        kept.chmod(0o640 if spoil == "others" else 0o600)
+
+    service = Service(build, "--listen", port)
+
+    assert service.token == kept.read_text() != "k" * 32
+    assert not kept.is_symlink()
+    assert known.read_text() == "k" * 32
+    service.end()
+
+
 def test_a_port_that_is_taken_is_an_error_in_one_line(build, tool):
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]

@@ -42,7 +42,7 @@ def make_app(page: Path, token: str, port: int, first: Connect) -> ASGIApp:
         try:
             yield
         finally:
-            await asyncio.to_thread(browsers.close)
+            await browsers.close()
 
     async def show_page(_: Request) -> Response:
         return FileResponse(page / "index.html")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import itertools
+import time
+from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -14,9 +16,8 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from rkm04_tools.failure import Failure
 from rkm04_tools.service import virtual
-from rkm04_tools.service.live import LineView, VirtualView
-from rkm04_tools.service.orders import ListPorts, SetInput, Stop, read_order
-from rkm04_tools.service.trouble import BadRequest, as_json
+from rkm04_tools.service.orders import Asked, ListPorts, Order, SetInput, Stop, read_order
+from rkm04_tools.service.trouble import BadRequest, Late, as_json
 from rkm04_tools.service.virtual import VirtualLine
 from rkm04_tools.service.worker import Worker
 
@@ -26,7 +27,37 @@ SERVICE_VERSION = "1"
 TOO_SLOW = 1013
 """Of RFC 6455: try again later."""
 
+BEAT_SECONDS = 0.5
+LATE_SECONDS = 2.0
+"""What a page asks for when it has not heard from the service for longer is refused: it has waited
+in between, in a browser or a service that stood still, and nobody expects it any more."""
+
 Messages: TypeAlias = "asyncio.Queue[dict[str, Any] | None]"
+
+
+class Beats:
+    """Signs of life with numbers, so that a request shows how old it is."""
+
+    def __init__(self) -> None:
+        self._numbers = itertools.count(1)
+        self._times: deque[tuple[int, float]] = deque(maxlen=64)
+        self.next()
+
+    def next(self) -> int:
+        """Begin another one."""
+        number = next(self._numbers)
+        self._times.append((number, time.monotonic()))
+        return number
+
+    @property
+    def last(self) -> int:
+        """The youngest."""
+        return self._times[-1][0]
+
+    def is_late(self, number: int) -> bool:
+        """Whether one is too long ago, or from another life of the service."""
+        times = dict(self._times)
+        return number not in times or time.monotonic() - times[number] > LATE_SECONDS
 
 
 class Browsers:
@@ -37,24 +68,22 @@ class Browsers:
         self._numbers = itertools.count(1)
         self._loop: asyncio.AbstractEventLoop | None = None
         self._tasks: set[asyncio.Task[None]] = set()
+        self._beats = Beats()
         self._units = VirtualLine()
-        view = LineView(self.tell)
-        self.worker = Worker(self.tell, view.see, self.is_watched, self._units)
-        self._view = VirtualView(
-            self.tell, self.is_watched, lambda: self.worker.state, self.worker.lose, self._units
-        )
+        self.worker = Worker(self.tell, self.is_watched, self._units)
 
     def start(self) -> None:
         """Begin."""
         self._loop = asyncio.get_running_loop()
+        self._keep(self._beat())
         self.worker.start()
-        self._view.start()
 
-    def close(self) -> None:
+    async def close(self) -> None:
         """End line, virtual units and threads."""
-        self._view.close()
-        self.worker.close()
-        self._units.close()
+        for task in self._tasks:
+            task.cancel()
+        await asyncio.to_thread(self.worker.close)
+        await asyncio.to_thread(self._units.close)
 
     def is_watched(self) -> bool:
         """Whether any browser looks."""
@@ -76,9 +105,10 @@ class Browsers:
                 "version": SERVICE_VERSION,
                 "language_default": "en",
                 "client": number,
+                "beat": self._beats.next(),
             }
         )
-        queue.put_nowait(self.worker.state.as_json())
+        queue.put_nowait(self.worker.state_as_json())
         self._queues[number] = queue
         sender = asyncio.create_task(_send_all(socket, queue))
         try:
@@ -91,9 +121,14 @@ class Browsers:
             sender.cancel()
             await asyncio.gather(sender, return_exceptions=True)
 
+    async def _beat(self) -> None:
+        while True:
+            self._put({"type": "beat", "beat": self._beats.next()})
+            await asyncio.sleep(BEAT_SECONDS)
+
     def _put(self, told: dict[str, Any]) -> None:
         for number, queue in list(self._queues.items()):
-            if told["type"] == "live" and queue.qsize() > 2:
+            if told["type"] in ("live", "beat") and queue.qsize() > 2:
                 continue  # it will get a later one
             if queue.full():
                 del self._queues[number]
@@ -106,17 +141,24 @@ class Browsers:
         """Take what a browser says; only this one learns what is wrong with it."""
         try:
             order, asked = read_order(text)
-            asked = replace(asked, client=client)
-            if isinstance(order, Stop):
-                self.worker.stop(asked)
-            elif isinstance(order, ListPorts):
-                self._aside(_ports, queue)
-            elif isinstance(order, SetInput):
-                self._aside(partial(self._set_input, order), queue)
-            else:
-                self.worker.give(order, asked)
+            self._obey(order, replace(asked, client=client), queue)
         except Failure as failure:
             _put_if_room(queue, {"type": "error", "error": as_json(failure)})
+
+    def _obey(self, order: Order, asked: Asked, queue: Messages) -> None:
+        late = asked.beat is not None and self._beats.is_late(asked.beat)
+        if isinstance(order, Stop):
+            self.worker.stop(asked, order.nodes)  # better late than never
+        elif isinstance(order, ListPorts):
+            self._aside(_ports, queue)
+        elif isinstance(order, SetInput):
+            if late:
+                raise Late
+            self._aside(partial(self._set_input, order), queue)
+        elif late:
+            self.worker.refuse(order, asked, Late())
+        else:
+            self.worker.give(order, asked)
 
     def _aside(self, work: Callable[[], dict[str, Any] | None], queue: Messages) -> None:
         """Do what may take a moment, so that a stop need not wait for it."""
@@ -129,7 +171,11 @@ class Browsers:
             if told:
                 _put_if_room(queue, told)
 
-        task = asyncio.create_task(do())
+        self._keep(do())
+
+    def _keep(self, work: Any) -> None:
+        """Run a coroutine; the event loop alone would forget it."""
+        task = asyncio.create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 

@@ -6,12 +6,14 @@ import asyncio
 import contextlib
 import json
 import os
+import re
 import secrets
 import signal
 import socket
 import webbrowser
 from argparse import Namespace
 from collections.abc import Iterator
+from pathlib import Path
 
 import uvicorn
 
@@ -28,6 +30,8 @@ USUAL_PORT = 8404
 MESSAGE_BYTES_MAX = 2_000_000
 CLOSING_SECONDS = 2
 TOKEN_BYTES = 24
+TOKEN = re.compile(r"[\w-]{32}")
+OPEN_ONLY_HERE = 0o600
 
 
 class Server(uvicorn.Server):
@@ -56,7 +60,8 @@ def run(options: Namespace) -> int:
         raise Failure(f"{page}: the page is not there; start the command as tools/rkm04")
     with _listen(options.listen) as listener:
         port = listener.getsockname()[1]
-        token = secrets.token_urlsafe(TOKEN_BYTES)
+        is_chosen = port in (options.listen, USUAL_PORT)
+        token = _kept_token(page.parent, port) if is_chosen else _new_token()
         url = f"http://{ADDRESS}:{port}/?token={token}"
         config = uvicorn.Config(
             make_app(page, token, port, first),
@@ -68,6 +73,31 @@ def run(options: Namespace) -> int:
             webbrowser.open(url)
         Server(config).run([listener])
     return DONE
+
+
+def _new_token() -> str:
+    return secrets.token_urlsafe(TOKEN_BYTES)
+
+
+def _kept_token(folder: Path, port: int) -> str:
+    """The token that the last service on this port had, so that its pages go on by themselves.
+
+    Only its owner may read the file; one that others can read or write is not believed.
+    """
+    path = folder / f"service-{port}.token"
+    with contextlib.suppress(OSError, ValueError):
+        status = path.lstat()
+        is_ours = os.name == "posix" and (status.st_uid, status.st_mode & 0o77) == (os.getuid(), 0)
+        token = path.read_text(encoding="ascii")
+        if is_ours and path.is_file() and not path.is_symlink() and TOKEN.fullmatch(token):
+            return token
+    token = _new_token()
+    # Where it cannot be kept, an open page has to be opened anew.
+    with contextlib.suppress(OSError):
+        path.unlink(missing_ok=True)
+        path.touch(OPEN_ONLY_HERE, exist_ok=False)
+        path.write_text(token, encoding="ascii")
+    return token
 
 
 def _tell(url: str, as_json: bool) -> None:

@@ -1,19 +1,19 @@
-"""What the motors do now, ten times a second."""
+"""What the motors of a unit do now, as the line tells it."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from threading import Event, Thread
+from dataclasses import asdict
 from typing import Any
 
-from rkm04_tools.failure import Failure
-from rkm04_tools.line_errors import PortLost
-from rkm04_tools.service.virtual import VirtualLine
-from rkm04_tools.service.worker import State
+from rkm04_tools import messages
+from rkm04_tools.line import Unit, Wait
+from rkm04_tools.line_errors import UnknownMessage
+from rkm04_tools.messages import ALL_MOTORS, GET_POSITION, GET_STATUS
+from rkm04_tools.status import Status, parse_status
 
-PERIOD_SECONDS = 0.1
-CLOSING_SECONDS = 10.0
+LOOKING = Wait(attempts=2)
 PAUSE_SECONDS = 2.0
 """Looks that are further apart tell no speed."""
 
@@ -29,112 +29,92 @@ class Speeds:
     def __init__(self) -> None:
         self._before: tuple[float, list[int]] | None = None
 
-    def of(self, seconds: float, positions: list[int]) -> list[float]:
-        """Steps/s at a look; 0 at the first one."""
+    def of(self, seconds: float, positions: list[int]) -> list[float | None]:
+        """Steps/s at a look; None where they are not known, as at the first one."""
         before, self._before = self._before, (seconds, positions)
         if before is None or not 0 < seconds - before[0] < PAUSE_SECONDS:
-            return [0.0] * len(positions)
+            return [None] * len(positions)
         passed = seconds - before[0]
         found = [(new - old) / passed for old, new in zip(before[1], positions, strict=True)]
-        return [round(speed, 1) if abs(speed) <= POSSIBLE else 0.0 for speed in found]
+        return [round(speed, 1) if abs(speed) <= POSSIBLE else None for speed in found]
 
 
-def from_positions(speeds: Speeds, seconds: float, positions: list[int]) -> dict[str, Any]:
-    """What a line tells: a motor is idle that has not moved since the look before."""
-    found = speeds.of(seconds, positions)
-    return _live(seconds, positions, found, [speed == 0 for speed in found], None, None)
+def from_positions(
+    node: int, seconds: float, positions: Sequence[int], speeds: Sequence[float | None]
+) -> dict[str, Any]:
+    """What is known of a unit that tells positions only."""
+    motors = [
+        {"position": position, "speed": speed, "moving": None}
+        for position, speed in zip(positions, speeds, strict=True)
+    ]
+    return _live(node, seconds, motors, None, None, None)
 
 
-def from_state(speeds: Speeds, state: dict[str, Any]) -> dict[str, Any]:
-    """What a virtual unit tells; the speeds are of its pulses, as positions may be written."""
-    found = speeds.of(state["seconds"], state["travel"])
-    idle = [not moving for moving in state["moving"]]
-    return _live(
-        state["seconds"], state["positions"], found, idle, state["inputs"], state["outputs"]
-    )
+def from_status(
+    node: int, seconds: float, status: Status, speeds: Sequence[float | None]
+) -> dict[str, Any]:
+    """What a unit tells that knows Get Status: a motor that does not move has no speed."""
+    motors = [
+        {**asdict(motor), "speed": speed if motor.moving else 0.0}
+        for motor, speed in zip(status.motors, speeds, strict=True)
+    ]
+    told = status.as_json()
+    del told["motors"]
+    return _live(node, seconds, motors, told.pop("inputs"), told.pop("outputs"), told)
 
 
 def _live(
+    node: int,
     seconds: float,
-    positions: Sequence[int],
-    speeds: Sequence[float],
-    idle: Sequence[bool],
+    motors: list[dict[str, Any]],
     inputs: list[int] | None,
     outputs: list[int] | None,
+    unit: dict[str, Any] | None,
 ) -> dict[str, Any]:
-    motors = [
-        {"position": position, "speed": speed, "idle": rests}
-        for position, speed, rests in zip(positions, speeds, idle, strict=True)
-    ]
     return {
         "type": "live",
+        "node": node,
         "time_s": round(seconds, 3),
         "motors": motors,
         "inputs": inputs,
         "outputs": outputs,
+        "unit": unit,
     }
 
 
-class LineView:
-    """Turns the positions that the worker sees into what browsers get."""
+class View:
+    """Looks at a unit and tells what there is to be seen; to be used from one thread."""
 
     def __init__(self, tell: Tell) -> None:
         self._tell = tell
+        self.begin()
+
+    def begin(self) -> None:
+        """Forget what was seen: it is another unit, or may be."""
         self._speeds = Speeds()
+        self._tells_status = True
 
-    def see(self, positions: list[int]) -> None:
-        """Take a look; time counts from some moment."""
-        self._tell(from_positions(self._speeds, time.monotonic(), positions))
+    def look(self, unit: Unit) -> None:
+        """Ask for the status, or for what an original unit can tell; changes nothing there.
 
+        No session is needed: the questions may be answered twice.
+        """
+        if self._tells_status:
+            try:
+                answer = unit.line.request_at_once(unit.node, bytes([GET_STATUS]), LOOKING)
+                self.show(unit.node, parse_status(answer))
+                return
+            except UnknownMessage:
+                self._tells_status = False
+        request = messages.request(GET_POSITION, ALL_MOTORS)
+        answer = unit.line.request_at_once(unit.node, request, LOOKING)
+        positions = messages.parse_positions(answer, ALL_MOTORS)
+        now = time.monotonic()
+        speeds = self._speeds.of(now, positions)
+        self._tell(from_positions(unit.node, now, positions, speeds))
 
-class VirtualView:
-    """Watches the virtual unit that is connected, on a thread of its own, beside the line."""
-
-    def __init__(
-        self,
-        tell: Tell,
-        is_watched: Callable[[], bool],
-        state: Callable[[], State],
-        lose: Callable[[Failure], None],
-        units: VirtualLine,
-    ) -> None:
-        self._tell = tell
-        self._is_watched = is_watched
-        self._state = state
-        self._lose = lose
-        self._units = units
-        self._node = 0
-        self._speeds = Speeds()
-        self._ends = Event()
-        self._thread = Thread(target=self._run, name="live", daemon=True)
-
-    def start(self) -> None:
-        """Begin to watch."""
-        self._thread.start()
-
-    def close(self) -> None:
-        """End."""
-        self._ends.set()
-        if self._thread.is_alive():
-            self._thread.join(CLOSING_SECONDS)
-
-    def _run(self) -> None:
-        due = time.monotonic()
-        while not self._ends.wait(max(0.0, due - time.monotonic())):
-            due = max(due + PERIOD_SECONDS, time.monotonic())
-            state = self._state()
-            if state.connected and state.virtual and self._is_watched():
-                self._look(state.node)
-
-    def _look(self, node: int) -> None:
-        try:
-            told = self._units.states()[node]
-        except Failure as failure:
-            self._lose(failure)
-            return
-        except (KeyError, ValueError) as error:
-            self._lose(PortLost(f"the virtual unit tells nonsense ({error}); connect again"))
-            return
-        if node != self._node:
-            self._node, self._speeds = node, Speeds()
-        self._tell(from_state(self._speeds, told))
+    def show(self, node: int, status: Status) -> None:
+        """Tell a status that has just come."""
+        now = time.monotonic()
+        speeds = self._speeds.of(now, [motor.position for motor in status.motors])
+        self._tell(from_status(node, now, status, speeds))

@@ -41,10 +41,22 @@ ID_MAX = 1 << 53
 
 @dataclass(frozen=True)
 class Asked:
-    """By whom something was asked, and the number under which the answer is awaited."""
+    """By whom something was asked, and the number under which the answer is awaited.
+
+    `beat`: the last sign of life of the service that the page had when the user asked.
+    """
 
     client: int | None = None
     number: int | None = None
+    beat: int | None = None
+
+
+@dataclass(frozen=True)
+class Node:
+    """A unit: its address on a port."""
+
+    port: str
+    node: int
 
 
 @dataclass(frozen=True)
@@ -80,7 +92,9 @@ class Act:
 
 @dataclass(frozen=True)
 class Stop:
-    """K, ahead of everything."""
+    """K, ahead of everything; `nodes` are those that the page has seen."""
+
+    nodes: tuple[Node, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -96,6 +110,7 @@ class ListPorts:
     """Tell which ports there are."""
 
 
+Work: TypeAlias = Connect | Disconnect | Request | Act
 Order: TypeAlias = Connect | Disconnect | Request | Act | Stop | SetInput | ListPorts
 
 
@@ -107,10 +122,23 @@ def read_order(text: str) -> tuple[Order, Asked]:
         raise BadRequest("this is not JSON; write an object with a type") from None
     if not isinstance(told, dict):
         raise BadRequest("this is no object; write one with a type")
-    number = told.get("id")
-    if number is not None:
-        number = _whole(told, "id", range(ID_MAX))
-    return _order(told), Asked(None, number)
+    number, beat = (
+        None if told.get(name) is None else _whole(told, name, range(ID_MAX))
+        for name in ("id", "beat")
+    )
+    return _order(told), Asked(None, number, beat)
+
+
+def name_of(order: Work) -> str:
+    """The name under which an order is known to the page."""
+    if isinstance(order, Request | Act):
+        return order.name
+    return "connect" if isinstance(order, Connect) else "disconnect"
+
+
+def motor_of(order: Work) -> int | None:
+    """The motor that is meant, 0 for all; None: it is no matter of motors."""
+    return order.motor if isinstance(order, Request | Act) else None
 
 
 def _order(told: Mapping[str, Any]) -> Order:
@@ -124,7 +152,9 @@ def _order(told: Mapping[str, Any]) -> Order:
         return Act(str(kind), _motor(told, ALL_MOTORS), value)
     if kind == "input":
         return SetInput(_whole(told, "input", range(1, 9)), _whole(told, "level", range(2)) == 1)
-    for name, order in (("stop", Stop()), ("disconnect", Disconnect()), ("ports", ListPorts())):
+    if kind == "stop":
+        return Stop(_nodes(told.get("nodes")))
+    for name, order in (("disconnect", Disconnect()), ("ports", ListPorts())):
         if kind == name:
             return order
     raise BadRequest(
@@ -149,6 +179,13 @@ def _port(told: Mapping[str, Any]) -> str:
     if colon and scheme not in SCHEMES:
         raise BadRequest(f"{scheme}:// is no port of a line; write a device, or socket://HOST:PORT")
     return port
+
+
+def _nodes(told: Any) -> tuple[Node, ...]:
+    """The nodes of a stop. A stop is never refused, so what is no node is left out."""
+    rows = [row for row in told if isinstance(row, dict)] if isinstance(told, list) else []
+    nodes = [Node(str(row.get("port")), row.get("node", 0)) for row in rows[: len(NODES)]]
+    return tuple(each for each in nodes if each.node in NODES)
 
 
 def _motor(told: Mapping[str, Any], default: int | None) -> int:

@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 from rkm04_tools import messages
 from rkm04_tools.check import check_source
-from rkm04_tools.line import Motor, Unit
+from rkm04_tools.line import USUAL, Motor, Unit, Wait
 from rkm04_tools.line_errors import UnitRefused
-from rkm04_tools.messages import ALL_MOTORS, MOTORS
+from rkm04_tools.messages import ALL_MOTORS, MOTORS, VERSION
 from rkm04_tools.sending import Tell, check_program, held_commands, plan_program, send_program
 from rkm04_tools.service.answers import Answer, ProgramWrong
 from rkm04_tools.service.checking import NAME, first_error
@@ -44,9 +44,9 @@ def act(unit: Unit, order: Act) -> Answer:
     return Answer(f"speed {order.value} steps/s", {"speed": order.value})
 
 
-def version(unit: Unit) -> Answer:
+def version(unit: Unit, wait: Wait = USUAL) -> Answer:
     """Ask for version and date."""
-    told = unit.version()
+    told = messages.parse_version(unit.ask(bytes([VERSION]), wait))
     date = told.date.isoformat()
     return Answer(f"version {told.number} of {date}", {"version": told.number, "date": date})
 

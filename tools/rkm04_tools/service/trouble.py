@@ -29,6 +29,30 @@ class Stopped(Failure):
         super().__init__("a stop went ahead of this; send it again if it is still wanted")
 
 
+class Late(Failure):
+    """It has taken too long to get here, so that whoever asked may not count on it any more."""
+
+    def __init__(self) -> None:
+        super().__init__("this came too late and was not sent; look at the unit, then ask again")
+
+
+class Unsent(Failure):
+    """There was no connection to the unit when it was asked for."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "the unit was not reached at that time, so this was not sent; "
+            "look at the unit, then send it again"
+        )
+
+
+class NotConfirmed(Failure):
+    """A stop that not every unit has confirmed."""
+
+    def __init__(self, who: str) -> None:
+        super().__init__(f"the stop is not confirmed by {who}; use the emergency stop")
+
+
 class Superseded(Failure):
     """A newer request of the same page has made it useless."""
 

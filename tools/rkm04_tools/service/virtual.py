@@ -38,12 +38,6 @@ class VirtualLine:
                 self._start()
             return self._place
 
-    def states(self) -> dict[int, dict[str, Any]]:
-        """What each unit does, by address."""
-        with self._lock:
-            self._say("?")
-            return {state["node"]: state for state in (self._hear() for _ in NODES)}
-
     def set_input(self, node: int, number: int, level: bool) -> None:
         """Change an input of a unit."""
         with self._lock:
@@ -84,15 +78,15 @@ class VirtualLine:
             self._control = socket.create_connection((name, int(port)), PATIENCE_SECONDS)
             self._control.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         except OSError:
-            raise _ended() from None
+            raise ended() from None
 
     def _say(self, order: str) -> None:
         if not self._control:
-            raise _ended()
+            raise ended()
         try:
             self._control.sendall(f"{order}\n".encode("ascii"))
         except OSError:
-            raise _ended() from None
+            raise ended() from None
 
     def _hear(self) -> Any:
         assert self._control
@@ -104,7 +98,7 @@ class VirtualLine:
             if not came:
                 self._control.close()
                 self._control = None
-                raise _ended()
+                raise ended()
             self._came += came
         line, _, self._came = self._came.partition(b"\n")
         return json.loads(line)
@@ -128,5 +122,6 @@ class VirtualLine:
                 stream.close()
 
 
-def _ended() -> PortLost:
+def ended() -> PortLost:
+    """That the units are there no more."""
     return PortLost("the virtual unit has ended; connect again to start it")

@@ -6,9 +6,9 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rkm04_tools.frame import ANSWER, Frame, Receiver
+from rkm04_tools.frame import ANSWER, NODES, REFUSED, Frame, Receiver
 from rkm04_tools.line import PATIENCE_SECONDS
-from rkm04_tools.messages import VERSION
+from rkm04_tools.messages import UNKNOWN, VERSION
 from rkm04_tools.service.trouble import Stopped
 from rkm04_tools.transport import Transport, seconds_on_line
 
@@ -28,13 +28,21 @@ class Wire:
 
     While `is_stop_wanted` and the wire `yields`, nothing more is sent, and no answer is waited for
     longer than one usually takes: Stopped is raised instead. A frame on its way out is completed.
+    `hear` is told of every node that answers, whatever it was asked.
     """
 
-    def __init__(self, inner: Transport, is_stop_wanted: Callable[[], bool]) -> None:
+    def __init__(
+        self,
+        inner: Transport,
+        is_stop_wanted: Callable[[], bool],
+        hear: Callable[[int], None] = lambda node: None,
+    ) -> None:
         self.name = inner.name
         self.yields = True
         self._inner = inner
         self._is_stop_wanted = is_stop_wanted
+        self._hear = hear
+        self._receiver = Receiver()
         self._sent = bytearray()
         self._came = bytearray()
         self._answer_due = 0.0
@@ -45,11 +53,18 @@ class Wire:
         while True:
             left = end - time.monotonic()
             data = self._inner.read(min(max(left, 0.0), SLICE_SECONDS))
-            self._came += data
+            self._note(data)
             if data or left <= SLICE_SECONDS:
                 return data
             if self.yields and self._is_stop_wanted() and time.monotonic() > self._answer_due:
                 raise Stopped
+
+    def _note(self, data: bytes) -> None:
+        self._came += data
+        for frame in self._receiver.feed(data):
+            node = frame.node & ~REFUSED
+            if frame.is_answer and node in NODES:
+                self._hear(node)
 
     def write(self, data: bytes) -> None:
         """Send bytes."""
@@ -72,8 +87,14 @@ class Wire:
         """What has been asked and answered since; repeats and beginnings of sessions left out."""
         requests = list(dict.fromkeys(Receiver().feed(bytes(self._sent))))
         others = [frame for frame in requests if frame.message != bytes([VERSION])]
-        answers = {(f.address, f.number): f for f in Receiver().feed(bytes(self._came))}
+        answers = list(Receiver().feed(bytes(self._came)))
         return [
-            Exchange(frame, answers.get((frame.address | ANSWER, frame.number)))
+            Exchange(frame, next((each for each in answers[::-1] if _answers(each, frame)), None))
             for frame in others or requests[-1:]
         ]
+
+
+def _answers(answer: Frame, request: Frame) -> bool:
+    """Whether it is the answer; several requests may have the number 0."""
+    same = (answer.address, answer.number) == (request.address | ANSWER, request.number)
+    return same and answer.message[:1] in (request.message[:1], bytes([UNKNOWN]))

@@ -1,6 +1,7 @@
 """The one thread that owns the line: orders wait for their turn, a stop does not.
 
-Whatever happens is told as JSON objects for the browsers, in the thread in which it happens.
+Whatever happens is told as JSON objects for the browsers, in the thread in which it happens. What
+cannot be done now is refused now: nothing is kept for a unit or a port that comes back.
 """
 
 from __future__ import annotations
@@ -8,35 +9,52 @@ from __future__ import annotations
 import sys
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from threading import Condition, Thread
 from typing import Any, TypeVar
 
-from rkm04_tools import messages
 from rkm04_tools.failure import Failure
-from rkm04_tools.line import Line, Unit, Wait
+from rkm04_tools.line import Line, Unit
 from rkm04_tools.line_errors import LineError, PortError, PortLost
-from rkm04_tools.messages import ALL_MOTORS, GET_POSITION, SET_COMMAND, VERSION
+from rkm04_tools.messages import ALL_MOTORS, SET_COMMAND, VERSION
 from rkm04_tools.service import talking, virtual
 from rkm04_tools.service.answers import Answer, answer_of, whose
+from rkm04_tools.service.live import LOOKING, View
 from rkm04_tools.service.orders import (
     MESSAGES,
     Act,
     Asked,
     Connect,
     Disconnect,
+    Node,
     Request,
+    Work,
+    motor_of,
+    name_of,
 )
-from rkm04_tools.service.trouble import NotConnected, Stopped, as_json
+from rkm04_tools.service.stopping import stop_all
+from rkm04_tools.service.trouble import (
+    Late,
+    NotConfirmed,
+    NotConnected,
+    Stopped,
+    Unsent,
+    as_json,
+)
 from rkm04_tools.service.virtual import VirtualLine
 from rkm04_tools.service.wire import Exchange, Wire
 from rkm04_tools.transport import open_transport
 
 LOOK_SECONDS = 0.1
+"""From one look to the next at least; looks take no more than half of the line's time."""
+
 LOOK_AGAIN_SECONDS = 1.0
-"""From one look to the next while the unit does not answer."""
-LOOKING = Wait(attempts=2)
+"""From one look to the next while the unit does not answer, or the port is away."""
+
+TURN_SECONDS = 10.0
+"""What has waited longer for its turn is refused."""
+
 CLOSING_SECONDS = 10.0
 ORDERS_MAX = 100
 
@@ -45,18 +63,13 @@ Tell = Callable[[dict[str, Any]], None]
 
 
 @dataclass(frozen=True)
-class Lost:
-    """The port has gone, as somebody else has found out."""
-
-    failure: Failure
-
-
-Work = Connect | Disconnect | Request | Act
-
-
-@dataclass(frozen=True)
 class State:
-    """What all browsers know about the connection. `busy`: what is being done on the line."""
+    """What all browsers know about the connection.
+
+    `busy`: what is being done. `away`: the port was lost, and is opened again when it
+    is there. `nodes`: those that have answered since the service began, on any port. `stop`: those
+    that have not confirmed the last stop; None: all have, or there was none.
+    """
 
     connected: bool = False
     port: str | None = None
@@ -65,44 +78,44 @@ class State:
     busy: str | None = None
     unit: dict[str, Any] | None = None
     error: dict[str, Any] | None = None
-
-    def as_json(self) -> dict[str, Any]:
-        """For browsers."""
-        return {"type": "state", **asdict(self)}
+    away: bool = False
+    nodes: tuple[Node, ...] = ()
+    stop: tuple[Node, ...] | None = None
 
 
 class Worker:
     """Takes orders from any thread; `tell` gets all that browsers are to know.
 
-    `seen` gets the positions of a unit on a line that has no other way to tell them, `is_watched`
-    says whether anybody wants to know.
+    `is_watched` says whether anybody wants to know what the unit does.
     """
 
-    def __init__(
-        self,
-        tell: Tell,
-        seen: Callable[[list[int]], None],
-        is_watched: Callable[[], bool],
-        units: VirtualLine,
-    ) -> None:
+    def __init__(self, tell: Tell, is_watched: Callable[[], bool], units: VirtualLine) -> None:
         self._tell = tell
-        self._seen = seen
         self._is_watched = is_watched
         self._units = units
+        self._view = View(tell)
         self._state = State()
         self._line: Line | None = None
         self._wire: Wire | None = None
+        self._heard: dict[Node, float] = {}
         self._wakes = Condition()
-        self._waiting: deque[tuple[Work | Lost, Asked]] = deque()
-        self._stops: deque[Asked] = deque()
+        self._waiting: deque[tuple[Work, Asked, float]] = deque()
+        self._stops: deque[tuple[Asked, Sequence[Node]]] = deque()
         self._closing = False
         self._look_due = 0.0
         self._thread = Thread(target=self._run, name="line", daemon=True)
 
     @property
     def state(self) -> State:
-        """What browsers know now."""
+        """What is known now."""
         return self._state
+
+    def state_as_json(self) -> dict[str, Any]:
+        """What browsers know now, and how long ago the unit answered; None: it never has."""
+        state = self._state
+        heard = self._heard.get(Node(state.port or "", state.node))
+        ago = None if heard is None else round(time.monotonic() - heard, 1)
+        return {"type": "state", **asdict(state), "seen_ago_s": ago}
 
     def start(self) -> None:
         """Begin to work."""
@@ -113,22 +126,18 @@ class Worker:
         with self._wakes:
             if len(self._waiting) >= ORDERS_MAX:
                 raise Failure("too much is waiting for the line; wait for the answers")
-            self._waiting.append((order, asked))
+            self._waiting.append((order, asked, time.monotonic()))
             self._wakes.notify()
 
-    def stop(self, asked: Asked) -> None:
-        """Send K to all motors, next; what waits is given up."""
+    def stop(self, asked: Asked, nodes: Sequence[Node] = ()) -> None:
+        """Send K to all motors, next; what waits is given up.
+
+        Those who ask may know of `nodes` that have answered before this service began.
+        """
         with self._wakes:
-            self._stops.append(asked)
-            waiting = list(self._waiting)
-            self._waiting = deque(
-                each for each in waiting if not isinstance(each[0], Request | Act)
-            )
+            self._stops.append((asked, nodes))
             self._wakes.notify()
-        for order, by_whom in waiting:
-            if isinstance(order, Request | Act):
-                told = answer_of(order.name, order.motor, self._state.node, by_whom, Stopped())
-                self._tell(told)
+        self._give_up(Stopped())
 
     def close(self) -> None:
         """End the work; the unit is left as it is."""
@@ -137,6 +146,20 @@ class Worker:
             self._wakes.notify()
         if self._thread.is_alive():
             self._thread.join(CLOSING_SECONDS)
+
+    def refuse(self, order: Work, asked: Asked, failure: Failure) -> None:
+        """Say that an order is not obeyed, and why."""
+        node = self._state.node
+        self._tell(answer_of(name_of(order), motor_of(order), node, asked, failure))
+
+    def _give_up(self, failure: Failure) -> None:
+        """Refuse what waits for the line."""
+        with self._wakes:
+            waiting = list(self._waiting)
+            self._waiting = deque(each for each in waiting if not _is_for_unit(each[0]))
+        for order, asked, _ in waiting:
+            if _is_for_unit(order):
+                self.refuse(order, asked, failure)
 
     def _run(self) -> None:
         while not self._closing:
@@ -160,25 +183,27 @@ class Worker:
     def _is_stop_wanted(self) -> bool:
         return self._closing or bool(self._stops)
 
-    def _looks(self) -> bool:
-        return bool(self._line) and not self._state.virtual
-
     def _rest_seconds(self) -> float | None:
-        return max(0.0, self._look_due - time.monotonic()) if self._looks() else None
+        if not self._line and not self._state.away:
+            return None
+        return max(0.0, self._look_due - time.monotonic())
 
-    def _do(self, order: Work | Lost, asked: Asked) -> None:
-        if isinstance(order, Lost):
-            if self._line:
-                self._note(order.failure)
+    def _do(self, order: Work, asked: Asked, since: float) -> None:
+        if time.monotonic() - since > TURN_SECONDS:
+            self.refuse(order, asked, Late())
             return
-        name, motor = _name(order), _motor(order)
+        name = name_of(order)
         if self._wire:
             self._wire.forget()
         self._change(busy=name)
         got = _tried(lambda: self._obey(order, asked))
-        self._note(got)
+        if isinstance(got, LineError):
+            self._give_up(Unsent())
+        is_first = isinstance(order, Connect) and asked.client is None
+        self._note(got, comes_back=is_first or not isinstance(order, Connect))
         wanted = VERSION if isinstance(order, Connect) else MESSAGES.get(name, SET_COMMAND)
-        told = answer_of(name, motor, self._state.node, asked, got, self._exchanges(wanted))
+        node, exchanges = self._state.node, self._exchanges(wanted)
+        told = answer_of(name, motor_of(order), node, asked, got, exchanges)
         self._change(busy=None)
         self._tell(told)
 
@@ -187,7 +212,9 @@ class Worker:
             return self._connect(order)
         if isinstance(order, Disconnect):
             self._close_line()
-            self._change(connected=False, port=None, virtual=False, unit=None, error=None)
+            self._change(
+                connected=False, port=None, virtual=False, unit=None, error=None, away=False
+            )
             return Answer("the port is closed")
         unit = self._unit()
         if isinstance(order, Act):
@@ -196,49 +223,95 @@ class Worker:
         def tell_progress(done: int, total: int) -> None:
             if self._is_stop_wanted():
                 raise Stopped
-            value = done / total
-            self._tell({"type": "progress", "value": value, **whose(asked)})
+            self._tell({"type": "progress", "value": done / total, **whose(asked)})
+            if self._is_watched():
+                _tried(lambda: self._view.look(unit))
 
         return talking.ask(unit, order, tell_progress)
 
-    def _do_stop(self, stops: list[Asked]) -> None:
+    def _do_stop(self, stops: Sequence[tuple[Asked, Sequence[Node]]]) -> None:
         """Send K once for all who have asked for it until now; a later one sends another."""
         wire = self._wire
-        self._change(busy="stop")
+        there, elsewhere = self._to_be_stopped([node for _, nodes in stops for node in nodes])
+        self._change(busy="stop", stop=(*there, *elsewhere))
         if wire:
             wire.forget()
             wire.yields = False
-        got = _tried(self._send_stop)
+        got = _tried(lambda: self._send_stop(there, elsewhere))
         if wire:
             wire.yields = True
         self._note(got)
         exchanges = self._exchanges(SET_COMMAND)
         self._change(busy=None)
-        for asked in stops:
+        for asked, _ in stops:
             self._tell(answer_of("stop", ALL_MOTORS, self._state.node, asked, got, exchanges))
 
-    def _send_stop(self) -> Answer:
-        self._unit().motor(ALL_MOTORS).stop()
-        return Answer("all motors stop")
+    def _to_be_stopped(self, named: Sequence[Node]) -> tuple[list[Node], list[Node]]:
+        """The nodes that are to confirm a stop, the last heard first, and those out of reach.
+
+        The virtual units of a port that was closed are nobody's machine.
+        """
+        state = self._state
+        known = dict.fromkeys([*sorted(self._heard, key=self._heard.__getitem__)[::-1], *named])
+        here = state.port or "" if self._line else ""
+        there = [node for node in known if node.port == here]
+        if self._line and Node(here, state.node) not in there:
+            there.append(Node(here, state.node))
+        elsewhere = [node for node in known if node.port not in (here, virtual.NAME)]
+        return there, elsewhere
+
+    def _send_stop(self, there: Sequence[Node], elsewhere: Sequence[Node]) -> Answer:
+        if not self._line:
+            raise NotConnected
+        port = self._state.port or ""
+
+        def leave(left: Sequence[int]) -> None:
+            self._change(stop=(*(Node(port, node) for node in left), *elsewhere))
+
+        left = stop_all(self._line, [each.node for each in there], leave, self._view_of)
+        if left or elsewhere:
+            names = [f"node {node}" for node in left]
+            names += [f"node {each.node} of {each.port}" for each in elsewhere]
+            raise NotConfirmed(", ".join(names))
+        self._change(stop=None)
+        return Answer("all motors stop", {"confirmed": [asdict(each) for each in there]})
+
+    def _view_of(self, node: int, status: Any) -> None:
+        if node == self._state.node:
+            self._view.show(node, status)
 
     def _connect(self, order: Connect) -> Answer:
         """Open the port if it is not open, and ask the unit for its version: nothing moves."""
-        is_virtual = order.port == virtual.NAME
         if not self._line or self._state.port != order.port:
             self._close_line()
             self._change(
-                connected=False, port=order.port, virtual=is_virtual, node=order.node,
-                unit=None, error=None,
+                connected=False, port=order.port, virtual=order.port == virtual.NAME,
+                node=order.node, unit=None, error=None, away=False,
             )  # fmt: skip
-            place = self._units.open() if is_virtual else order.port
-            self._wire = Wire(open_transport(place), self._is_stop_wanted)
-            self._line = Line(self._wire)
+            self._open(order.port)
         if self._state.node != order.node:
             self._change(node=order.node, unit=None)
+        self._view.begin()
         self._change(connected=True)
         answer = talking.version(self._unit())
         self._change(unit=answer.values, error=None)
+        if not self._state.stop:
+            self._change(stop=None)  # a stop without any unit
         return answer
+
+    def _open(self, port: str) -> None:
+        place = self._units.open() if port == virtual.NAME else port
+
+        def hear(node: int) -> None:
+            self._hear(Node(port, node))
+
+        self._wire = Wire(open_transport(place), self._is_stop_wanted, hear)
+        self._line = Line(self._wire)
+
+    def _hear(self, node: Node) -> None:
+        self._heard[node] = time.monotonic()
+        if node not in self._state.nodes:
+            self._change(nodes=(*self._state.nodes, node))
 
     def _unit(self) -> Unit:
         if not self._line:
@@ -246,40 +319,54 @@ class Worker:
         return self._line.unit(self._state.node)
 
     def _look(self) -> None:
-        """Ask for the positions, if anybody wants to know."""
-        self._look_due = time.monotonic() + LOOK_SECONDS
-        if not self._looks() or not self._is_watched():
+        """See what the unit does, if anybody wants to know; a port that was lost comes back."""
+        started = time.monotonic()
+        self._look_due = started + LOOK_SECONDS
+        if not self._is_watched():
             return
-        positions = _tried(self._ask_positions)
+        seen = _tried(self._look_at_unit)
         if self._wire:
             self._wire.forget()
-        if isinstance(positions, list):
+        now = time.monotonic()
+        if seen is None:
+            self._look_due = max(self._look_due, 2 * now - started)
             self._change(error=None)
-            self._seen(positions)
-        elif not isinstance(positions, Stopped):
-            self._look_due = time.monotonic() + LOOK_AGAIN_SECONDS
-            self._note(positions)
+        elif not isinstance(seen, Stopped):
+            self._look_due = now + LOOK_AGAIN_SECONDS
+            self._note(seen)
+            if not isinstance(seen, LineError):
+                self._change(error=as_json(seen))
 
-    def _ask_positions(self) -> list[int]:
-        answer = self._unit().ask(messages.request(GET_POSITION, ALL_MOTORS), LOOKING)
-        return messages.parse_positions(answer, ALL_MOTORS)
+    def _look_at_unit(self) -> None:
+        """Only asks, whatever has come back: the port, or a unit that may be another one."""
+        if not self._line:
+            self._open(self._state.port or "")
+            self._change(connected=True, away=False, unit=None)
+        unit = self._unit()
+        was_away = bool(self._state.error) or not self._state.unit
+        if was_away:
+            self._view.begin()
+            version = talking.version(unit, LOOKING)
+            self._change(unit=version.values)
+        self._view.look(unit)
+        if was_away:
+            self._give_up(Unsent())
 
-    def lose(self, failure: Failure) -> None:
-        """Say that the port has gone; from any thread."""
-        with self._wakes:
-            self._waiting.append((Lost(failure), Asked()))
-            self._wakes.notify()
+    def _note(self, got: Answer | Failure, comes_back: bool = True) -> None:
+        """Keep what says that there is no connection; a port that is lost is closed.
 
-    def _note(self, got: Answer | Failure) -> None:
-        """Keep what says that there is no connection; a port that is lost is closed."""
+        A port that `comes_back` is opened again when it is there; virtual units need the user.
+        """
         if isinstance(got, Answer):
             self._change(error=None)
         elif isinstance(got, PortError):
             self._close_line()
-            self._change(connected=False, unit=None, error=as_json(got))
+            away = comes_back and not self._state.virtual
+            error = as_json(virtual.ended() if self._state.virtual else got)
+            self._change(connected=False, unit=None, error=error, away=away)
         elif isinstance(got, LineError):
             self._change(error=as_json(got))
-        elif isinstance(got, Failure) and not self._line and not isinstance(got, NotConnected):
+        elif not self._line and not isinstance(got, NotConnected | NotConfirmed):
             self._change(connected=False, error=as_json(got))
 
     def _close_line(self) -> None:
@@ -296,7 +383,7 @@ class Worker:
         before = self._state
         self._state = State(**{**vars(before), **changes})
         if self._state != before:
-            self._tell(self._state.as_json())
+            self._tell(self.state_as_json())
 
 
 def _tried(work: Callable[[], Got]) -> Got | Failure:
@@ -311,11 +398,5 @@ def _tried(work: Callable[[], Got]) -> Got | Failure:
         return PortLost(f"{what}; this is a fault of the tool, connect again")
 
 
-def _name(order: Work) -> str:
-    if isinstance(order, Request | Act):
-        return order.name
-    return "connect" if isinstance(order, Connect) else "disconnect"
-
-
-def _motor(order: Work) -> int | None:
-    return order.motor if isinstance(order, Request | Act) else None
+def _is_for_unit(order: Work) -> bool:
+    return isinstance(order, Request | Act)

@@ -1,34 +1,33 @@
 import { byId, make } from "./dom";
 import { language, t } from "./i18n";
 import type { Link } from "./link";
-import type { Log } from "./log";
-import { ALL_MOTORS, MOTORS, type MessageName, type ToService } from "./protocol";
+import { ALL_MOTORS, MOTORS, type MessageName } from "./protocol";
 import { Cell } from "./signal";
 
 const MESSAGES: MessageName[] = ["version", "send", "store", "position", "program", "table", "progress"];
 const RESET_ASKS_MS = 4000;
-const FLASH_MS = 600;
+/** A second press sooner than this belongs to the first, as in a double click. */
+const RESET_SETTLES_MS = 400;
 
 export interface ShownProgram {
     motor: number;
     text: string;
 }
 
-/** What goes to the unit when the user says so: messages, resume, reset, speed, and above all Stop. */
+/** What goes to the unit when the user says so: messages, resume, reset and speed. STOP is in stop.ts. */
 export class Commands {
     readonly motor = new Cell<number>(MOTORS[0]);
     readonly #link: Link;
-    readonly #log: Log;
     readonly #program: () => ShownProgram;
     readonly #message = byId("message", HTMLSelectElement);
     readonly #reset = byId("reset", HTMLButtonElement);
     readonly #progress = byId("progress", HTMLProgressElement);
     #asksReset = 0;
+    #asked_ms = 0;
     #sending: number | null = null;
 
-    constructor(link: Link, log: Log, program: () => ShownProgram) {
+    constructor(link: Link, program: () => ShownProgram) {
         this.#link = link;
-        this.#log = log;
         this.#program = program;
         this.#addMotors();
         this.#listen();
@@ -38,7 +37,10 @@ export class Commands {
                 this.#endProgress();
             }
         });
-        link.isOpen.onChange(() => this.#endProgress());
+        link.isOpen.onChange(() => {
+            this.#endProgress();
+            this.forgetReset();
+        });
         language.watch(() => this.#translate());
         this.motor.onChange(() => this.describe());
     }
@@ -55,37 +57,22 @@ export class Commands {
         byId("send-hint", HTMLElement).textContent = message === "send" ? send : t(`about.${message}`);
     }
 
-    /** Stops all motors: at once, whatever else is under way. */
-    stop(): void {
-        const button = byId("stop", HTMLButtonElement);
-        button.dataset.pressed = "true";
-        window.setTimeout(() => delete button.dataset.pressed, FLASH_MS);
-        this.#say("stop", { type: "stop", id: this.#link.nextId() });
-    }
-
     #listen(): void {
         const click = (id: string, action: () => void): void =>
             byId(id, HTMLButtonElement).addEventListener("click", action);
-        click("stop", () => this.stop());
-        click("resume", () => this.#say("resume", { type: "resume", id: this.#link.nextId() }));
+        click("resume", () => this.#link.send({ type: "resume", id: this.#link.nextId() }));
         click("reset", () => this.#askReset());
         byId("speed-form", HTMLFormElement).addEventListener("submit", (event) => {
             event.preventDefault();
             const value = byId("speed", HTMLInputElement).valueAsNumber;
             const id = this.#link.nextId();
-            this.#say("speed", { type: "speed", id, motor: this.motor.value, value });
+            this.#link.send({ type: "speed", id, motor: this.motor.value, value });
         });
         byId("message-form", HTMLFormElement).addEventListener("submit", (event) => {
             event.preventDefault();
             this.#request();
         });
         this.#message.addEventListener("change", () => this.describe());
-        const escape = (event: KeyboardEvent): void => {
-            if (event.key === "Escape" && !event.repeat) {
-                this.stop();
-            }
-        };
-        window.addEventListener("keydown", escape, { capture: true });
     }
 
     #request(): void {
@@ -95,30 +82,27 @@ export class Commands {
         if (message === "send") {
             this.#sending = id;
         }
-        this.#say(message, { type: "request", id, message, motor: this.motor.value, ...text });
-    }
-
-    /** A click that was not sent must not look as if it had been. */
-    #say(name: string, message: ToService): void {
-        if (!this.#link.send(message)) {
-            this.#log.say(name, { cause: t("state.notSent"), next: "" });
-        }
+        this.#link.send({ type: "request", id, message, motor: this.motor.value, ...text });
     }
 
     /** The first press asks, the second one within a few seconds resets. */
     #askReset(): void {
-        window.clearTimeout(this.#asksReset);
         if (this.#asksReset !== 0) {
-            this.#forgetReset();
-            this.#say("reset", { type: "reset", id: this.#link.nextId() });
+            if (performance.now() - this.#asked_ms > RESET_SETTLES_MS) {
+                this.forgetReset();
+                this.#link.send({ type: "reset", id: this.#link.nextId() });
+            }
             return;
         }
+        this.#asked_ms = performance.now();
         this.#reset.textContent = t("reset.sure");
         this.#reset.classList.add("danger");
-        this.#asksReset = window.setTimeout(() => this.#forgetReset(), RESET_ASKS_MS);
+        this.#asksReset = window.setTimeout(() => this.forgetReset(), RESET_ASKS_MS);
     }
 
-    #forgetReset(): void {
+    /** A reset that was asked for and not confirmed is not meant any more. */
+    forgetReset(): void {
+        window.clearTimeout(this.#asksReset);
         this.#asksReset = 0;
         this.#reset.textContent = t("reset.name");
         this.#reset.classList.remove("danger");
@@ -159,7 +143,7 @@ export class Commands {
         );
         this.#message.value = chosen;
         byId("motor-name-0", HTMLElement).textContent = t("motor.allShort");
-        this.#forgetReset();
+        this.forgetReset();
         this.describe();
     }
 }

@@ -1,6 +1,7 @@
 import { byId, make } from "./dom";
-import { language, t } from "./i18n";
+import { language, numberText, t } from "./i18n";
 import type { Link } from "./link";
+import type { Presence } from "./presence";
 import { ALL_MOTORS, type Port, type UnitState } from "./protocol";
 import { troubleText } from "./trouble";
 
@@ -12,6 +13,7 @@ const SWITCHES = 4;
 /** Port, node, and the state of the connection. Only the button connects: choosing sends nothing. */
 export class Connection {
     readonly #link: Link;
+    readonly #presence: Presence;
     readonly #port = byId("port", HTMLSelectElement);
     readonly #other = byId("port-other", HTMLInputElement);
     readonly #node = byId("node", HTMLSelectElement);
@@ -21,8 +23,9 @@ export class Connection {
     #ports: Port[] = [];
     #state: UnitState | null = null;
 
-    constructor(link: Link) {
+    constructor(link: Link, presence: Presence) {
         this.#link = link;
+        this.#presence = presence;
         for (let node = 1; node <= NODES; node += 1) {
             this.#node.append(make("option", { value: String(node) }, String(node)));
         }
@@ -36,6 +39,8 @@ export class Connection {
         link.on("ports", ({ ports }) => this.#setPorts(ports));
         link.on("state", (state) => this.#setState(state));
         link.isOpen.onChange((isOpen) => this.#linkChanged(isOpen));
+        presence.isFresh.onChange(() => this.#showState());
+        presence.seconds.onChange(() => this.#showState());
         language.watch(() => {
             this.#showPorts();
             this.#showSwitches();
@@ -43,8 +48,9 @@ export class Connection {
         });
     }
 
-    get isConnected(): boolean {
-        return this.#link.isOpen.value && this.#state?.connected === true;
+    /** Whether the port is open, or will be when it is there again. */
+    get #isWanted(): boolean {
+        return this.#state?.connected === true || this.#state?.away === true;
     }
 
     #linkChanged(isOpen: boolean): void {
@@ -55,7 +61,7 @@ export class Connection {
     }
 
     #connectOrNot(): void {
-        if (this.#state?.connected) {
+        if (this.#isWanted) {
             this.#link.send({ type: "disconnect" });
             return;
         }
@@ -121,32 +127,54 @@ export class Connection {
     #showState(): void {
         const state = this.#state;
         const isOpen = this.#link.isOpen.value;
-        const isConnected = isOpen && state?.connected === true;
-        this.#pill.dataset.kind = isConnected ? "good" : state?.error || !isOpen ? "bad" : "idle";
-        this.#pill.textContent = this.#stateText(isOpen);
-        this.#button.textContent = t(state?.connected ? "connection.disconnect" : "connection.connect");
-        this.#button.classList.toggle("primary", !state?.connected);
+        const isFresh = this.#presence.isFresh.value;
+        const isBad = !isOpen || (state?.error && !state.connected);
+        this.#pill.dataset.kind = isFresh ? "good" : isBad ? "bad" : "idle";
+        const [place, ...more] = this.#stateText(isOpen, isFresh);
+        this.#pill.replaceChildren(
+            make("span", { class: "place" }, place ?? ""),
+            ...(more.length > 0 ? [make("span", { class: "more" }, more.join(" · "))] : []),
+        );
+        this.#button.textContent = t(this.#isWanted ? "connection.disconnect" : "connection.connect");
+        this.#button.classList.toggle("primary", !this.#isWanted);
         this.#button.disabled = !isOpen;
         for (const field of [this.#port, this.#node, this.#other]) {
-            field.disabled = state?.connected === true;
+            field.disabled = this.#isWanted;
         }
-        const trouble = !isOpen ? t("state.lost") : state?.error ? troubleText(state.error) : "";
-        this.#banner.textContent = trouble;
+        const trouble = this.#troubleText(isOpen);
+        if (this.#banner.textContent !== trouble) {
+            this.#banner.textContent = trouble;
+        }
         this.#banner.hidden = trouble === "";
-        document.body.dataset.connected = String(isConnected);
+        document.body.dataset.connected = String(isOpen && state?.connected === true);
     }
 
-    #stateText(isOpen: boolean): string {
+    #troubleText(isOpen: boolean): string {
+        if (!isOpen) {
+            return t("state.lost");
+        }
+        const trouble = this.#state?.error ? troubleText(this.#state.error) : "";
+        return this.#state?.away ? `${trouble}. ${t("state.comesBack")}` : trouble;
+    }
+
+    /** The place first, which gives way where there is no room for it. */
+    #stateText(isOpen: boolean, isFresh: boolean): string[] {
         const state = this.#state;
         if (!isOpen) {
-            return t("state.noService");
+            return [t("state.noService")];
+        }
+        const port = state?.virtual ? t("port.virtualShort") : (state?.port ?? "");
+        const seconds = this.#presence.seconds.value;
+        const seen = seconds === null ? t("state.neverSeen") : t("state.seen", { seconds: numberText(seconds) });
+        if (state?.away) {
+            return [t("state.away", { port }), seen];
         }
         if (!state?.connected) {
-            return t("state.disconnected");
+            return [t("state.disconnected")];
         }
-        const port = state.virtual ? t("port.virtualShort") : (state.port ?? "");
-        const version = state.unit ? ` · ${state.unit.version}` : "";
-        const busy = state.busy ? ` · ${t("state.busy")}` : "";
-        return t("state.connected", { port, node: state.node }) + version + busy;
+        const version = state.unit ? state.unit.version : "";
+        const busy = state.busy ? t("state.busy") : "";
+        const place = t("state.connected", { port, node: state.node });
+        return [place, ...[isFresh ? version : seen, busy].filter((part) => part !== "")];
     }
 }

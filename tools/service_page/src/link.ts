@@ -3,20 +3,28 @@ import type { FromService, ToService } from "./protocol";
 
 const FIRST_RETRY_MS = 300;
 const LAST_RETRY_MS = 3000;
+/** The service gives a sign of life twice a second: after so long without any it is taken for dead. */
+const SILENT_MS = 2000;
+const LOOK_MS = 250;
 
 type Kind = FromService["type"];
 type Of<K extends Kind> = Extract<FromService, { type: K }>;
 
 /**
- * The WebSocket to the service. It opens itself again when it is lost; nothing is queued meanwhile, and opening
- * sends nothing, so that a page which comes back never acts on a unit.
+ * The WebSocket to the service. It opens itself again when it is lost or falls silent; nothing is queued meanwhile,
+ * and opening sends nothing, so that a page which comes back never acts on a unit.
  */
 export class Link {
+    /** Whether the service is there, as far as it is known. */
     readonly isOpen = new Cell(false);
     /** The number that the service gave to this page; answers to its requests carry it. */
     client: number | null = null;
     readonly #handlers = new Map<Kind, ((message: FromService) => void)[]>();
+    readonly #onRefused: ((message: ToService) => void)[] = [];
     #socket: WebSocket | null = null;
+    #heard_ms = 0;
+    /** The youngest sign of life: what is sent carries it, and the service refuses what is older than it looks. */
+    #beat = 0;
     #retry_ms = FIRST_RETRY_MS;
     #last_id = 0;
 
@@ -26,27 +34,24 @@ export class Link {
         this.#handlers.set(kind, handlers);
     }
 
+    /** Calls the handler with what was not sent. */
+    onRefused(handler: (message: ToService) => void): void {
+        this.#onRefused.push(handler);
+    }
+
     open(): void {
-        const socket = new WebSocket(`ws://${location.host}/ws`);
-        this.#socket = socket;
-        socket.onopen = () => {
-            this.#retry_ms = FIRST_RETRY_MS;
-            this.isOpen.set(true);
-        };
-        socket.onmessage = (event) => this.#receive(JSON.parse(String(event.data)) as FromService);
-        socket.onclose = () => {
-            this.isOpen.set(false);
-            window.setTimeout(() => this.open(), this.#retry_ms);
-            this.#retry_ms = Math.min(2 * this.#retry_ms, LAST_RETRY_MS);
-        };
+        this.#connect();
+        window.setInterval(() => this.#watch(), LOOK_MS);
     }
 
     /** Sends now or not at all; returns whether it was sent. */
     send(message: ToService): boolean {
-        if (this.#socket?.readyState !== WebSocket.OPEN) {
+        this.#watch();
+        if (!this.isOpen.value || this.#socket?.readyState !== WebSocket.OPEN) {
+            this.#onRefused.forEach((handler) => handler(message));
             return false;
         }
-        this.#socket.send(JSON.stringify(message));
+        this.#socket.send(JSON.stringify({ ...message, beat: this.#beat }));
         return true;
     }
 
@@ -56,9 +61,43 @@ export class Link {
         return this.#last_id;
     }
 
+    #connect(): void {
+        const socket = new WebSocket(`ws://${location.host}/ws`);
+        this.#socket = socket;
+        this.#heard_ms = performance.now();
+        socket.onmessage = (event) => this.#receive(JSON.parse(String(event.data)) as FromService);
+        socket.onclose = () => this.#lose();
+    }
+
+    #watch(): void {
+        if (performance.now() - this.#heard_ms > SILENT_MS) {
+            this.#lose();
+        }
+    }
+
+    /** A socket that is dead, or may be, is used no more, whatever still comes from it. */
+    #lose(): void {
+        const socket = this.#socket;
+        if (socket === null) {
+            return;
+        }
+        this.#socket = null;
+        socket.onmessage = socket.onclose = null;
+        socket.close();
+        this.isOpen.set(false);
+        window.setTimeout(() => this.#connect(), this.#retry_ms);
+        this.#retry_ms = Math.min(2 * this.#retry_ms, LAST_RETRY_MS);
+    }
+
     #receive(message: FromService): void {
+        this.#heard_ms = performance.now();
+        if (message.type === "hello" || message.type === "beat") {
+            this.#beat = message.beat;
+        }
         if (message.type === "hello") {
             this.client = message.client ?? null;
+            this.#retry_ms = FIRST_RETRY_MS;
+            this.isOpen.set(true);
         }
         for (const handler of this.#handlers.get(message.type) ?? []) {
             handler(message);

@@ -1,17 +1,19 @@
 import { Commands } from "./commands";
 import { Connection } from "./connection";
 import { byId } from "./dom";
-import { setUpLanguage } from "./i18n";
+import { setUpLanguage, t } from "./i18n";
 import { Link } from "./link";
 import { LiveView } from "./live";
 import { Log } from "./log";
 import { Plan } from "./plan";
 import { Programs } from "./programs";
+import { Presence } from "./presence";
 import { ALL_MOTORS } from "./protocol";
+import { Stop } from "./stop";
 
 /*
  * Puts the parts together. The parts do not know each other; what one of them needs of another is handed in
- * here. Nothing on this page acts on a unit except what the user presses (commands.ts, connection.ts).
+ * here. Nothing on this page acts on a unit except what the user presses (stop.ts, commands.ts, connection.ts).
  */
 const link = new Link();
 setUpLanguage(byId("language", HTMLSelectElement));
@@ -23,12 +25,22 @@ const programs: Programs = new Programs({
     example: (example) => plan.setInputs(example.inputs ?? []),
 });
 const log = new Log(link, (motor, text) => programs.replace(motor, text));
-const commands = new Commands(link, log, () => {
+const commands = new Commands(link, () => {
     const motor = programs.shown.value;
     return { motor, text: programs.text(motor) };
 });
-new Connection(link);
-new LiveView(link);
+const presence = new Presence(link);
+const stop = new Stop(link);
+new Connection(link, presence);
+new LiveView(link, presence);
+
+stop.onPress(() => commands.forgetReset());
+link.onRefused((message) => {
+    if (message.type !== "ports") {
+        const name = message.type === "request" ? message.message : message.type;
+        log.say(name, { cause: t("state.notSent"), next: "" });
+    }
+});
 
 commands.motor.onChange((motor) => {
     if (motor !== ALL_MOTORS && motor !== programs.shown.value) {

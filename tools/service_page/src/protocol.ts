@@ -20,9 +20,16 @@ export type ToService =
     | { type: "disconnect" }
     | { type: "ports" }
     | { type: "request"; id: number; message: MessageName; motor: number; text?: string }
-    | { type: "stop" | "resume" | "reset"; id: number }
+    | { type: "stop"; id: number; nodes: Node[] }
+    | { type: "resume" | "reset"; id: number }
     | { type: "speed"; id: number; motor: number; value: number }
     | { type: "input"; input: number; level: 0 | 1 };
+
+/** A unit: its address on a port. */
+export interface Node {
+    port: string;
+    node: number;
+}
 
 export interface UnitState {
     connected: boolean;
@@ -32,21 +39,50 @@ export interface UnitState {
     busy: string | null;
     error: Trouble | null;
     unit?: { version: string; date: string } | null;
+    /** The port was lost, and is opened again when it is there. */
+    away: boolean;
+    /** Those that have answered since the service began. */
+    nodes: Node[];
+    /** Those that have not confirmed the last stop; null: all have, or there was none. */
+    stop: Node[] | null;
+    /** Seconds since the unit answered last; null: it never has. */
+    seen_ago_s: number | null;
 }
 
+/** What a motor does; see firmware/docs/messages.md, Get Status. An original unit tells positions only. */
 export interface MotorLive {
     position: number;
-    /** Steps/s, negative backward. */
-    speed: number;
-    idle: boolean;
+    /** Steps/s, negative backward; null: not known. */
+    speed: number | null;
+    /** null: not known, and neither is the rest. */
+    moving: boolean | null;
+    running?: boolean;
+    waiting?: boolean;
+    stopped?: boolean;
+    failed?: boolean;
+    ended?: boolean;
+    error?: string;
+    awaited?: { what: string; number: number; level: number } | null;
+}
+
+export interface LiveUnit {
+    cause: string;
+    no_crystal: boolean;
+    not_started: boolean;
+    memory_locked: boolean;
+    simulating: boolean;
+    late_steps: number;
+    line: Record<string, number>;
 }
 
 export interface Live {
+    node: number;
     time_s: number;
     motors: MotorLive[];
-    /** null: the line has no message that asks for them. */
+    /** null: the unit does not know Get Status. */
     inputs: number[] | null;
     outputs: number[] | null;
+    unit: LiveUnit | null;
 }
 
 export interface Answer {
@@ -79,6 +115,7 @@ export interface AnswerValues {
     steps?: number;
     command?: number;
     speed?: number;
+    confirmed?: Node[];
 }
 
 export interface Port {
@@ -87,7 +124,8 @@ export interface Port {
 }
 
 export type FromService =
-    | { type: "hello"; version: string; language_default: string; client?: number }
+    | { type: "hello"; version: string; language_default: string; client?: number; beat: number }
+    | { type: "beat"; beat: number }
     | ({ type: "state" } & UnitState)
     | { type: "ports"; ports: Port[] }
     | ({ type: "live" } & Live)

@@ -1,0 +1,105 @@
+import { language, numberText, t } from "./i18n";
+import type { LiveUnit, MotorLive } from "./protocol";
+
+/** Names of errors, which units tell by number and the service in English. */
+const CZECH: Record<string, string> = {
+    "label not found": "návěští nenalezeno",
+    "E without L": "E bez L",
+    "more than 8 nested loops": "více než 8 vnořených smyček",
+    "more than 6 nested calls": "více než 6 vnořených volání",
+    ". without a call": ". bez volání",
+    "more than 10 sections": "více než 10 úseků",
+    "change of direction inside a compound move": "změna směru uvnitř složeného pohybu",
+    "Y without F or B": "Y bez F nebo B",
+    "the stored program is damaged": "uložený program je poškozen",
+    "no motion without the crystal": "bez krystalu se nepohybuje",
+};
+
+/** Counters of the link that mean bytes or frames were lost. */
+const FAULTS = ["stray", "broken", "fcs", "abort", "escape", "short", "long", "gap", "unsent"];
+const REPEATS = "repeats";
+
+export type Kind = "unknown" | "failed" | "stopped" | "moves" | "waits" | "rests";
+
+function awaited({ awaited: what }: MotorLive): string {
+    if (!what) {
+        return t("live.waits");
+    }
+    const { number, level } = what;
+    switch (what.what) {
+        case "input":
+            return t("live.waitsInput", { number, level });
+        case "variable":
+            return t("live.waitsVariable", { number, level });
+        case "time":
+            return t("live.waitsTime");
+        default:
+            return t("live.waitsRelease");
+    }
+}
+
+function halted(motor: MotorLive): [Kind, string] | null {
+    if (motor.failed) {
+        const error = motor.error ?? "";
+        return ["failed", t("live.failed", { error: language.value === "cs" ? (CZECH[error] ?? error) : error })];
+    }
+    if (motor.ended) {
+        return ["stopped", t("live.ended")];
+    }
+    return motor.stopped ? ["stopped", t("live.stopped")] : null;
+}
+
+/** What a motor does, in a word for the style and in words for people. */
+export function motorState(motor: MotorLive): [Kind, string] {
+    if (motor.moving === null) {
+        return ["unknown", t("live.unknown")];
+    }
+    const halt = halted(motor);
+    if (halt) {
+        const [kind, words] = halt;
+        return [kind, motor.moving ? `${words}, ${t("live.slowsDown")}` : words];
+    }
+    if (motor.moving) {
+        return ["moves", t(motor.running ? "live.moves" : "live.slowsDown")];
+    }
+    if (motor.waiting) {
+        return ["waits", awaited(motor)];
+    }
+    return motor.running ? ["waits", t("live.runs")] : ["rests", t("live.idle")];
+}
+
+const CAUSES: Record<string, () => string> = {
+    reset: () => t("live.causeReset"),
+    watchdog: () => t("live.causeWatchdog"),
+    fault: () => t("live.causeFault"),
+};
+
+/** What is to be known of a unit beside its motors, the unusual first. */
+export function unitFacts(unit: LiveUnit): { words: string; isBad: boolean }[] {
+    const cause = CAUSES[unit.cause]?.() ?? (unit.cause === "power-on" ? "" : unit.cause);
+    const bad = [
+        unit.no_crystal ? t("live.noCrystal") : "",
+        unit.not_started ? t("live.notStarted") : "",
+        unit.simulating ? t("live.simulating") : "",
+        unit.cause === "reset" ? "" : cause,
+    ];
+    const plain = [unit.cause === "reset" ? cause : "", unit.memory_locked ? t("live.locked") : ""];
+    const late = { words: t("live.late", { count: numberText(unit.late_steps) }), isBad: unit.late_steps > 0 };
+    const asFacts = (words: string[], isBad: boolean): { words: string; isBad: boolean }[] =>
+        words.filter((each) => each !== "").map((each) => ({ words: each, isBad }));
+    return [...asFacts(bad, true), ...asFacts(plain, false), late];
+}
+
+/** Faults of the line that the unit has counted. */
+export function lineWords(unit: LiveUnit): string {
+    const faults = FAULTS.reduce((sum, name) => sum + (unit.line[name] ?? 0), 0);
+    const words = { faults: numberText(faults), repeats: numberText(unit.line[REPEATS] ?? 0) };
+    return t("live.line", words);
+}
+
+/** All counters of the line, by their names. */
+export function lineCounts(unit: LiveUnit): string {
+    return Object.entries(unit.line)
+        .map(([name, count]) => `${name.toUpperCase()} ${numberText(count)}`)
+        .join(" · ");
+}

@@ -1,0 +1,174 @@
+import { byId } from "./dom";
+import { language, t } from "./i18n";
+import type { Link } from "./link";
+import type { Answer, Node, UnitState } from "./protocol";
+
+const PRESS_MS = 600;
+const DONE_MS = 4000;
+/** A touch or a mouse press stops at once; the click that follows it is not another stop. */
+const SAME_PRESS_MS = 1000;
+
+const VIRTUAL = "virtual";
+const keyOf = ({ port, node }: Node): string => `${node} ${port}`;
+
+/**
+ * STOP: the button, the Escape key, and the line that says who has not confirmed. It is believed only when every
+ * unit has confirmed that was seen since the page was opened, also by a service that has been started anew since.
+ */
+export class Stop {
+    readonly #link: Link;
+    readonly #button = byId("stop", HTMLButtonElement);
+    readonly #alarm = byId("alarm", HTMLElement);
+    readonly #known = new Map<string, Node>();
+    readonly #onPress: (() => void)[] = [];
+    #state: UnitState | null = null;
+    /** The nodes of a stop from this page that have not confirmed it; null: there is none. */
+    #open: Map<string, Node> | null = null;
+    /** Whether a stop from this page has been answered, or will not be. */
+    #isOver = true;
+    #confirmed: Node[] = [];
+    #forget = 0;
+    #pressed_ms = -Infinity;
+
+    constructor(link: Link) {
+        this.#link = link;
+        link.on("state", (state) => this.#setState(state));
+        link.on("answer", (answer) => this.#hear(answer));
+        link.isOpen.onChange(() => this.#linkChanged());
+        this.#button.addEventListener("pointerdown", (event) => {
+            if (event.button === 0) {
+                this.press();
+            }
+        });
+        this.#button.addEventListener("click", () => {
+            if (performance.now() - this.#pressed_ms > SAME_PRESS_MS) {
+                this.press();
+            }
+        });
+        this.#listenToEscape();
+        language.onChange(() => this.#show());
+    }
+
+    /** Calls back at every stop from this page. */
+    onPress(callback: () => void): void {
+        this.#onPress.push(callback);
+    }
+
+    /** Stops all motors: at once, whatever else is under way. */
+    press(): void {
+        this.#pressed_ms = performance.now();
+        this.#button.dataset.pressed = "true";
+        window.setTimeout(() => delete this.#button.dataset.pressed, PRESS_MS);
+        this.#open = new Map([...(this.#open ?? []), ...this.#known]);
+        this.#confirmed = [];
+        this.#isOver = false;
+        this.#show();
+        const nodes = [...this.#open.values()];
+        this.#isOver = !this.#link.send({ type: "stop", id: this.#link.nextId(), nodes });
+        this.#show();
+        this.#onPress.forEach((callback) => callback());
+    }
+
+    /**
+     * Escape means STOP wherever the focus is. An open list of a select element keeps the key for itself and lets
+     * only its release through, so a release without a press counts, too.
+     */
+    #listenToEscape(): void {
+        let isDown = false;
+        const listen = (kind: "keydown" | "keyup", action: (event: KeyboardEvent) => void): void =>
+            window.addEventListener(kind, (event) => event.key === "Escape" && action(event), { capture: true });
+        listen("keydown", (event) => {
+            isDown = true;
+            if (!event.repeat) {
+                this.press();
+            }
+        });
+        listen("keyup", () => {
+            if (!isDown) {
+                this.press();
+            }
+            isDown = false;
+        });
+    }
+
+    #setState(state: UnitState): void {
+        this.#state = state;
+        for (const node of state.nodes) {
+            this.#known.set(keyOf(node), node);
+        }
+        if (this.#isOver && this.#open?.size === 0 && state.stop === null) {
+            this.#open = null;
+        }
+        this.#show();
+    }
+
+    #hear({ message, from, error, values }: Answer): void {
+        if (message !== "stop") {
+            return;
+        }
+        this.#isOver ||= from === this.#link.client;
+        for (const node of values?.confirmed ?? []) {
+            this.#open?.delete(keyOf(node));
+        }
+        if (error === null && this.#outside().length === 0) {
+            this.#open = null;
+            this.#celebrate(values?.confirmed ?? []);
+        }
+        this.#show();
+    }
+
+    /** What has not confirmed, without the virtual units of a port that was closed: they move nothing. */
+    #outside(): Node[] {
+        const all = [...(this.#open?.values() ?? []), ...(this.#state?.stop ?? [])];
+        const nodes = [...new Map(all.map((node) => [keyOf(node), node])).values()];
+        return nodes.filter(({ port }) => port !== VIRTUAL || this.#state?.port === VIRTUAL);
+    }
+
+    #celebrate(confirmed: Node[]): void {
+        this.#confirmed = confirmed;
+        window.clearTimeout(this.#forget);
+        this.#forget = window.setTimeout(() => {
+            this.#confirmed = [];
+            this.#show();
+        }, DONE_MS);
+    }
+
+    /** A stop whose answer is lost with the service is not confirmed, and neither is one that was open there. */
+    #linkChanged(): void {
+        if (!this.#link.isOpen.value) {
+            const left = (this.#state?.stop ?? null)?.map((node) => [keyOf(node), node] as const) ?? null;
+            this.#open = left === null ? this.#open : new Map([...(this.#open ?? []), ...left]);
+            this.#state = null;
+            this.#isOver = true;
+        }
+        this.#show();
+    }
+
+    #show(): void {
+        const isOpen = this.#open !== null || (this.#state?.stop ?? null) !== null;
+        const isUnderWay = isOpen && (!this.#isOver || this.#state?.busy === "stop");
+        const kind = isUnderWay ? "asked" : isOpen ? "failed" : this.#confirmed.length > 0 ? "done" : "none";
+        const words = kind === "none" ? "" : kind === "done" ? this.#doneText() : this.#openText();
+        this.#alarm.dataset.kind = kind;
+        this.#alarm.hidden = kind === "none";
+        if (this.#alarm.textContent !== words) {
+            this.#alarm.textContent = words;
+        }
+    }
+
+    #names(nodes: Node[]): string {
+        const here = this.#state?.port ?? null;
+        const name = ({ port, node }: Node): string =>
+            port === here || port === VIRTUAL ? t("stop.node", { node }) : t("stop.nodeOf", { node, port });
+        return nodes.map(name).join(", ");
+    }
+
+    #openText(): string {
+        const nodes = this.#names(this.#outside());
+        return nodes === "" ? t("stop.notConfirmed") : `${t("stop.notConfirmed")} (${nodes})`;
+    }
+
+    #doneText(): string {
+        return t("stop.confirmed", { nodes: this.#names(this.#confirmed) });
+    }
+}
