@@ -137,7 +137,7 @@ def plan_program(checked: Checked) -> Plan:
         return Plan(checked, commands, Hold.NOTHING, ["".join([*start, *tokens])], notes, reset)
     hold = _hold(checked.source, commands, reset)
     tokens = [*start, "[", *tokens, "]"] if hold is Hold.BRACKETS else ["]", *tokens]
-    return Plan(checked, commands, hold, _packed(tokens), notes, reset)
+    return Plan(checked, commands, hold, pack(tokens), notes, reset)
 
 
 def held_commands(motor: Motor) -> list[str]:
@@ -169,7 +169,7 @@ def load_program(motor: Motor, checked: Checked) -> Sent:
     The motor is stopped as by K: `resume` makes it run.
     """
     plan = plan_program(checked)
-    plan = replace(plan, hold=Hold.STOP, texts=_packed(["]", *plan.plain]))
+    plan = replace(plan, hold=Hold.STOP, texts=pack(["]", *plan.plain]))
     return _send_texts(motor, plan, silent, _halt(motor, plan))
 
 
@@ -229,7 +229,7 @@ def _hold(source: Source, commands: Sequence[Command], reset: bool) -> Hold:
     )
 
 
-def _packed(tokens: Sequence[str]) -> list[str]:
+def pack(tokens: Sequence[str]) -> list[str]:
     """Join commands to as few texts as there can be."""
     texts = [""]
     for token in tokens:

@@ -13,10 +13,11 @@ from rkm04_tools.service.wire import Exchange
 
 @dataclass(frozen=True)
 class Answer:
-    """What came of it: words, and the same as values by name."""
+    """What came of it: words, and the same as values by name. `node`: if another was meant."""
 
     text: str
     values: dict[str, Any] = field(default_factory=dict)
+    node: int | None = None
 
 
 class ProgramWrong(Failure):
@@ -39,6 +40,7 @@ def answer_of(
     told = {"type": "answer", **whose(asked), "message": name, "node": node, "motor": motor}
     told |= _bytes(exchanges or [])
     if isinstance(got, Answer):
+        told["node"] = node if got.node is None else got.node
         return {**told, "text": got.text, "values": got.values, "error": None}
     error = got.told if isinstance(got, ProgramWrong) else as_json(got)
     return {**told, "text": None, "values": None, "error": error}

@@ -30,6 +30,8 @@ MESSAGES = {
     "table": GET_TABLE,
     "progress": GET_PROGRESS,
 }
+SCAN, SEND_ALL = "scan", "send_all"
+TO_ALL_UNITS = ("send", "store")
 ACTS = ("resume", "reset", "speed")
 SCHEMES = ("socket", "rfc2217")
 TEXT_MAX = 200_000
@@ -74,11 +76,18 @@ class Disconnect:
 
 @dataclass(frozen=True)
 class Request:
-    """One of the seven messages."""
+    """One of the seven messages, or several: a scan, the programs of all motors.
+
+    `everywhere`: to all units of the line (DNode 0), of which none answers. `texts` are the
+    programs by motor; they start `together` or as they arrive.
+    """
 
     name: str
     motor: int
     text: str = ""
+    everywhere: bool = False
+    texts: tuple[tuple[int, str], ...] = ()
+    together: bool = False
 
 
 @dataclass(frozen=True)
@@ -164,12 +173,34 @@ def _order(told: Mapping[str, Any]) -> Order:
 
 def _request(told: Mapping[str, Any]) -> Request:
     name = told.get("message")
+    if name == SCAN:
+        return Request(SCAN, ALL_MOTORS)
+    if name == SEND_ALL:
+        together = _flag(told, "together")
+        return Request(SEND_ALL, ALL_MOTORS, texts=_texts(told), together=together)
     if not isinstance(name, str) or name not in MESSAGES:
         raise BadRequest(f"message is none of {', '.join(MESSAGES)}; name one of them")
     motor = _motor(told, ALL_MOTORS if name == "version" else None)
-    if name == "send" or (name == "store" and told.get("text") is not None):
-        return Request(name, motor, _text(told, "text", TEXT_MAX))
-    return Request(name, motor)
+    everywhere = _flag(told, "everywhere")
+    if everywhere and name not in TO_ALL_UNITS:
+        raise BadRequest("node 0 means all units, and none of them answers; ask one of them")
+    has_text = name == "send" or (name == "store" and told.get("text") is not None)
+    return Request(name, motor, _text(told, "text", TEXT_MAX) if has_text else "", everywhere)
+
+
+def _texts(told: Mapping[str, Any]) -> tuple[tuple[int, str], ...]:
+    """Programs by motor, in the order of the motors."""
+    texts = told.get("texts")
+    if not isinstance(texts, dict) or not texts or not set(texts) <= set(map(str, MOTORS)):
+        raise BadRequest('texts is not possible; write {"1": "F100 R"}')
+    return tuple((int(motor), _text(texts, motor, TEXT_MAX)) for motor in sorted(texts))
+
+
+def _flag(told: Mapping[str, Any], name: str) -> bool:
+    value = told.get(name, False)
+    if not isinstance(value, bool):
+        raise BadRequest(f"{name} is not possible; write true or false")
+    return value
 
 
 def _port(told: Mapping[str, Any]) -> str:

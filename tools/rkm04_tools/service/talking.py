@@ -6,18 +6,26 @@ from collections.abc import Callable
 
 from rkm04_tools import messages
 from rkm04_tools.check import check_source
+from rkm04_tools.frame import BROADCAST
 from rkm04_tools.line import USUAL, Motor, Unit, Wait
 from rkm04_tools.line_errors import UnitRefused
 from rkm04_tools.messages import ALL_MOTORS, MOTORS, VERSION
 from rkm04_tools.sending import Tell, check_program, held_commands, plan_program, send_program
 from rkm04_tools.service.answers import Answer, ProgramWrong
 from rkm04_tools.service.checking import NAME, first_error
-from rkm04_tools.service.orders import MESSAGES, Act, Request
+from rkm04_tools.service.orders import MESSAGES, SCAN, SEND_ALL, Act, Request
+from rkm04_tools.service.together import send_all
 from rkm04_tools.source import Source
 
 
 def ask(unit: Unit, request: Request, tell: Tell) -> Answer:
     """Send one of the seven messages; `tell` is told of the progress of a long program."""
+    if request.everywhere:
+        return _broadcast(unit.line.unit(BROADCAST).motor(request.motor), request, tell)
+    if request.name == SCAN:
+        return _scan(unit, tell)
+    if request.name == SEND_ALL:
+        return send_all(unit, dict(request.texts), request.together, tell)
     if request.name == "send":
         return _send(unit.motor(request.motor), request.text, tell)
     if request.name == "store":
@@ -52,10 +60,13 @@ def version(unit: Unit, wait: Wait = USUAL) -> Answer:
 
 
 def _send(motor: Motor, text: str, tell: Tell) -> Answer:
-    checked = check_source(Source(NAME, text))
+    checked = check_source(Source(NAME, text), 1)
     if told := first_error(checked):
         raise ProgramWrong(told)
     sent = send_program(motor, checked, tell)
+    if not sent.commands and not sent.notes:  # K, C75 or \
+        alone = checked.parsed.commands[0].text
+        return Answer(f"{alone} sent", {"alone": alone})
     words = f"{_count(sent.commands, 'command')} in {_count(sent.messages, 'message')} sent"
     if sent.overflow:
         words += "; the program memory was full, commands were lost"
@@ -66,6 +77,32 @@ def _send(motor: Motor, text: str, tell: Tell) -> Answer:
         "notes": list(sent.notes),
     }
     return Answer("; ".join([words, *sent.notes]), values)
+
+
+def _broadcast(motor: Motor, request: Request, tell: Tell) -> Answer:
+    """Send or store on all units of the line: nobody answers, so what came of it is not known."""
+    if request.name == "send":
+        sent = _send(motor, request.text, tell)
+    else:
+        motor.store()
+        sent = Answer("told to store")
+    words = f"to all units: {sent.text}; none of them answers, so it is not known who has got it"
+    return Answer(words, {**sent.values, "everywhere": True}, BROADCAST)
+
+
+def _scan(unit: Unit, tell: Tell) -> Answer:
+    """Ask all addresses who is there; nothing but Version is sent."""
+    found = [
+        {
+            "node": each.node,
+            "version": each.version.number if each.version else None,
+            "date": each.version.date.isoformat() if each.version else None,
+            "remark": each.remark,
+        }
+        for each in unit.line.scan(tell=tell)
+    ]
+    nodes = ", ".join(str(each["node"]) for each in found)
+    return Answer(f"units that answer: {nodes or 'none'}", {"found": found})
 
 
 def _store(motor: Motor, text: str) -> Answer:

@@ -1,0 +1,142 @@
+"""The programs of all motors at once: all are checked before the first is sent."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from rkm04_tools.check import check_source
+from rkm04_tools.failure import NOT_SO, Failure
+from rkm04_tools.line import Motor, Unit
+from rkm04_tools.lint import COMMANDS_MAX
+from rkm04_tools.messages import ALL_MOTORS, MOTORS
+from rkm04_tools.sending import (
+    BRACKETS,
+    POLL_SECONDS,
+    STAND_SECONDS,
+    Plan,
+    Tell,
+    held_commands,
+    pack,
+    plan_program,
+    send_program,
+)
+from rkm04_tools.service.answers import Answer, ProgramWrong
+from rkm04_tools.service.checking import first_error
+from rkm04_tools.source import Source
+
+HOLD, RELEASE = "[", "]"
+
+
+def send_all(unit: Unit, texts: Mapping[int, str], together: bool, tell: Tell) -> Answer:
+    """Send each motor its own program, or nothing if one of them is wrong.
+
+    Each runs as soon as it has arrived; or, `together`, each waits behind `[` until one `]` for all
+    motors lets them start on the same tick.
+    """
+    plans = {motor: _planned(motor, text) for motor, text in texts.items()}
+    if together:
+        plans = {motor: _held_back(motor, plan) for motor, plan in plans.items()}
+        _require_no_other_waits(unit, [motor for motor in MOTORS if motor not in plans])
+    total = sum(len(plan.texts) for plan in plans.values())
+    done, overflow = 0, False
+    for number, plan in plans.items():
+
+        def tell_part(part: int, _: int, before: int = done) -> None:
+            tell(before + part, total)
+
+        try:
+            overflow = _send(unit.motor(number), plan, together, tell_part) or overflow
+        except Failure as failure:
+            raise _told(failure, number, list(plans), together) from None
+        done += len(plan.texts)
+    tell(done, total)
+    if together:
+        _start(unit, list(plans))
+    counts = {str(motor): len(plan.commands) for motor, plan in plans.items()}
+    words = ", ".join(f"motor {motor}: commands {count}" for motor, count in counts.items())
+    words += "; started together" if together else "; each runs since it arrived"
+    notes = [f"motor {motor}: {note}" for motor, plan in plans.items() for note in plan.notes]
+    values = {"sent": counts, "together": together, "overflow": overflow, "notes": notes}
+    return Answer("; ".join([words, *notes]), values)
+
+
+def _planned(motor: int, text: str) -> Plan:
+    checked = check_source(Source(f"motor {motor}", text), 1)
+    if told := first_error(checked):
+        cause = f"motor {motor}: {told['cause']}"
+        advice = f"nothing was sent to any motor; {told['next']}"
+        raise ProgramWrong({**told, "cause": cause, "next": advice, "motor": motor})
+    return plan_program(checked)
+
+
+def _held_back(motor: int, plan: Plan) -> Plan:
+    """The same program behind `[`, in as many texts as it needs."""
+    if any(command.opcode in BRACKETS for command in plan.commands):
+        raise Failure(
+            f"motor {motor}: the program has [ or ] of its own, so it cannot wait for the others; "
+            "nothing was sent to any motor; send without starting together",
+            NOT_SO,
+        )
+    if len(plan.commands) + len(BRACKETS) > COMMANDS_MAX:
+        raise Failure(
+            f"motor {motor}: the memory has no room for [ and ] beside the program; nothing was "
+            "sent to any motor; send without starting together",
+            NOT_SO,
+        )
+    if not plan.commands and not plan.resets:
+        raise Failure(
+            f"motor {motor}: {plan.texts[0]} is no program; nothing was sent to any motor; send it "
+            "alone",
+            NOT_SO,
+        )
+    start = ["\\"] if plan.resets else []
+    return replace(plan, texts=pack([*start, HOLD, *plan.plain]))
+
+
+def _require_no_other_waits(unit: Unit, others: Sequence[int]) -> None:
+    """`]` for all motors would let a motor start that waits behind `[` of another program."""
+    for number in others:
+        brackets = [c for c in held_commands(unit.motor(number)) if c in (HOLD, RELEASE)]
+        if brackets and brackets[-1] == HOLD:
+            raise Failure(
+                f"motor {number} waits at [ in another program and would start too; nothing was "
+                "sent to any motor; reset it, or send without starting together",
+                NOT_SO,
+            )
+
+
+def _send(motor: Motor, plan: Plan, together: bool, tell: Tell) -> bool:
+    """Send a program; return whether the memory has overflowed."""
+    if not together:
+        return send_program(motor, plan.checked, tell).overflow
+    overflow = False
+    for part, text in enumerate(plan.texts):
+        tell(part, len(plan.texts))
+        overflow = motor.command(text) or overflow
+    return overflow
+
+
+def _told(failure: Failure, motor: int, motors: Sequence[int], together: bool) -> Failure:
+    """The same failure, with the motor and what has become of the others."""
+    sent = ", ".join(str(each) for each in motors[: list(motors).index(motor)])
+    others = "nothing was started" if together else f"already sent to motor {sent}"
+    words = f"motor {motor}" + (f" ({others})" if sent else "")
+    failure.args = (f"{words}: {failure}",)
+    return failure
+
+
+def _start(unit: Unit, motors: Sequence[int]) -> None:
+    """Let all motors start, when none of them slows down any more because of `\\`."""
+    end = time.monotonic() + STAND_SECONDS
+    for number in motors:
+        while unit.motor(number).table():
+            if time.monotonic() > end:
+                raise Failure(
+                    f"motor {number} still moves, so nothing was started; the programs wait for ] "
+                    "to all motors",
+                    NOT_SO,
+                )
+            time.sleep(POLL_SECONDS)
+    unit.motor(ALL_MOTORS).command(RELEASE)
