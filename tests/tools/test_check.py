@@ -28,7 +28,7 @@ def test_a_good_program_is_counted_on_standard_output(tool, write):
 
     result = tool("check", path)
 
-    assert (result.status, result.out, result.err) == (0, f"{path}: 3 commands\n", "")
+    assert (result.status, result.out, result.err) == (0, f"{path}: 2 commands\n", "")
 
 
 def test_an_error_shows_its_place_its_line_and_a_caret(tool, write):
@@ -125,7 +125,7 @@ def test_lines_may_end_in_any_way(tool, write, end):
             "\N{LEFT SINGLE QUOTATION MARK}3",
             'unknown command "\N{LEFT SINGLE QUOTATION MARK}"; a subroutine is called with \'',
         ),
-        ("\0", "unknown command (control character, code 0)"),
+        ("\7", "unknown command (control character, code 7)"),
         ("\u200b", "unknown command (zero width space, code 8203)"),
         ("R { open", "the comment that begins here has no end; close it with }"),
     ],

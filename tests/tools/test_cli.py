@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rkm04_tools import host
 from rkm04_tools.cli import main
-from rkm04_tools.source import Source, decode
+from rkm04_tools.source import Source, decode, why_no_text
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "tools" / "examples"
 COMMANDS = ["check", "sim", "bench"]
@@ -128,6 +128,9 @@ def test_check_takes_any_bytes_and_agrees_with_the_unit(program, content):
 
     status, out, _ = quietly("check", program, "--json")
 
+    assert (status == 2) == bool(why_no_text(content))
+    if status == 2:
+        return
     (file,) = json.loads(out)["files"]
     lines = len(decode(content).splitlines()) + 1
     assert status == (1 if file["errors"] else 0)
@@ -142,8 +145,8 @@ def test_any_program_runs_or_is_refused_in_order(program, content):
 
     status, out, err = quietly("sim", program, "--for", "0.5")
 
-    assert status in (0, 1)
-    assert (out == "") == (not accepted_by_the_unit(program, content))
+    assert (status == 2) == bool(why_no_text(content))
+    assert (out == "") == (status == 2 or not accepted_by_the_unit(program, content))
     assert "Traceback" not in err
 
 

@@ -218,7 +218,7 @@ BAD_INPUTS = [
     "5,1,1,1",
     "1" * 30 + ",1,1",
     "5,,1",
-    "\0",
+    "\1",
 ]
 
 
@@ -282,11 +282,6 @@ def test_an_output_in_no_folder_is_refused(tool, tmp_path, flag):
 @pytest.mark.parametrize("flag", ["--steps", "--trace", "--vcd"])
 def test_a_directory_is_no_output(tool, tmp_path, flag):
     expect_wrong_usage(tool("sim", LOOP, flag, tmp_path), "is a directory")
-
-
-@pytest.mark.parametrize("path", ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"])
-def test_a_stream_is_no_output(tool, path):
-    expect_wrong_usage(tool("sim", LOOP, "--trace", path), f"{path}: is a stream; name a file")
 
 
 @pytest.mark.parametrize("flag", ["--steps", "--trace", "--vcd"])

@@ -6,14 +6,15 @@ import json
 import sys
 from argparse import Namespace
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, TextIO
 
-from rkm04_tools.complaint import describe
+from rkm04_tools.complaint import describe, without_comments
 from rkm04_tools.failure import DONE, NOT_SO, Failure
 from rkm04_tools.host import Parsed, opcode_rows, parse, program_path
-from rkm04_tools.lint import Remark, lint
+from rkm04_tools.lint import Remark, lint, stored
 from rkm04_tools.source import Place, Source, read_source
+
+SHOWN_MAX = 50
 
 
 @dataclass(frozen=True)
@@ -52,14 +53,12 @@ class Checked:
         return not self.parsed.errors
 
 
-def check_source(source: Source, described: int | None = None) -> Checked:
-    """Parse a text; warnings are for texts without errors only.
-
-    Only the first of many errors are put into words if a number to be `described` is given.
-    """
+def check_source(source: Source) -> Checked:
+    """Parse a text; warnings are for texts without errors only."""
     parsed = parse(source.message)
     if parsed.errors:
         rows = opcode_rows()
+        errors = without_comments(source.text, parsed.errors)
         found = [
             Diagnostic(
                 source.place(error.offset),
@@ -68,7 +67,7 @@ def check_source(source: Source, described: int | None = None) -> Checked:
                 describe(source.text, error, rows),
                 error.flag,
             )
-            for error in parsed.errors[:described]
+            for error in errors
         ]
         return Checked(source, parsed, found)
     return Checked(source, parsed, [_warning(source, remark) for remark in lint(parsed.commands)])
@@ -83,6 +82,16 @@ def show(source: Source, diagnostic: Diagnostic, stream: TextIO) -> None:
         print(source.excerpt(place), file=stream)
 
 
+def show_all(checked: Checked, stream: TextIO, but: str = "") -> None:
+    """Print what there is to say about a file, at most SHOWN_MAX; `but` is a rule to leave out."""
+    told = [each for each in checked.diagnostics if each.rule != but]
+    for diagnostic in told[:SHOWN_MAX]:
+        show(checked.source, diagnostic, stream)
+    if (more := len(told) - SHOWN_MAX + checked.parsed.more) > 0:
+        what = "error" if checked.parsed.errors else "warning"
+        print(f"{checked.source.name}: and {_count(more, f'more {what}')}", file=stream)
+
+
 def run(options: Namespace) -> int:
     """Check all files; the status is that of the worst one."""
     program_path()
@@ -90,7 +99,7 @@ def run(options: Namespace) -> int:
     answers = []
     for path in options.files:
         try:
-            checked = check_source(read_source(Path(path)))
+            checked = check_source(read_source(path))
         except Failure as failure:
             print(f"rkm04: {failure}", file=sys.stderr)
             status = max(status, failure.status)
@@ -109,10 +118,10 @@ def _warning(source: Source, remark: Remark) -> Diagnostic:
 
 
 def _report(checked: Checked) -> None:
-    for diagnostic in checked.diagnostics:
-        show(checked.source, diagnostic, sys.stdout)
-    errors = len(checked.parsed.errors)
-    verdict = _count(errors, "error") if errors else _count(len(checked.parsed.commands), "command")
+    show_all(checked, sys.stdout)
+    errors = len(checked.diagnostics) + checked.parsed.more if checked.parsed.errors else 0
+    commands = len(stored(checked.parsed.commands))
+    verdict = _count(errors, "error") if errors else _count(commands, "command")
     warnings = 0 if errors else len(checked.diagnostics)
     noted = f", {_count(warnings, 'warning')}" if warnings else ""
     print(f"{checked.source.name}: {verdict}{noted}")
@@ -127,7 +136,8 @@ def _as_json(checked: Checked) -> dict[str, Any]:
     return {
         "file": checked.source.name,
         "ok": checked.is_good,
-        "commands": len(checked.parsed.commands),
+        "commands": len(stored(checked.parsed.commands)),
         "errors": [d for d in found if d["severity"] == "error"],
+        "more_errors": checked.parsed.more,
         "warnings": [d for d in found if d["severity"] == "warning"],
     }

@@ -145,7 +145,9 @@ def _add(
 def _add_check(commands: Commands) -> None:
     title = "find every error in program files, and what is surely not meant"
     command = _add(commands, "check", check.run, title, "rkm04 check tools/examples/*.rks")
-    command.add_argument("files", nargs="+", metavar="FILE", help="a program file")
+    command.add_argument(
+        "files", nargs="+", metavar="FILE", help="a program file; -: standard input"
+    )
 
 
 def _add_sim(commands: Commands) -> None:
@@ -155,7 +157,9 @@ def _add_sim(commands: Commands) -> None:
         "  rkm04 sim --motor 1=a.rks --motor 2=b.rks --inputs inputs.csv --for 10"
     )
     command = _add(commands, "sim", _sim, title, f"{example}\n\n{SIM_NOTES.rstrip()}")
-    command.add_argument("file", nargs="?", metavar="FILE", help="the program of motor 1")
+    command.add_argument(
+        "file", nargs="?", metavar="FILE", help="the program of motor 1; -: standard input"
+    )
     options = [
         ("--motor", "N=FILE", "the program of motor N (1 to 4); may be repeated"),
         ("--inputs", "INPUTS", "what the inputs do over time; all are 0 at the start"),

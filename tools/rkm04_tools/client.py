@@ -5,7 +5,6 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Callable, Sequence
 from difflib import unified_diff
-from pathlib import Path
 from typing import Any
 
 from rkm04_tools import archive
@@ -26,6 +25,7 @@ from rkm04_tools.frame import BROADCAST
 from rkm04_tools.line import Motor, Unit, open_line
 from rkm04_tools.messages import ALL_MOTORS, MOTORS
 from rkm04_tools.sending import Plan, held_commands, plan_program
+from rkm04_tools.source import named
 from rkm04_tools.status import status_text
 from rkm04_tools.table import table, thousands
 from rkm04_tools.watch import run_watch
@@ -183,14 +183,14 @@ def run_diff(options: Namespace) -> int:
 def run_backup(options: Namespace) -> int:
     """Write the programs of a line to a folder."""
     with open_line(port_of(options)) as line, Bar("asking") as bar:
-        saved = archive.backup(line, Path(options.folder), bar.show)
+        saved = archive.backup(line, named(options.folder), bar.show)
     return _tell_archive(options, saved, "saved to")
 
 
 def run_restore(options: Namespace) -> int:
     """Load and store the programs of a folder."""
     port = port_of(options)
-    programs = archive.read_folder(Path(options.folder))
+    programs = archive.read_folder(named(options.folder))
     with open_line(port) as line, Bar("restoring") as bar:
         archive.restore(line, programs, bar.show)
     status = _tell_archive(options, programs, "restored from")

@@ -6,10 +6,9 @@ import json
 import os
 import sys
 from argparse import Namespace
-from pathlib import Path
 from typing import Any
 
-from rkm04_tools.check import Checked, check_source, show
+from rkm04_tools.check import Checked, check_source, show_all
 from rkm04_tools.failure import DONE, Failure
 from rkm04_tools.frame import BROADCAST, NODES
 from rkm04_tools.line import Motor
@@ -53,9 +52,8 @@ def checked_file(file: str, but: str = "") -> Checked:
 
     `but` names a rule that does not matter here.
     """
-    checked = check_source(read_source(Path(file)))
-    for diagnostic in (each for each in checked.diagnostics if each.rule != but):
-        show(checked.source, diagnostic, sys.stderr)
+    checked = check_source(read_source(file))
+    show_all(checked, sys.stderr, but)
     return checked
 
 

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 from rkm04_tools.host import OpcodeRow, ParseError
 from rkm04_tools.opcodes import CONDITIONAL, MEANINGS, rows_of, wants
+from rkm04_tools.source import LINE_END
 
 WRONG_VALUE = 1
 SHOWN_MAX = 16
@@ -21,10 +22,31 @@ QUOTES = (
 )
 
 
+FOREIGN_COMMENTS = (";", "//", "#", "--", "%")
+"""What comments begin with elsewhere."""
+
+
+def without_comments(text: str, errors: Sequence[ParseError]) -> list[ParseError]:
+    """Leave out what follows from a comment of another language, up to the end of its line."""
+    kept: list[ParseError] = []
+    behind = 0
+    for error in errors:
+        if error.offset < behind:
+            continue
+        kept.append(error)
+        if text.startswith(FOREIGN_COMMENTS, error.offset):
+            end = LINE_END.search(text, error.offset)
+            behind = end.start() if end else len(text)
+    return kept
+
+
 def describe(text: str, error: ParseError, rows: Sequence[OpcodeRow]) -> str:
     """Say what is wrong at the place of an error, and what would be right."""
     if error.flag == WRONG_VALUE:
         return _wrong_value(text, error.offset, rows)
+    for mark in FOREIGN_COMMENTS:
+        if text.startswith(mark, error.offset):
+            return f"{mark} begins no comment here; write comments in {{ }}"
     return _unknown(text[error.offset], rows)
 
 
@@ -66,6 +88,8 @@ def _advice(character: str, rows: Sequence[OpcodeRow]) -> str:
         return "; this number belongs to no command"
     if character.islower() and rows_of(character.upper(), rows):
         return f"; commands are upper case: {character.upper()}"
+    if character == "\x1a":
+        return "; the end of a DOS file stands here, with more behind it"
     if character == "}":
         return "; no comment is open here"
     if character in QUOTES:

@@ -51,10 +51,11 @@ class ParseError:
 
 @dataclass(frozen=True)
 class Parsed:
-    """All commands and all errors of a text, in its order."""
+    """All commands and all errors of a text, in its order; `more` errors are not listed."""
 
     commands: list[Command]
     errors: list[ParseError]
+    more: int = 0
 
 
 @dataclass(frozen=True)
@@ -75,7 +76,8 @@ def parse(message: bytes) -> Parsed:
         Command(c["offset"], c["opcode"], c["io"], c["value"], c["text"])
         for c in answer["commands"]
     ]
-    return Parsed(commands, [ParseError(e["offset"], e["flag"]) for e in answer["errors"]])
+    errors = [ParseError(e["offset"], e["flag"]) for e in answer["errors"]]
+    return Parsed(commands, errors, answer["more"])
 
 
 @cache
@@ -85,9 +87,9 @@ def opcode_rows() -> list[OpcodeRow]:
     return [OpcodeRow(r["name"], r["letter"], r["form"], r["min"], r["max"]) for r in rows]
 
 
-def simulate(arguments: Sequence[str]) -> dict[str, Any]:
-    """Run programs; the answer is the summary."""
-    return _answer(["sim", *arguments], progress="simulating")
+def simulate(arguments: Sequence[str], pipes: Sequence[int] = ()) -> dict[str, Any]:
+    """Run programs, which may write to these open pipes; the answer is the summary."""
+    return _answer(["sim", *arguments], progress="simulating", pipes=pipes)
 
 
 def measure() -> dict[str, Any]:
@@ -106,12 +108,14 @@ def program_path() -> Path:
     return path
 
 
-def _answer(arguments: Sequence[str], given: bytes = b"", progress: str = "") -> dict[str, Any]:
+def _answer(
+    arguments: Sequence[str], given: bytes = b"", progress: str = "", pipes: Sequence[int] = ()
+) -> dict[str, Any]:
     """Run the program to its end and return what it answers."""
     command = [str(program_path()), *arguments]
     pipe = subprocess.PIPE
     with subprocess.Popen(
-        command, stdin=pipe, stdout=pipe, stderr=pipe, env=child.bound()
+        command, stdin=pipe, stdout=pipe, stderr=pipe, env=child.bound(), pass_fds=pipes
     ) as process:
         try:
             out, complaint = _communicate(process, given, progress)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rkm04_tools.failure import Failure, reading_failed
+from rkm04_tools.source import decode
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -127,7 +128,7 @@ def _read_trace(path: Path) -> list[Event]:
 
 def read_inputs(path: Path) -> list[tuple[float, int, int]]:
     """Read an inputs file that the simulator has accepted."""
-    lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    lines = decode(path.read_bytes()).splitlines()
     cells = (line.partition(COMMENT)[0].split(",") for line in lines)
     rows = [(float(c[0]), int(c[1]), int(c[2])) for c in cells if len(c) == 3]
     return sorted(rows, key=lambda row: row[0])

@@ -14,18 +14,21 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from rkm04_tools import host, sim_board
-from rkm04_tools.check import Checked, check_source, show
+from rkm04_tools.check import Checked, check_source, show_all
 from rkm04_tools.failure import DONE, NOT_SO, Failure, reading_failed, writing_failed
 from rkm04_tools.plot import draw, require_format
 from rkm04_tools.record import read_record
 from rkm04_tools.report import Run, summary
 from rkm04_tools.signals import signals
-from rkm04_tools.source import read_source
+from rkm04_tools.source import is_standard_input, named, read_source, why_no_text
 
 MOTORS = range(1, 5)
+HEAD_BYTES = 65_536
 SECONDS_MAX = 100_000_000
 """More than the longest move takes at 1 step/s."""
 
+STANDARD = re.compile(r"/dev/std(in|out|err)|(/dev/fd|/proc/[^/]+/fd)/[0-2]")
+PIPE = re.compile(r"(?:/dev/fd|/proc/self/fd)/(\d{1,6})")
 NUMBER = re.compile(r"\d{1,9}(\.\d{1,9})?")
 
 
@@ -58,6 +61,7 @@ def run(options: Namespace) -> int:
     if not _all_good(checked.values()):
         return NOT_SO
     with TemporaryDirectory(prefix="rkm04-") as folder:
+        inputs = _plain(inputs, Path(folder))
         if options.target == "stm32":
             files = sim_board.Files(inputs, outputs.steps, outputs.vcd)
             return _on_board(checked, files, options, Path(folder))
@@ -67,12 +71,12 @@ def run(options: Namespace) -> int:
 
 def _path(options: Namespace, name: str) -> Path | None:
     value: str | None = getattr(options, name)
-    return None if value is None else Path(value)
+    return None if value is None else named(value)
 
 
 def _programs(options: Namespace) -> dict[int, Path]:
     """Which program each motor runs."""
-    given = [f"1={options.file}"] if options.file is not None else []
+    given = [f"1={named(options.file)}"] if options.file is not None else []
     programs: dict[int, Path] = {}
     for text in [*given, *options.motor]:
         number, equals, name = text.partition("=")
@@ -80,9 +84,11 @@ def _programs(options: Namespace) -> dict[int, Path]:
             raise Failure(f"--motor {text}: write --motor N=FILE with N from 1 to 4")
         if int(number) in programs:
             raise Failure(f"motor {number} has two programs; give it one (FILE is for motor 1)")
-        programs[int(number)] = Path(name)
+        programs[int(number)] = named(name)
     if not programs:
         raise Failure("no program to run; name a FILE, or --motor N=FILE")
+    if sum(map(is_standard_input, programs.values())) > 1:
+        raise Failure("- is for one motor only: standard input is one program")
     return dict(sorted(programs.items()))
 
 
@@ -96,27 +102,49 @@ def _require_inputs(path: Path | None) -> None:
     if path is None:
         return
     try:
-        with path.open("rb"):
-            pass
+        if path.exists() and not path.is_file() and not path.is_dir():
+            return  # it can be read once only
+        with path.open("rb") as file:
+            wrong = why_no_text(file.read(HEAD_BYTES))
     except OSError as error:
         raise reading_failed(path, error) from None
+    if wrong:
+        raise Failure(f"{path}: {wrong.partition(';')[0]}; name a file with lines ms,input,level")
+
+
+def _plain(inputs: Path | None, folder: Path) -> Path | None:
+    """The inputs as a file that can be read again and again, and by others."""
+    if inputs is None or inputs.is_file():
+        return inputs
+    copy = folder / "inputs.csv"
+    copy.write_bytes(inputs.read_bytes())
+    return copy
+
+
+def _pipes(outputs: Outputs) -> list[int]:
+    """The descriptors that a shell has opened for >(COMMAND), which the simulator must get."""
+    found = (PIPE.fullmatch(str(path)) for path in outputs.wanted)
+    return [int(match[1]) for match in found if match]
 
 
 def _is_stream(path: Path) -> bool:
-    """Whether a path names an open stream: that of the simulator would be another one."""
-    return str(path).startswith(("/dev/std", "/dev/fd", "/proc/"))
+    """Whether a path names standard input or output: those of the simulator are others."""
+    return STANDARD.fullmatch(str(path)) is not None
 
 
 def _require_outputs(outputs: Outputs, read: Sequence[Path]) -> None:
     """Refuse what cannot be written before anything runs."""
     if outputs.plot:
         require_format(outputs.plot)
+    for path in filter(None, (outputs.steps, outputs.trace)):
+        if outputs.plot and path.exists() and not path.is_file():
+            raise Failure(f"{path}: --plot reads it back, so it must be a plain file")
     known = {path.resolve(): "is read by this very command" for path in read}
     for path in outputs.wanted:
         if path.is_dir():
             raise Failure(f"{path}: is a directory; name a file in it")
         if _is_stream(path):
-            raise Failure(f"{path}: is a stream; name a file")
+            raise Failure(f"{path}: the summary goes there; name a file, or use >(COMMAND)")
         if not path.parent.is_dir():
             raise Failure(f"{path}: there is no folder {path.parent}; make it first")
         if not os.access(path if path.exists() else path.parent, os.W_OK):
@@ -136,8 +164,7 @@ def _require_board_has(outputs: Outputs) -> None:
 def _all_good(programs: Collection[Checked]) -> bool:
     """Show what there is to say about the programs on standard error."""
     for checked in {c.source.name: c for c in programs}.values():
-        for diagnostic in checked.diagnostics:
-            show(checked.source, diagnostic, sys.stderr)
+        show_all(checked, sys.stderr)
     return all(checked.is_good for checked in programs)
 
 
@@ -161,7 +188,7 @@ def _simulate(
     for name, path in named.items():
         arguments += [f"--{name}", str(path)] if path else []
     try:
-        answer = host.simulate(arguments)
+        answer = host.simulate(arguments, _pipes(outputs))
     except BaseException:
         _remove_parts([path for path in (steps, trace, outputs.vcd) if path])
         raise

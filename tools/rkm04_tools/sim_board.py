@@ -7,6 +7,7 @@ program is wrong, and how many pulses there should be.
 
 from __future__ import annotations
 
+import codecs
 import json
 import re
 from collections.abc import Mapping, Sequence
@@ -73,6 +74,7 @@ def line_script(programs: Mapping[int, Checked]) -> tuple[str, float]:
 def later(inputs: bytes, by_ms: float) -> bytes:
     """An inputs file whose changes come later; those at 0 stay, being what the inputs are at."""
     lines = []
+    inputs = inputs.removeprefix(codecs.BOM_UTF8)
     for line in inputs.splitlines(keepends=True):
         change = CHANGE.match(line)
         if change and float(change[1]) > 0:

@@ -6,7 +6,9 @@ byte, and an offset that the firmware reports is the index of a character.
 
 from __future__ import annotations
 
+import codecs
 import re
+import sys
 import unicodedata
 from bisect import bisect_right
 from dataclasses import dataclass
@@ -23,6 +25,13 @@ CALL_FORMS = "\N{ACUTE ACCENT}\N{RIGHT SINGLE QUOTATION MARK}\N{DOUBLE LOW-9 QUO
 
 FOREIGN = 0xFF
 """The byte of every other character outside ASCII: the unit knows no such command."""
+
+STANDARD_INPUT = "-"
+DOS_END = re.compile(r"\x1a[\x1a\s]*\Z")
+"""The end of a file as DOS editors write it; what blanks follow it is nothing."""
+TEXT_CONTROLS = b"\t\n\v\f\r\x1a\x1b"
+CONTROLS_PER_BYTES, CONTROLS_MIN = 20, 3
+"""A file of more control characters than one in so many, and than so many, is no text."""
 
 EXCERPT_COLUMNS = 100
 LINE_END = re.compile(r"\r\n|\n|\r")
@@ -71,24 +80,54 @@ class Source:
         return f"{_printable(shown)}\n{_blanks(shown[: at - first])}^"
 
 
-def read_source(path: Path) -> Source:
-    """Read a program file: UTF-8, or else Windows-1250, as the manual's own programs are."""
+def read_source(name: str | Path) -> Source:
+    """Read a program file, or standard input for `-`: UTF-8, or else Windows-1250, as the manual's
+    own programs are."""
+    path = named(str(name))
     try:
-        with path.open("rb") as file:
+        with sys.stdin.buffer if is_standard_input(path) else path.open("rb") as file:
             content = file.read(FILE_BYTES_MAX + 1)
     except OSError as error:
         raise reading_failed(path, error) from None
     if len(content) > FILE_BYTES_MAX:
         raise Failure(f"{path}: larger than {FILE_BYTES_MAX} bytes, so it is not a program")
+    if wrong := why_no_text(content):
+        raise Failure(f"{path}: {wrong}")
     return Source(str(path), decode(content))
+
+
+def named(name: str) -> Path:
+    """The file of a name, which must be one."""
+    if not name:
+        raise Failure("a file name is empty; name a file")
+    return Path(name)
+
+
+def is_standard_input(path: Path) -> bool:
+    """Whether a program comes from standard input."""
+    return str(path) == STANDARD_INPUT
+
+
+def why_no_text(content: bytes) -> str:
+    """What a file is that is no text of 8-bit characters; empty for one that is."""
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return "this is UTF-16; save it as UTF-8 or ANSI"
+    even, odd = content[::2].count(0), content[1::2].count(0)
+    if min(even, odd) == 0 and 3 * max(even, odd) > len(content):
+        return "this is UTF-16 without a mark; save it as UTF-8 or ANSI"
+    controls = len(content.translate(None, bytes(range(32, 256)) + TEXT_CONTROLS))
+    if even or odd or controls > max(CONTROLS_MIN, len(content) // CONTROLS_PER_BYTES):
+        return "is not a text file; name a program (.rks)"
+    return ""
 
 
 def decode(content: bytes) -> str:
     """Text of a program file; any bytes are one."""
     try:
-        return content.decode("utf-8-sig")
+        text = content.decode("utf-8-sig")
     except UnicodeDecodeError:
-        return content.decode("cp1250", errors="replace")
+        text = content.decode("cp1250", errors="replace")
+    return DOS_END.sub("", text)
 
 
 def _byte(character: str) -> int:

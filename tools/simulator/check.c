@@ -9,6 +9,8 @@
 #include "program_listing.h"
 #include "program_parser.h"
 
+enum { LISTED_MAX = 1000 };
+
 static void print_command(const struct program_parser *parser, const struct program_instruction *instruction)
 {
     uint8_t text[PROGRAM_COMMAND_BYTES_MAX];
@@ -25,19 +27,20 @@ static void print_error(const struct program_parser *parser, enum program_status
                  (unsigned)parser->text[parser->place]);
 }
 
-/* Either all commands or all errors; the text is read once for each. */
-static void print_list(const struct infile *file, bool errors)
+/* Either all commands or the first errors; the text is read once for each. Returns how many errors were left out. */
+static uint32_t print_list(const struct infile *file, bool errors)
 {
     struct program_parser parser;
     struct program_instruction instruction;
     const char *before = "\n";
+    uint32_t found = 0;
     program_parser_init(&parser, file->bytes, file->length);
     for (;;) {
         enum program_status status = program_parser_next(&parser, &instruction);
         if (status == PROGRAM_END) {
-            return;
+            return errors && found > LISTED_MAX ? found - LISTED_MAX : 0;
         }
-        if ((status != PROGRAM_OK) != errors) {
+        if ((status != PROGRAM_OK) != errors || (errors && ++found > LISTED_MAX)) {
             continue;
         }
         (void)fputs(before, stdout);
@@ -57,10 +60,10 @@ enum exit_status check_file(const char *path)
         return EXIT_REFUSED;
     }
     (void)fputs("{\"commands\":[", stdout);
-    print_list(&file, false);
+    (void)print_list(&file, false);
     (void)fputs("],\n\"errors\":[", stdout);
-    print_list(&file, true);
-    (void)fputs("]}\n", stdout);
+    uint32_t more = print_list(&file, true);
+    (void)printf("],\n\"more\":%" PRIu32 "}\n", more);
     infile_discard(&file);
     return finish_output();
 }

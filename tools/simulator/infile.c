@@ -57,6 +57,29 @@ bool infile_read(struct infile *file, const char *path)
     return error == 0;
 }
 
+/* What may stand behind the last line: blanks, and the end that DOS editors write. */
+static bool is_end(uint8_t byte)
+{
+    return byte == 0x1AU || byte == ' ' || byte == '\t' || byte == '\r' || byte == '\n';
+}
+
+bool infile_read_text(struct infile *file, const char *path)
+{
+    static const uint8_t mark[] = {0xEF, 0xBB, 0xBF};
+    if (!infile_read(file, path)) {
+        return false;
+    }
+    if (file->length >= sizeof mark && memcmp(file->bytes, mark, sizeof mark) == 0) {
+        file->length -= (uint32_t)sizeof mark;
+        memmove(file->bytes, file->bytes + sizeof mark, file->length + 1U);
+    }
+    while (file->length > 0 && is_end(file->bytes[file->length - 1U])) {
+        file->length--;
+        file->bytes[file->length] = 0;
+    }
+    return true;
+}
+
 uint32_t infile_line(const struct infile *file, uint32_t offset)
 {
     uint32_t line = 1;

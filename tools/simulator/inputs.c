@@ -154,7 +154,7 @@ bool inputs_read(struct inputs *inputs, const char *path)
     if (path == NULL) {
         return true;
     }
-    if (!infile_read(&file, path)) {
+    if (!infile_read_text(&file, path)) {
         return false;
     }
     struct entries entries = {.list = NULL};

@@ -118,7 +118,7 @@ bool inputs_open(struct board *board)
     if (options->inputs == NULL) {
         return true;
     }
-    if (!infile_read(&file, options->inputs)) {
+    if (!infile_read_text(&file, options->inputs)) {
         return false;
     }
     bool good = read_file(&board->inputs, &file);

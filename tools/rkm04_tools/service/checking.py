@@ -24,12 +24,11 @@ def check(text: str) -> dict[str, Any]:
 
     `more`: so many of them are not told.
     """
-    checked = check_source(Source(NAME, text), PROBLEMS_MAX)
+    checked = check_source(Source(NAME, text))
     told = checked.diagnostics[:PROBLEMS_MAX]
-    found = len(checked.parsed.errors) or len(checked.diagnostics)
     return {
         "problems": [_problem(checked.source, each) for each in told],
-        "more": found - len(told),
+        "more": len(checked.diagnostics) - len(told) + checked.parsed.more,
         "commands": len(stored(checked.parsed.commands)),
     }
 
