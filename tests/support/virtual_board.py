@@ -217,7 +217,8 @@ class VirtualBoard:
 
 def pin_times_too_short(summary: Mapping[str, Any]) -> list[str]:
     """Where STEP or DIR of the reference board moved too soon; a reset may cut a pulse short."""
-    if sum(summary["resets"].values()) > 1:
+    resets = sum(summary["resets"].values()) + summary["pin_resets"]
+    if resets + summary["supply"]["brown_outs"] > 1:
         return []
     return [
         f"motor {motor['motor']}: {name} {motor[name]} us, less than {least}"

@@ -69,7 +69,7 @@ void board_warn(struct board *board, const char *format, ...)
 
 void board_request_reset(struct board *board, enum reset_cause cause)
 {
-    if (board->wanted_reset == RESET_NONE) {
+    if (board->wanted_reset == RESET_NONE || cause == RESET_HELD) {
         board->wanted_reset = cause;
     }
     cpu_poke(&board->cpu);
@@ -86,7 +86,7 @@ void board_reset(struct board *board, enum reset_cause cause)
     }
     board->resets[cause]++;
     board->stats.depth = 0;
-    board->cpu.stalled_forever = false;
+    board->cpu.stalled_forever = board->supply.held;
     faults_reset(board);
     nvic_reset(board);
     scb_reset(board);
@@ -96,6 +96,7 @@ void board_reset(struct board *board, enum reset_cause cause)
     timers_reset(board);
     usarts_reset(board);
     plain_reset(board);
+    supply_reset(board);
     exti_reset(board);
     gpio_reset(board);
     rcc_reset(board, cause);
@@ -104,6 +105,9 @@ void board_reset(struct board *board, enum reset_cause cause)
         board->cpu.wait_states = 0;
     }
     cpu_reset(board);
+    if (cause == RESET_POWER && board->options->left_by_loader) {
+        loader_leave(board);
+    }
 }
 
 static void reset_peripheral(struct board *board, uint32_t offset, unsigned bit)
@@ -217,7 +221,8 @@ static bool open_files(struct board *board)
 {
     const struct options *options = board->options;
     return pins_read(&board->pins, options->pins) && recorder_open(board) && inputs_open(board) && rs485_open(board) &&
-           tty_open(board) && profile_open(board, options->profile) && faults_open(board);
+           tty_open(board) && profile_open(board, options->profile) && faults_open(board) &&
+           supply_open(board);
 }
 
 /* What is wired to the part, before power comes. */
@@ -245,8 +250,7 @@ bool board_init(struct board *board, const struct options *options)
     memset(board, 0, sizeof *board);
     board->options = options;
     events_init(&board->events);
-    board->plain.supply_mv = PLAIN_SUPPLY_MV;
-    board->flash.options = FLASH_OPTIONS_DELIVERED;
+    board->flash.options = options->option_bytes;
     vtime_set_hclk(&board->time, 0, 1000000); /* until the reset sets it, at cycle 0 */
     if (!cpu_init(board) || !memory_init(board) || !bus_init(board)) {
         complain("the emulator cannot be set up; is there memory enough?");
@@ -257,7 +261,7 @@ bool board_init(struct board *board, const struct options *options)
         !find_end(board) || !connect(board)) {
         return false;
     }
-    board_reset(board, RESET_POWER);
+    board_reset(board, board->supply.held ? RESET_HELD : RESET_POWER);
     return true;
 }
 

@@ -20,6 +20,7 @@
 #include "image.h"
 #include "inputs.h"
 #include "iwdg.h"
+#include "loader.h"
 #include "memory.h"
 #include "nvic.h"
 #include "options.h"
@@ -31,6 +32,7 @@
 #include "rs485.h"
 #include "scb.h"
 #include "stats.h"
+#include "supply.h"
 #include "timer.h"
 #include "tty.h"
 #include "usart.h"
@@ -54,7 +56,7 @@ struct board {
     enum board_end end;
     char text[BOARD_TEXT_BYTES_MAX]; /* of BOARD_FAILED */
     enum reset_cause wanted_reset;
-    unsigned resets[RESET_WATCHDOG + 1];
+    unsigned resets[RESET_CAUSES];
     uint64_t reset_ps;          /* of the last one; 0: power-on */
     unsigned reset_steps;       /* the STEP pins that were active just before it, one bit a motor */
     unsigned reset_outputs;     /* and the outputs */
@@ -72,6 +74,7 @@ struct board {
     struct core core;
     struct rcc rcc;
     struct plain plain;
+    struct supply supply;
     struct flash flash;
     struct iwdg iwdg;
     struct exti exti;

@@ -85,6 +85,9 @@ static const char *refuse(struct board *board, const struct block *block, uint32
     if (!rcc_clock_is_on(&board->rcc, block->clock_offset, block->clock_bit)) {
         return "its clock is not enabled in RCC";
     }
+    if (!rcc_clock_has_come(board, block->clock_offset, block->clock_bit)) {
+        return "its clock was enabled so short a time ago that the access is lost (errata ES0182)";
+    }
     if (bytes == 1 && !block->takes_bytes) {
         return "a byte access, where the manual asks for half-words or words";
     }

@@ -26,7 +26,12 @@ enum {
 #define DBGMCU_IDCODE UINT32_C(0xE0042000)
 #define DBGMCU_CR UINT32_C(0xE0042004)
 #define DBGMCU_FREEZE UINT32_C(0xE0042008)
-#define IDCODE UINT32_C(0x10076413)
+#define IDCODE_REVISION_A UINT32_C(0x20006411)
+
+bool core_is_revision_a(const struct board *board)
+{
+    return board->options->idcode == IDCODE_REVISION_A;
+}
 
 void core_reset(struct board *board)
 {
@@ -148,7 +153,7 @@ bool core_read(struct board *board, uint32_t address, uint32_t *value)
         *value = 0;
         return true;
     case DBGMCU_IDCODE:
-        *value = IDCODE;
+        *value = (uint32_t)board->options->idcode;
         return true;
     case DBGMCU_CR:
         *value = core->debug.cr;

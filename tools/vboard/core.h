@@ -37,6 +37,9 @@ struct core {
     struct debug debug;
 };
 
+/* Errata ES0182: revision A has no prefetch that works, and names itself as an STM32F2 does. */
+bool core_is_revision_a(const struct board *board);
+
 void core_reset(struct board *board);
 bool core_read(struct board *board, uint32_t address, uint32_t *value);
 bool core_write(struct board *board, uint32_t address, uint32_t value, uint32_t mask);

@@ -10,7 +10,7 @@ static event_handler *const handlers[EVENTS] = {
     [EVENT_USART2] = usart2_event,     [EVENT_USART3] = usart3_event, [EVENT_FLASH] = flash_event,
     [EVENT_RCC] = rcc_event,           [EVENT_CRYSTAL] = rcc_crystal_event, [EVENT_IWDG] = iwdg_event,
     [EVENT_LINE] = rs485_event,         [EVENT_INPUTS] = inputs_event,   [EVENT_FAULT] = faults_event,
-    [EVENT_THROTTLE] = tty_event,
+    [EVENT_SUPPLY] = supply_event,     [EVENT_THROTTLE] = tty_event,
     [EVENT_MEASURE] = board_measure_event, [EVENT_END] = board_end_event,
 };
 

@@ -25,6 +25,7 @@ enum event {
     EVENT_LINE,
     EVENT_INPUTS,
     EVENT_FAULT,
+    EVENT_SUPPLY,
     EVENT_THROTTLE,
     EVENT_MEASURE,
     EVENT_END,

@@ -6,13 +6,12 @@
 #include "complain.h"
 #include "line.h"
 
-enum { MS_DECIMALS = 9, NAME_BYTES_MAX = 64, NO_ADDRESS = 1, SUPPLY_MV_MAX = 4000 };
+enum { MS_DECIMALS = 9, NAME_BYTES_MAX = 64, NO_ADDRESS = 1 };
 
 #define MS_MAX UINT64_C(1000000000)
 #define LOSE_MS_MAX UINT64_C(1000000)
 
-/* Up to eight hexadecimal digits, up to `end`. */
-static bool read_hex(const char *at, const char *end, uint32_t *value)
+bool faults_read_hex(const char *at, const char *end, uint32_t *value)
 {
     static const char digits[] = "0123456789abcdef";
     uint64_t number = 0;
@@ -35,10 +34,10 @@ static bool read_address(struct board *board, const char *at, const char *end, u
     const char *plus = memchr(at, '+', (size_t)(end - at));
     const char *name_end = plus == NULL ? end : plus;
     size_t length = (size_t)(name_end - at);
-    if (plus == NULL && read_hex(at, end, address)) {
+    if (plus == NULL && faults_read_hex(at, end, address)) {
         return true;
     }
-    if (length >= sizeof name || (plus != NULL && !read_hex(plus + 1, end, &more))) {
+    if (length >= sizeof name || (plus != NULL && !faults_read_hex(plus + 1, end, &more))) {
         return false;
     }
     memcpy(name, at, length);
@@ -85,26 +84,17 @@ static bool read_word(struct board *board, const char *at, const char *end, stru
 {
     const char *colon = memchr(at, ':', (size_t)(end - at));
     if (colon == NULL || !read_address(board, at, colon, &fault.address) || fault.address % 4U != 0 ||
-        !read_hex(colon + 1, end, &fault.value)) {
+        !faults_read_hex(colon + 1, end, &fault.value)) {
         return false;
     }
     insert(&board->faults, fault);
     return true;
 }
 
-/* supply=MILLIVOLTS */
-static bool read_supply(struct board *board, const char *at, const char *end, struct fault fault)
-{
-    uint64_t number = 0;
-    bool good = line_read_fixed(&at, end, 0, SUPPLY_MV_MAX, &number) && at == end;
-    fault.value = (uint32_t)number;
-    insert(&board->faults, fault);
-    return good;
-}
-
 static bool read_place(struct board *board, const char *at, const char *end, struct fault fault)
 {
-    bool good = fault.kind == FAULT_POWER ? at == end : read_address(board, at, end, &fault.address);
+    bool placeless = fault.kind == FAULT_POWER || fault.kind == FAULT_RESET;
+    bool good = placeless ? at == end : read_address(board, at, end, &fault.address);
     fault.address &= ~UINT32_C(1);
     insert(&board->faults, fault);
     return good;
@@ -119,7 +109,7 @@ static bool read_fault(struct board *board, const char *at)
     } kinds[] = {
         {"jump=", FAULT_JUMP, read_place}, {"sp=", FAULT_STACK, read_place},  {"word=", FAULT_WORD, read_word},
         {"hold=", FAULT_HOLD, read_place}, {"lose=", FAULT_LOSE, read_loss}, {"power", FAULT_POWER, read_place},
-        {"supply=", FAULT_SUPPLY, read_supply},
+        {"reset", FAULT_RESET, read_place},
     };
     const char *end = at + strlen(at);
     uint64_t ps = 0;
@@ -194,8 +184,8 @@ static void apply(struct board *board, const struct fault *fault)
     case FAULT_FIND:
         nvic_lose(board, fault->address, fault->kind == FAULT_LOSE);
         break;
-    case FAULT_SUPPLY:
-        board->plain.supply_mv = fault->value;
+    case FAULT_RESET:
+        board_request_reset(board, RESET_PIN);
         break;
     case FAULT_POWER:
         flash_cut(board);

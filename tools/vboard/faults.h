@@ -1,6 +1,5 @@
 /*
- * What goes wrong on request: --fault MS:WHAT, each once, at a time. The fault ends with the next reset, but for the
- * supply.
+ * What goes wrong on request: --fault MS:WHAT, each once, at a time. The fault ends with the next reset.
  */
 #ifndef FAULTS_H
 #define FAULTS_H
@@ -20,7 +19,7 @@ enum fault_kind {
     FAULT_LOSE,  /* an exception is not taken any more */
     FAULT_FIND,  /* it is taken again */
     FAULT_POWER, /* power goes, and comes back at once */
-    FAULT_SUPPLY, /* the supply has another voltage, which the voltage detector sees */
+    FAULT_RESET, /* the reset pin is pulled low, for a moment */
 };
 
 struct fault {
@@ -36,6 +35,9 @@ struct faults {
     unsigned next;
     unsigned due; /* those that wait until emulation stands */
 };
+
+/* Reads up to eight hexadecimal digits, up to `end`. */
+bool faults_read_hex(const char *at, const char *end, uint32_t *value);
 
 /* Reads what the options ask for; the program has been loaded. False after a complaint. */
 bool faults_open(struct board *board);

@@ -20,6 +20,8 @@ enum {
 #define ACR_PRFTEN (UINT32_C(1) << 8)
 #define ACR_ICEN (UINT32_C(1) << 9)
 #define ACR_DCEN (UINT32_C(1) << 10)
+#define ACR_ICRST (UINT32_C(1) << 11)
+#define ACR_DCRST (UINT32_C(1) << 12)
 #define ACR_MASK UINT32_C(0x1F07)
 #define SR_EOP (UINT32_C(1) << 0)
 #define SR_OPERR (UINT32_C(1) << 1)
@@ -29,6 +31,7 @@ enum {
 #define SR_PGSERR (UINT32_C(1) << 7)
 #define SR_BSY (UINT32_C(1) << 16)
 #define SR_CLEARABLE (SR_EOP | SR_OPERR | SR_WRPERR | SR_PGAERR | SR_PGPERR | SR_PGSERR)
+#define SR_ERRORS (SR_CLEARABLE & ~SR_EOP)
 #define CR_PG (UINT32_C(1) << 0)
 #define CR_SER (UINT32_C(1) << 1)
 #define CR_MER (UINT32_C(1) << 2)
@@ -70,6 +73,43 @@ static uint64_t erase_us(const struct board *board, uint32_t bytes, unsigned siz
     unsigned row = (bytes > 16U * 1024U ? 1U : 0U) + (bytes > 64U * 1024U ? 1U : 0U);
     uint64_t us = 1000U * (uint64_t)typical_ms[row][size > 2 ? 2 : size];
     return board->options->slow_flash ? 2U * us : us;
+}
+
+unsigned flash_brown_out_level(const struct flash *flash)
+{
+    return flash->options >> 2 & 3U;
+}
+
+/* RM0090 section 3.6.2: what the supply must be at least for the parallelism in PSIZE; x64 needs VPP beside it. */
+static uint32_t least_mv(const struct flash *flash)
+{
+    static const uint16_t by_size[] = {1800, 2100, 2700, 2700};
+    return by_size[flash->cr >> 8 & 3U];
+}
+
+/* The supply has fallen in an operation: what it leaves may not last. */
+void flash_watch_supply(struct board *board)
+{
+    struct flash *flash = &board->flash;
+    if (flash_is_busy(flash) && !flash->weak && board->supply.mv < flash->needs_mv) {
+        flash->weak = true;
+        flash->weakened++;
+    }
+}
+
+void flash_set_wait_states(struct board *board, uint32_t states)
+{
+    board->flash.acr = ACR_ICEN | ACR_DCEN | states;
+    if (!board->cpu.wait_states_fixed) {
+        board->cpu.wait_states = states;
+    }
+}
+
+void flash_leave_unlocked(struct board *board)
+{
+    board->flash.sr = SR_PGSERR | SR_PGAERR;
+    board->flash.cr = 0;
+    board->flash.optcr &= ~OPTCR_LOCK;
 }
 
 void flash_reset(struct board *board)
@@ -137,6 +177,12 @@ static void begin(struct board *board, enum flash_operation operation, uint64_t 
     for (unsigned i = 0; i < board->options->cuts; i++) {
         flash->cut = board->options->cut[i].operation == flash->operations ? &board->options->cut[i] : flash->cut;
     }
+    if (board->supply.mv < least_mv(flash)) {
+        board_fail(board, "an operation of the flash begins at %u mV, PSIZE %u needs %u; it may not last (RM0090 3.6.2)",
+                   (unsigned)board->supply.mv, (unsigned)(flash->cr >> 8 & 3U), (unsigned)least_mv(flash));
+    }
+    flash->needs_mv = least_mv(flash);
+    flash->weak = false;
     uint64_t ps = us * VTIME_PS_PER_US / (flash->cut != NULL ? 2U : 1U);
     events_set_ps(board, EVENT_FLASH, board_now_ps(board) + ps);
     cpu_poke(&board->cpu);
@@ -246,6 +292,8 @@ void flash_event(struct board *board, uint64_t cycle)
         flash->optcr &= ~OPTCR_STRT;
     } else if (flash->fails) {
         fail(board);
+    } else if (flash->weak) {
+        change_some(board, flash->weakened);
     } else {
         change(board, flash->bytes);
         flash->sr |= (flash->cr & CR_EOPIE) != 0 ? SR_EOP : 0U;
@@ -268,7 +316,7 @@ void flash_write(struct board *board, uint32_t address, unsigned bytes, uint32_t
         set_error(board, SR_PGPERR);
     } else if (address % bytes != 0) {
         set_error(board, SR_PGAERR);
-    } else if ((flash->sr & SR_CLEARABLE & ~SR_EOP) != 0) {
+    } else if ((flash->sr & SR_ERRORS) != 0) {
         set_error(board, SR_PGSERR);
     } else {
         flash->address = address & (MEMORY_FLASH_BYTES - 1U);
@@ -288,6 +336,12 @@ static void erase(struct board *board)
     } else if ((flash->cr & CR_SER) == 0 || (flash->cr & CR_PG) != 0 || sector >= SECTORS) {
         set_error(board, SR_PGSERR);
         flash->cr &= ~CR_STRT;
+    } else if ((flash->sr & SR_ERRORS) != 0) {
+        set_error(board, SR_PGSERR);
+        flash->cr &= ~CR_STRT;
+    } else if (sector_base(sector) >= board->options->flash_kb * 1024U) {
+        board_fail(board, "FLASH_CR: sector %u is erased, which a part of %u kB does not have", sector,
+                   (unsigned)board->options->flash_kb);
     } else {
         flash->address = sector_base(sector);
         flash->bytes = sector_bytes(sector);
@@ -334,6 +388,7 @@ static void write_options(struct board *board, uint32_t value)
     flash->optcr = value & (OPTCR_MASK | OPTCR_LOCK | OPTCR_STRT);
     if ((value & OPTCR_STRT) != 0) {
         flash->operation = FLASH_OPTIONS;
+        flash->needs_mv = 0;
         flash->bytes = 0;
         flash->cut = NULL;
         flash->option_writes++;
@@ -361,6 +416,14 @@ static void write_control(struct board *board, uint32_t value)
 static void write_acr(struct board *board, uint32_t value)
 {
     struct cpu *cpu = &board->cpu;
+    uint32_t was_on = board->flash.acr & (ACR_ICEN | ACR_DCEN);
+    if ((value & ACR_PRFTEN) != 0 && core_is_revision_a(board)) {
+        board_fail(board, "FLASH_ACR: revision A has no prefetch that works (errata ES0182)");
+    }
+    if (((value & ACR_ICRST) != 0 && (was_on & ACR_ICEN) != 0) ||
+        ((value & ACR_DCRST) != 0 && (was_on & ACR_DCEN) != 0)) {
+        board_fail(board, "FLASH_ACR: a cache is reset while it is on (RM0090 3.9.1)");
+    }
     board->flash.acr = value & ACR_MASK;
     if (!cpu->wait_states_fixed) {
         cpu->wait_states = flash_latency(&board->flash);

@@ -39,6 +39,9 @@ struct flash {
     bool read_protected; /* reads are watched, as the bus has to wait */
     bool code_changed;   /* what was executed before has been rewritten */
     bool fails;          /* the operation in progress */
+    bool weak;           /* likewise: the supply was too low for it */
+    uint32_t needs_mv;   /* of supply */
+    unsigned weakened;
     const struct options_cut *cut; /* of power, in the middle of it; null: none */
     uint64_t operations;
     uint64_t programs;
@@ -57,6 +60,16 @@ bool flash_write_register(struct board *board, unsigned instance, uint32_t offse
 void flash_cut(struct board *board);
 
 void flash_event(struct board *board, uint64_t cycle);
+
+/* BOR_LEV of the option bytes: 0 is level 3, 3 is off (RM0090 3.9.8). */
+unsigned flash_brown_out_level(const struct flash *flash);
+
+/* The supply has changed. */
+void flash_watch_supply(struct board *board);
+
+/* As a boot loader leaves it: wait states and caches; errors in SR, both locks open. */
+void flash_set_wait_states(struct board *board, uint32_t states);
+void flash_leave_unlocked(struct board *board);
 
 /* Makes Unicorn report reads of the flash while it is busy; called while emulation stands. */
 void flash_update_protection(struct board *board);

@@ -35,6 +35,7 @@ int main(int argc, char *argv[])
     parent_bind();
     if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) {
         (void)fputs(options_usage, stdout);
+        (void)fputs(options_usage_more, stdout);
         return (int)finish_output();
     }
     enum exit_status status = options_read(&options, argc - 1, argv + 1);

@@ -15,12 +15,12 @@ static uint8_t *allocate(uint32_t bytes, uint8_t filling)
     return memory;
 }
 
-static void fill_system_area(struct memory *memory)
+static void fill_system_area(struct memory *memory, uint32_t flash_kb)
 {
     static const uint8_t id[12] = "VBOARD-0001";
     memcpy(memory->system + 0xA10, id, sizeof id); /* RM0090 section 39.1: unique device id */
-    memory->system[0xA22] = MEMORY_FLASH_BYTES / 1024U & 0xFFU;
-    memory->system[0xA23] = MEMORY_FLASH_BYTES / 1024U >> 8;
+    memory->system[0xA22] = (uint8_t)(flash_kb & 0xFFU); /* section 39.2 */
+    memory->system[0xA23] = (uint8_t)(flash_kb >> 8);
 }
 
 static bool map(struct board *board, uint32_t base, uint32_t bytes, uint32_t rights, uint8_t *memory)
@@ -34,8 +34,8 @@ static bool map_all(struct board *board)
 {
     const struct memory *memory = &board->memory;
     /* The CCM RAM hangs on the data bus only: nothing can be executed from it (section 2.3.1). */
-    return map(board, 0, MEMORY_FLASH_BYTES, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
-           map(board, MEMORY_FLASH_BASE, MEMORY_FLASH_BYTES, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
+    return map(board, 0, memory->flash_bytes, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
+           map(board, MEMORY_FLASH_BASE, memory->flash_bytes, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
            map(board, MEMORY_CCM_BASE, MEMORY_CCM_BYTES, UC_PROT_READ | UC_PROT_WRITE, memory->ccm) &&
            map(board, MEMORY_SYSTEM_BASE, MEMORY_PAGE_BYTES, UC_PROT_READ, memory->system) &&
            map(board, MEMORY_OPTIONS_BASE, MEMORY_PAGE_BYTES, UC_PROT_READ, memory->options) &&
@@ -54,7 +54,8 @@ bool memory_init(struct board *board)
         memory->options == NULL) {
         return false;
     }
-    fill_system_area(memory);
+    fill_system_area(memory, (uint32_t)board->options->flash_kb);
+    memory->flash_bytes = (uint32_t)board->options->flash_kb * 1024U;
     return map_all(board);
 }
 

@@ -23,7 +23,8 @@ struct board;
 #define MEMORY_UNTOUCHED UINT8_C(0xA5)
 
 struct memory {
-    uint8_t *flash;
+    uint8_t *flash;       /* 1 MB, of which a smaller part has the first half */
+    uint32_t flash_bytes; /* that the part has */
     uint8_t *ccm;
     uint8_t *sram;
     uint8_t *system;

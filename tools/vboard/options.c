@@ -3,64 +3,10 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "flash.h"
 #include "line.h"
 #include "pins.h"
 #include "vtime.h"
-
-const char options_usage[] =
-    "usage: rkm04-vboard --elf FILE [OPTION ...]\n"
-    "\n"
-    "Runs the program of an STM32F405 or F407 instruction by instruction and prints a summary (JSON).\n"
-    "\n"
-    "  --elf FILE            the program\n"
-    "  --pins FILE           signals on pins: lines `m1_step PA0`, `bi1 PC0 low`, `line USART2`\n"
-    "  --for SECONDS         ends after so much virtual time (10)\n"
-    "  --end-at SYMBOL       ends when this function is reached\n"
-    "  --inputs FILE         levels of the inputs: lines ms,input,level\n"
-    "  --node N              the address on switch S1, 1 to 16 (1)\n"
-    "  --line-script FILE    bytes on the line: lines `ms hexbytes`; * behind a byte: framing error, ~: noise\n"
-    "  --line-log FILE       bytes the unit sends: lines `ms hexbyte`; * behind it: nobody could read it\n"
-    "  --baud RATE           of the line (19200)\n"
-    "  --pty PATH, --tcp PORT  a client on the line, in real time\n"
-    "  --steps, --vcd FILE   write pulses and waveforms\n"
-    "  --ticks reset|timer   the steps' ticks count from power-on or from the start of TIM2 (reset)\n"
-    "  --flash FILE          content of the flash, read before and written after\n"
-    "  --set SYMBOL=HEX      bytes put over a constant of the program; may be repeated\n"
-    "  --watch SYMBOL        a variable to be shown in the summary; may be repeated\n"
-    "  --stack-limit SYMBOL  the lowest address of the stack\n"
-    "  --measure-from MS     the statistics begin then (0)\n"
-    "  --profile FILE        write where the cycles went, instruction by instruction\n"
-    "cycle model:\n"
-    "  --refill P            cycles to refill the pipeline, 1 to 3 (3)\n"
-    "  --wait-states N       of the flash, 0 to 15 (as FLASH_ACR says)\n"
-    "  --apb-wait N          cycles by which an access to a slow bus takes longer (3)\n"
-    "  --art                 model the accelerator of the flash\n"
-    "  --match-equal         a compare value written while the timer stands on it matches\n"
-    "  --exti-mask-first     an edge on a masked line of EXTI leaves nothing pending\n"
-    "  --pwm-at-once         a channel that comes from a forced level shows the comparison at once\n"
-    "faults:\n"
-    "  --crystal MHZ         frequency of the crystal (8); --no-crystal: there is none\n"
-    "  --crystal-stops MS    it stops then\n"
-    "  --lsi HZ              rate of the watchdog's oscillator (32000)\n"
-    "  --slow-flash          flash times of the worst case\n"
-    "  --flash-erase MS      an erase takes that long (as the data sheet says)\n"
-    "  --flash-fail N[:HOW]  the N-th operation of the flash fails: wrp, pga, pgp, pgs or op is what it tells (wrp);\n"
-    "                        silent: it tells nothing and does nothing; bit: it leaves one bit as it was\n"
-    "  --power-cut N[:LEAVES]  power is cut in the N-th one, which leaves nothing, all, half, or what a number gives\n"
-    "                        as a seed (half); may be repeated; --power-back: power comes back at once\n"
-    "  --timer-start N       TIM2 starts with this count (0)\n"
-    "  --fault MS:WHAT       something goes wrong then, until the next reset; may be repeated:\n"
-    "                        jump=PLACE    the program goes on there\n"
-    "                        sp=PLACE      the stack pointer points there\n"
-    "                        word=PLACE:X  a word of memory has this value\n"
-    "                        hold=PLACE    the program does not get past this instruction; interrupts do\n"
-    "                        lose=N[,MS]   exception N is not taken, or not for some time\n"
-    "                        power         power goes and comes back at once\n"
-    "                        supply=MV     the voltage detector sees this supply (3300)\n"
-    "                        A PLACE is hexadecimal, or a symbol, or SYMBOL+HEX.\n"
-    "  --stuck PIN=LEVEL     a pin is stuck; may be repeated\n"
-    "\n"
-    "example: rkm04-vboard --elf rkm04.elf --pins board.pins --line-script send.txt --for 2 --steps steps.csv\n";
 
 enum kind {
     KIND_TEXT,
@@ -95,6 +41,7 @@ static const struct row rows[] = {
     TEXT("--flash", flash),
     TEXT("--profile", profile),
     TEXT("--pty", pty),
+    TEXT("--supply", supply),
     TEXT("--end-at", end_at),
     TEXT("--stack-limit", stack_limit),
     FLAG("--art", art),
@@ -103,6 +50,7 @@ static const struct row rows[] = {
     FLAG("--match-equal", match_equal),
     FLAG("--exti-mask-first", exti_mask_first),
     FLAG("--pwm-at-once", pwm_at_once),
+    FLAG("--left-by-loader", left_by_loader),
     FLAG("--power-back", power_back),
     {"--for", offsetof(struct options, for_ps), KIND_NUMBER, SECONDS_DECIMALS, 1000, 1, UINT64_C(1000000000000000)},
     {"--measure-from", offsetof(struct options, measure_from_ps), KIND_NUMBER, MS_DECIMALS, 1000, 0,
@@ -241,6 +189,58 @@ static bool read_set(struct options *options, const char *text)
     return true;
 }
 
+static bool read_flash_kb(struct options *options, const char *text)
+{
+    bool half = strcmp(text, "512") == 0;
+    options->flash_kb = half ? 512 : 1024;
+    if (!half && strcmp(text, "1024") != 0) {
+        complain("--flash-kb %s: write 512 or 1024", text);
+        return false;
+    }
+    return true;
+}
+
+/* RM0090 section 38.6.1. Revision A names itself as an STM32F2 does (errata ES0182). */
+static bool read_revision(struct options *options, const char *text)
+{
+    static const struct {
+        char name;
+        uint32_t idcode;
+    } revisions[] = {{'A', 0x20006411}, {'Z', 0x10016413}, {'1', 0x10036413},
+                     {'2', 0x10076413}, {'Y', 0x100F6413}, {'5', 0x101F6413}};
+    for (unsigned i = 0; text[0] != '\0' && text[1] == '\0' && i < sizeof revisions / sizeof *revisions; i++) {
+        if (revisions[i].name == text[0]) {
+            options->idcode = revisions[i].idcode;
+            return true;
+        }
+    }
+    complain("--revision %s: write A, Z, 1, 2, Y or 5", text);
+    return false;
+}
+
+static bool read_thresholds(struct options *options, const char *text)
+{
+    static const char *const names[] = {"low", "typical", "high"};
+    for (unsigned i = 0; i < sizeof names / sizeof *names; i++) {
+        if (strcmp(names[i], text) == 0) {
+            options->thresholds = (enum supply_corner)i;
+            return true;
+        }
+    }
+    complain("--thresholds %s: write low, typical or high", text);
+    return false;
+}
+
+static bool read_option_bytes(struct options *options, const char *text)
+{
+    const char *end = text + strlen(text);
+    if (!faults_read_hex(text, end, &options->option_bytes)) {
+        complain("--option-bytes %s: not up to eight hexadecimal digits", text);
+        return false;
+    }
+    return true;
+}
+
 static bool read_ticks(struct options *options, const char *text)
 {
     options->ticks_from_timer = strcmp(text, "timer") == 0;
@@ -262,7 +262,8 @@ static reader *find_reader(const char *name)
     } readers[] = {
         {"--watch", read_watch},   {"--set", read_set}, {"--stuck", read_stuck},
         {"--flash-fail", read_flash_failure}, {"--power-cut", read_cut}, {"--fault", read_fault},
-        {"--ticks", read_ticks},
+        {"--ticks", read_ticks},   {"--flash-kb", read_flash_kb}, {"--revision", read_revision},
+        {"--thresholds", read_thresholds}, {"--option-bytes", read_option_bytes},
     };
     for (unsigned i = 0; i < sizeof readers / sizeof *readers; i++) {
         if (strcmp(readers[i].name, name) == 0) {
@@ -368,6 +369,10 @@ enum exit_status options_read(struct options *options, int count, char *const ar
                                 .lsi_hz = 32000,
                                 .baud = 19200,
                                 .node = 1,
+                                .thresholds = SUPPLY_TYPICAL,
+                                .option_bytes = FLASH_OPTIONS_DELIVERED,
+                                .idcode = 0x10076413,
+                                .flash_kb = 1024,
                                 .refill = 3,
                                 .apb_wait = 3,
                                 .wait_states = -1};

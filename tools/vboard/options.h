@@ -10,6 +10,7 @@
 #include "complain.h"
 #include "faults.h"
 #include "gpio.h"
+#include "supply.h"
 
 enum {
     OPTIONS_WATCHES_MAX = 32,
@@ -43,6 +44,7 @@ struct options {
     const char *flash;
     const char *profile;
     const char *pty;
+    const char *supply;      /* null: 3.3 V */
     const char *end_at;      /* symbol of a function; null: none */
     const char *stack_limit; /* symbol; null: found from the image */
     const char *watch[OPTIONS_WATCHES_MAX];
@@ -70,6 +72,10 @@ struct options {
     const char *fault[FAULTS_MAX];
     unsigned faults;
     unsigned node;
+    enum supply_corner thresholds;
+    uint32_t option_bytes;     /* FLASH_OPTCR at the start */
+    uint32_t idcode;           /* DBGMCU_IDCODE */
+    uint64_t flash_kb;
     uint32_t refill;
     uint32_t apb_wait;
     int wait_states;           /* -1: as FLASH_ACR says */
@@ -79,10 +85,12 @@ struct options {
     bool match_equal;
     bool exti_mask_first;
     bool pwm_at_once;
+    bool left_by_loader;
     bool ticks_from_timer;
 };
 
 extern const char options_usage[];
+extern const char options_usage_more[];
 
 /* EXIT_DONE, or EXIT_USAGE after a complaint. */
 enum exit_status options_read(struct options *options, int count, char *const arguments[]);

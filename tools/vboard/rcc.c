@@ -25,7 +25,8 @@ enum {
 #define CR_CSSON (UINT32_C(1) << 19)
 #define CR_PLLON (UINT32_C(1) << 24)
 #define CR_PLLRDY (UINT32_C(1) << 25)
-#define CR_WRITABLE (CR_HSION | (UINT32_C(0x1F) << 3) | CR_HSEON | (UINT32_C(1) << 18) | CR_CSSON | CR_PLLON)
+#define CR_HSEBYP (UINT32_C(1) << 18)
+#define CR_WRITABLE (CR_HSION | (UINT32_C(0x1F) << 3) | CR_HSEON | CR_HSEBYP | CR_CSSON | CR_PLLON)
 #define CR_RESET (CR_HSION | UINT32_C(0x80))
 #define PLLCFGR_RESET UINT32_C(0x24003010)
 #define CIR_CSSF (UINT32_C(1) << 7)
@@ -35,6 +36,8 @@ enum {
 #define CSR_LSIRDY (UINT32_C(1) << 1)
 #define CSR_RMVF (UINT32_C(1) << 24)
 #define CSR_FLAGS_POWER UINT32_C(0x0E000000)    /* POR, PIN, BOR */
+#define CSR_FLAGS_BROWN_OUT UINT32_C(0x06000000) /* BOR, PIN */
+#define CSR_FLAGS_PIN UINT32_C(0x04000000)
 #define CSR_FLAGS_SOFTWARE UINT32_C(0x14000000) /* SFT, and PIN, as the part pulls NRST itself */
 #define CSR_FLAGS_WATCHDOG UINT32_C(0x24000000) /* IWDG and PIN */
 
@@ -43,6 +46,15 @@ enum {
 #define HSI_START_PS (2 * VTIME_PS_PER_US)
 #define LSI_START_PS (15 * VTIME_PS_PER_US)
 #define PLL_LOCK_PS (200 * VTIME_PS_PER_US)
+
+/* HSERDY goes low six of its cycles behind HSEON (RM0090 section 7.3.1). How long PLLRDY takes is not said; assumed. */
+#define HSE_STOP_CYCLES 6
+#define PLL_STOP_PS VTIME_PS_PER_US
+
+/* Errata ES0182, "delay after an RCC peripheral clock enabling": an access too short behind the enable is lost: 2 cycles
+ * of AHB, or 1 + the divider of APB. The write itself is on its way for 2 more: with a store, a read-back and a store
+ * at once the second one was lost on a part. */
+enum { ENABLE_CYCLES_AHB = 2, ENABLE_CYCLES_APB = 1, ENABLE_WAY_CYCLES = 2 };
 
 static uint32_t *word(struct rcc *rcc, uint32_t offset)
 {
@@ -87,9 +99,35 @@ static uint64_t started(struct board *board, uint64_t ready, bool on, uint64_t s
     return ready != VTIME_NEVER ? ready : board_now_ps(board) + start_ps;
 }
 
+static uint32_t ready_bits(struct board *board)
+{
+    const struct rcc *rcc = &board->rcc;
+    uint64_t now = board_now_ps(board);
+    bool hse = rcc->hse_ready_ps <= now || now < rcc->hse_gone_ps;
+    bool pll = rcc->pll_ready_ps <= now || now < rcc->pll_gone_ps;
+    return (rcc->hsi_ready_ps <= now ? CR_HSIRDY : 0U) | (hse ? CR_HSERDY : 0U) | (pll ? CR_PLLRDY : 0U);
+}
+
+/* What is switched off is seen to be off a little later. */
+static void note_stops(struct board *board, uint32_t value)
+{
+    struct rcc *rcc = &board->rcc;
+    uint64_t now = board_now_ps(board);
+    if ((value & CR_HSEON) == 0 && rcc->hse_ready_ps <= now) {
+        rcc->hse_gone_ps = now + HSE_STOP_CYCLES * VTIME_PS_PER_SECOND / board->options->crystal_hz;
+    }
+    if ((value & CR_PLLON) == 0 && rcc->pll_ready_ps <= now) {
+        rcc->pll_gone_ps = now + PLL_STOP_PS;
+    }
+}
+
 static void write_cr(struct board *board, uint32_t value)
 {
     struct rcc *rcc = &board->rcc;
+    if (((*word(rcc, RCC_CR) ^ value) & CR_HSEBYP) != 0 && (ready_bits(board) & CR_HSERDY) != 0) {
+        board_fail(board, "RCC_CR: HSEBYP must be written only while the crystal's oscillator is off");
+    }
+    note_stops(board, value);
     *word(rcc, RCC_CR) = value & CR_WRITABLE;
     bool crystal = (value & CR_HSEON) != 0 && !board->options->no_crystal && !rcc->crystal_failed;
     rcc->hsi_ready_ps = started(board, rcc->hsi_ready_ps, (value & CR_HSION) != 0, HSI_START_PS);
@@ -104,14 +142,6 @@ static void write_cr(struct board *board, uint32_t value)
         board_fail(board, "RCC_CR switches off the clock that the processor runs on");
     }
     update_switch(board);
-}
-
-static uint32_t ready_bits(struct board *board)
-{
-    const struct rcc *rcc = &board->rcc;
-    uint64_t now = board_now_ps(board);
-    return (rcc->hsi_ready_ps <= now ? CR_HSIRDY : 0U) | (rcc->hse_ready_ps <= now ? CR_HSERDY : 0U) |
-           (rcc->pll_ready_ps <= now ? CR_PLLRDY : 0U);
 }
 
 void rcc_start_lsi(struct board *board)
@@ -161,14 +191,66 @@ bool rcc_clock_is_on(const struct rcc *rcc, uint32_t offset, unsigned bit)
     return offset == 0 || (rcc->word[offset / 4U] >> bit & 1U) != 0;
 }
 
+static unsigned enable_index(uint32_t offset)
+{
+    return offset == RCC_AHB1ENR ? 0 : offset == RCC_APB1ENR ? 1U : 2U;
+}
+
+bool rcc_clock_has_come(const struct board *board, uint32_t offset, unsigned bit)
+{
+    unsigned index = enable_index(offset);
+    bool fresh = offset != 0 && (board->rcc.enabled[index].bits >> bit & 1U) != 0;
+    return !fresh || board->cpu.now >= board->rcc.enabled[index].cycle;
+}
+
+static void write_enable(struct board *board, uint32_t offset, uint32_t value)
+{
+    struct rcc *rcc = &board->rcc;
+    const uint32_t delays[RCC_ENABLES] = {ENABLE_CYCLES_AHB, ENABLE_CYCLES_APB + rcc->pclk1_divider,
+                                          ENABLE_CYCLES_APB + rcc->pclk2_divider};
+    unsigned index = enable_index(offset);
+    uint32_t fresh = value & ~*word(rcc, offset);
+    *word(rcc, offset) = value;
+    if (fresh != 0) {
+        uint32_t coming = board->cpu.now < rcc->enabled[index].cycle ? rcc->enabled[index].bits : 0U;
+        rcc->enabled[index].bits = coming | fresh;
+        rcc->enabled[index].cycle = board->cpu.now + ENABLE_WAY_CYCLES + delays[index];
+    }
+}
+
+/* M and N for a comparison at 2 MHz and 240 MHz; P = 4, Q = 5; APB1 at a half. */
+void rcc_run_from_pll(struct board *board, bool from_crystal)
+{
+    struct rcc *rcc = &board->rcc;
+    uint64_t now = board_now_ps(board);
+    uint32_t m = from_crystal ? (uint32_t)(board->options->crystal_hz / 2000000U) : 8U;
+    *word(rcc, RCC_PLLCFGR) = m | 120U << 6 | 1U << 16 | (from_crystal ? RCC_PLLCFGR_HSE : 0U) | 5U << 24;
+    *word(rcc, RCC_CR) |= CR_PLLON | (from_crystal ? CR_HSEON | CR_CSSON : 0U);
+    *word(rcc, RCC_CFGR) = RCC_SOURCE_PLL | 4U << 10;
+    *word(rcc, RCC_APB2ENR) = UINT32_C(1) << 4;
+    rcc->hse_ready_ps = from_crystal ? now : VTIME_NEVER;
+    rcc->pll_ready_ps = now;
+    flash_set_wait_states(board, 3);
+    update_switch(board);
+}
+
+/* The flags stay until they are cleared, or the supply has been too low. */
+static uint32_t flags_of(enum reset_cause cause, uint32_t before)
+{
+    static const uint32_t flags[RESET_CAUSES] = {
+        [RESET_POWER] = CSR_FLAGS_POWER,       [RESET_BROWN_OUT] = CSR_FLAGS_BROWN_OUT,
+        [RESET_SOFTWARE] = CSR_FLAGS_SOFTWARE, [RESET_WATCHDOG] = CSR_FLAGS_WATCHDOG,
+        [RESET_PIN] = CSR_FLAGS_PIN,
+    };
+    bool supply = cause == RESET_POWER || cause == RESET_BROWN_OUT;
+    return flags[cause] | (supply ? 0U : before);
+}
+
 void rcc_reset(struct board *board, enum reset_cause cause)
 {
     struct rcc *rcc = &board->rcc;
-    uint32_t flags = rcc->reset_flags;
+    uint32_t flags = flags_of(cause, rcc->reset_flags);
     bool failed = rcc->crystal_failed;
-    flags = cause == RESET_POWER ? CSR_FLAGS_POWER : flags;
-    flags |= cause == RESET_SOFTWARE ? CSR_FLAGS_SOFTWARE : 0U;
-    flags |= cause == RESET_WATCHDOG ? CSR_FLAGS_WATCHDOG : 0U;
     *rcc = (struct rcc){.hse_ready_ps = VTIME_NEVER, .pll_ready_ps = VTIME_NEVER, .lsi_ready_ps = VTIME_NEVER};
     rcc->reset_flags = flags;
     rcc->crystal_failed = failed;
@@ -221,7 +303,7 @@ bool rcc_read(struct board *board, unsigned instance, uint32_t offset, uint32_t 
 
 static void write_pllcfgr(struct board *board, uint32_t value)
 {
-    if ((*word(&board->rcc, RCC_CR) & CR_PLLON) != 0) {
+    if ((*word(&board->rcc, RCC_CR) & CR_PLLON) != 0 || (ready_bits(board) & CR_PLLRDY) != 0) {
         board_fail(board, "RCC_PLLCFGR must be written only while the PLL is off");
     }
     *word(&board->rcc, RCC_PLLCFGR) = value & UINT32_C(0x0F437FFF);
@@ -258,6 +340,11 @@ bool rcc_write(struct board *board, unsigned instance, uint32_t offset, uint32_t
         return true;
     case RCC_CIR:
         write_cir(board, value & mask);
+        return true;
+    case RCC_AHB1ENR:
+    case RCC_APB1ENR:
+    case RCC_APB2ENR:
+        write_enable(board, offset, whole);
         return true;
     case RCC_CSR:
         write_csr(board, whole);

@@ -34,7 +34,14 @@ enum reset_cause {
     RESET_POWER,
     RESET_SOFTWARE,
     RESET_WATCHDOG,
+    RESET_PIN,
+    RESET_BROWN_OUT, /* the supply was too low, but not so low that the RAM forgets */
+    RESET_HELD,      /* the supply is too low: the part stands still */
+    RESET_CAUSES,
 };
+
+/* The clock enables: AHB1, APB1, APB2. */
+enum { RCC_ENABLES = 3 };
 
 struct rcc {
     uint32_t word[RCC_WORDS]; /* the registers as written, without the ready and status bits */
@@ -42,6 +49,12 @@ struct rcc {
     uint64_t hsi_ready_ps;
     uint64_t pll_ready_ps;
     uint64_t lsi_ready_ps;
+    uint64_t hse_gone_ps;     /* when what was switched off is seen to be off */
+    uint64_t pll_gone_ps;
+    struct {
+        uint32_t bits;        /* that were set last */
+        uint64_t cycle;       /* from then on what they stand for can be accessed */
+    } enabled[RCC_ENABLES];
     unsigned source;          /* enum rcc_source */
     bool crystal_failed;
     bool css_flag;
@@ -58,6 +71,12 @@ bool rcc_write(struct board *board, unsigned instance, uint32_t offset, uint32_t
 
 /* Whether the bit of a clock enable register is set; offset 0 is what has no such bit. */
 bool rcc_clock_is_on(const struct rcc *rcc, uint32_t offset, unsigned bit);
+
+/* Whether it is so, and was set so long ago that the peripheral takes an access. */
+bool rcc_clock_has_come(const struct board *board, uint32_t offset, unsigned bit);
+
+/* Lets the part run from the PLL at 60 MHz, from the crystal or the internal oscillator. */
+void rcc_run_from_pll(struct board *board, bool from_crystal);
 
 /* Starts the low-speed oscillator, as the watchdog does. */
 void rcc_start_lsi(struct board *board);

@@ -50,20 +50,33 @@ static uint32_t apb_divider(uint32_t code)
     return code < 4 ? 1U : 2U << (code - 4U);
 }
 
+/* RM0090 table 10: one more each 30 MHz, or less where the supply is lower. */
+static uint64_t wait_states(uint64_t hclk, uint32_t supply_mv)
+{
+    static const struct {
+        uint32_t least_mv;
+        uint32_t hz;
+    } rows[] = {{2700, 30000000}, {2400, 24000000}, {2100, 22000000}, {0, 20000000}};
+    unsigned row = 0;
+    while (supply_mv < rows[row].least_mv) {
+        row++;
+    }
+    return (hclk + rows[row].hz - 1U) / rows[row].hz - 1U;
+}
+
 void rcc_check_limits(struct board *board)
 {
     const struct rcc *rcc = &board->rcc;
     uint64_t hclk = board->time.hclk_hz;
-    uint64_t states = (hclk + 29999999U) / 30000000U - 1U; /* RM0090 table 10, 2.7 to 3.6 V: one more each 30 MHz */
-    states = states > 5 ? 5 : states;
+    uint64_t states = wait_states(hclk, board->supply.mv);
     if (hclk > 168000000 || hclk / rcc->pclk1_divider > 42000000 || hclk / rcc->pclk2_divider > 84000000) {
         board_fail(board, "clocks of %u, %u and %u MHz; limits are 168 for HCLK, 42 for APB1 and 84 for APB2",
                    (unsigned)(hclk / 1000000U), (unsigned)(hclk / rcc->pclk1_divider / 1000000U),
                    (unsigned)(hclk / rcc->pclk2_divider / 1000000U));
     }
     if (flash_latency(&board->flash) < states) {
-        board_fail(board, "the flash has %u wait states and needs %u at %u MHz", flash_latency(&board->flash),
-                   (unsigned)states, (unsigned)(hclk / 1000000U));
+        board_fail(board, "the flash has %u wait states and needs %u at %u MHz and %u mV", flash_latency(&board->flash),
+                   (unsigned)states, (unsigned)(hclk / 1000000U), (unsigned)board->supply.mv);
     }
 }
 

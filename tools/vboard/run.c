@@ -64,8 +64,8 @@ void flash_update_protection(struct board *board)
     if (flash_is_busy(flash) != flash->read_protected) {
         flash->read_protected = flash_is_busy(flash);
         uint32_t rights = flash->read_protected ? UC_PROT_EXEC : UC_PROT_READ | UC_PROT_EXEC;
-        (void)uc_mem_protect(engine, MEMORY_FLASH_BASE, MEMORY_FLASH_BYTES, rights);
-        (void)uc_mem_protect(engine, 0, MEMORY_FLASH_BYTES, rights);
+        (void)uc_mem_protect(engine, MEMORY_FLASH_BASE, board->memory.flash_bytes, rights);
+        (void)uc_mem_protect(engine, 0, board->memory.flash_bytes, rights);
         drop_address_cache(engine);
     }
 }
@@ -186,7 +186,8 @@ void cpu_run(struct board *board)
     while (board->end == BOARD_RUNS) {
         if (board->wanted_reset != RESET_NONE) {
             board_reset(board, board->wanted_reset);
-        } else if (cpu->stalled_forever) {
+        }
+        if (cpu->stalled_forever) {
             wait_for_reset(board);
             continue;
         }

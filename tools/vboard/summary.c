@@ -121,6 +121,9 @@ static void print_run(const struct board *board)
     (void)printf("\"resets\":{\"power\":%u,\"software\":%u,\"watchdog\":%u},\"lockups\":%u,\"warnings\":%u,",
                  board->resets[RESET_POWER], board->resets[RESET_SOFTWARE], board->resets[RESET_WATCHDOG],
                  board->lockups, board->warnings);
+    (void)printf("\"supply\":{\"mv\":%u,\"least_mv\":%u,\"held\":%s,\"brown_outs\":%u},\"pin_resets\":%u,",
+                 (unsigned)board->supply.mv, (unsigned)board->supply.least_mv, board->supply.held ? "true" : "false",
+                 board->supply.brown_outs, board->resets[RESET_PIN]);
     (void)printf("\"last_reset\":{");
     put_us("microseconds", board->reset_ps);
     (void)printf("\"steps\":%u,\"outputs\":%u},", board->reset_steps, board->reset_outputs);
@@ -191,6 +194,11 @@ static void print_peripherals(const struct board *board)
     put_number("erases", board->flash.erases);
     put_number("options", board->flash.options);
     put_number("option_writes", board->flash.option_writes);
+    put_number("weakened", board->flash.weakened);
+    put_number("acr", board->flash.acr);
+    put_number("cr", board->flash.cr);
+    put_number("sr", board->flash.sr);
+    put_number("optcr", board->flash.optcr);
     (void)printf("\"stalls\":%" PRIu64 "},\n\"watchdog\":{\"started\":%s,", board->flash.stalls,
                  board->iwdg.started ? "true" : "false");
     put_us("longest", board->iwdg.longest_ps);

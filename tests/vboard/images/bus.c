@@ -14,6 +14,7 @@ int main(void)
     uint32_t *port = (uint32_t *)&GPIO_ODR(GPIOB);
     RCC_APB1ENR |= 1;
     RCC_AHB1ENR |= 2;
+    settle();
     result[0] = reads(counter, timer) - empty(counter, timer);
     result[1] = writes(counter, timer) - empty(counter, timer);
     result[2] = close_writes(counter, timer) - empty(counter, timer);

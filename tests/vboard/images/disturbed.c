@@ -49,6 +49,7 @@ int main(void)
     result[0] = mix(1);
     result[1] = mix(2);
     RCC_APB1ENR |= 1;
+    settle();
     TIM_CCR(TIM2, 1) = 100;
     TIM_DIER(TIM2) = 2;
     NVIC_ISER(0) = 1u << IRQ_TIM2;

@@ -4,6 +4,7 @@
 int main(void)
 {
     RCC_APB1ENR |= 1;
+    settle();
     TIM_PSC(TIM2) = 1599; /* 100 us */
     TIM_EGR(TIM2) = 1;
     TIM_SR(TIM2) = 0;

@@ -142,6 +142,7 @@ int main(void)
 {
     RCC_AHB1ENR |= 5;
     RCC_APB2ENR |= 1u << 14;
+    settle();
     GPIO_MODER(GPIOC) = 0;
     NVIC_ISER(0) = 0x1Fu << IRQ_EXTI0 | 1u << IRQ_EXTI9_5;
     NVIC_ISER(1) = 1u << (IRQ_EXTI15_10 - 32);

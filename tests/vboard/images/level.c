@@ -18,6 +18,7 @@ void tim2_handler(void)
 int main(void)
 {
     RCC_APB1ENR |= 1;
+    settle();
     NVIC_ISER(0) = 1u << IRQ_TIM2;
     TIM_DIER(TIM2) = 2;
     TIM_EGR(TIM2) = 2;

@@ -5,6 +5,7 @@ int main(void)
 {
     RCC_AHB1ENR |= 1;
     RCC_APB1ENR |= 1u << 17;
+    settle();
     GPIO_MODER(GPIOA) = (GPIO_MODER(GPIOA) & ~0xF0u) | 0xA0;
     GPIO_AFRL(GPIOA) = 0x7700;
     USART_BRR(USART2) = 833;

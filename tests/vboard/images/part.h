@@ -127,6 +127,12 @@ static inline uint32_t cycles(void)
     return DWT_CYCCNT;
 }
 
+/* A clock that was enabled in RCC comes some cycles later (errata ES0182). */
+static inline void settle(void)
+{
+    __asm__ volatile("dsb\n\tnop\n\tnop\n\tnop\n\tnop\n\tnop\n\tnop\n\tnop\n\tnop" ::: "memory");
+}
+
 #define RAMCODE __attribute__((section(".ramcode"), noinline, long_call))
 
 #endif

@@ -4,6 +4,7 @@
 int main(void)
 {
     RCC_AHB1ENR |= 5;
+    settle();
     result[0] = GPIO_MODER(GPIOA);
     GPIO_MODER(GPIOA) = (GPIO_MODER(GPIOA) & ~0xFFu) | 0x15; /* PA0 to PA2 outputs, PA3 input */
     GPIO_BSRR(GPIOA) = 0x00070005;                            /* set wins over reset */

@@ -4,6 +4,7 @@
 int main(void)
 {
     RCC_APB1ENR |= 1;
+    settle();
     TIM_PSC(TIM2) = 15;
     TIM_ARR(TIM2) = 99;
     TIM_CCMR1(TIM2) = 1 << 3;

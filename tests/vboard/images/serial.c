@@ -28,6 +28,7 @@ int main(void)
 {
     RCC_AHB1ENR |= 1;
     RCC_APB1ENR |= 1u << 17;
+    settle();
     GPIO_MODER(GPIOA) = (GPIO_MODER(GPIOA) & ~0xFCu) | 0xA4; /* PA1 output, PA2 and PA3 alternate */
     GPIO_AFRL(GPIOA) = 0x7700;
     USART_BRR(USART2) = 833; /* 16 MHz / 19200 */

@@ -20,6 +20,7 @@ int main(void)
 {
     run_at_168_mhz();
     RCC_APB1ENR |= 1;
+    settle();
     for (unsigned i = 1; i <= 4; i++) {
         TIM_CCR(TIM2, i) = 1000 + 100 * i;
     }

@@ -1,4 +1,4 @@
-/* Option bytes and the voltage detector. */
+/* Option bytes, and what the voltage detector says at several levels: result[4 + level], 0 or 4. */
 #include "part.h"
 
 #define FLASH_OPTKEYR REG(FLASH + 0x08)
@@ -6,10 +6,21 @@
 #define PWR_CR REG(0x40007000)
 #define PWR_CSR REG(0x40007004)
 
+#ifndef SETTLE_US
+#define SETTLE_US 110
+#endif
+
+static void wait_us(uint32_t us)
+{
+    uint32_t before = cycles();
+    while (cycles() - before < 16 * us) {
+    }
+}
+
 int main(void)
 {
     if ((FLASH_OPTCR & 0xC) == 0) {
-        result[10] = FLASH_OPTCR;
+        result[14] = FLASH_OPTCR;
         return 0;
     }
     result[0] = FLASH_OPTCR;
@@ -25,11 +36,13 @@ int main(void)
     FLASH_OPTCR |= 1;
     result[3] = FLASH_OPTCR;
     RCC_APB1ENR |= 1u << 28;
-    result[4] = PWR_CSR & 4;
-    PWR_CR |= 1u << 4 | 7u << 5; /* 2.9 V */
-    result[5] = PWR_CSR & 4;
-    PWR_CR = (PWR_CR & ~(7u << 5)) | 5u << 5; /* 2.7 V */
-    result[6] = PWR_CSR & 4;
+    settle();
+    result[13] = PWR_CSR & 4; /* off */
+    for (uint32_t level = 0; level < 8; level++) {
+        PWR_CR = (PWR_CR & ~(7u << 5)) | 1u << 4 | level << 5;
+        wait_us(SETTLE_US);
+        result[4 + level] = PWR_CSR & 4;
+    }
 #ifdef AGAIN
     SCB_AIRCR = 0x05FA0004;
 #endif

@@ -6,6 +6,7 @@ int main(void)
     run_at_168_mhz();
     RCC_AHB1ENR |= 1;
     RCC_APB1ENR |= 1;
+    settle();
     GPIO_MODER(GPIOA) = (GPIO_MODER(GPIOA) & ~0xFu) | 0xA; /* PA0, PA1 alternate */
     GPIO_AFRL(GPIOA) = 0x11;                                /* TIM2 */
     TIM_CCR(TIM2, 1) = 1000;

@@ -4,6 +4,7 @@
 int main(void)
 {
     RCC_APB1ENR |= 3;
+    settle();
     TIM_PSC(TIM2) = 15; /* 1 MHz */
     TIM_ARR(TIM2) = 99;
     TIM_EGR(TIM2) = 1; /* takes the prescaler over */

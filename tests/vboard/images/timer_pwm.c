@@ -33,6 +33,7 @@ static inline void start(uint32_t last)
 {
     RCC_AHB1ENR |= 1;
     RCC_APB1ENR |= 1;
+    settle();
     GPIO_MODER(GPIOA) = (GPIO_MODER(GPIOA) & ~0xFFu) | 0xAA;
     GPIO_AFRL(GPIOA) = 0x1111;
     TIM_PSC(TIM2) = 159;

@@ -1,0 +1,36 @@
+/* What is found at the start, and what the PLL's configuration says to a write while it runs. */
+#include "part.h"
+
+int main(void)
+{
+    result[0] = RCC_CR;
+    result[1] = RCC_CFGR & 0xF;
+    result[2] = FLASH_SR;
+    result[3] = FLASH_CR >> 31;
+    result[4] = SYST_CSR & 7;
+    result[5] = NVIC_ISPR(2) & NVIC_ISER(2);
+    result[6] = SCB_VTOR;
+    result[7] = REG16(0x1FFF7A22);
+    result[8] = REG(0xE0042000);
+#ifdef WRITE
+    RCC_PLLCFGR = 8 | 336u << 6 | 1u << 22 | 7u << 24;
+#endif
+#ifdef TOO_SOON
+    RCC_CFGR = 0;
+    while ((RCC_CFGR & 0xC) != 0) {
+    }
+    RCC_CR &= ~(1u << 24);
+    RCC_PLLCFGR = 8 | 336u << 6 | 1u << 22 | 7u << 24;
+#endif
+#ifdef PREFETCH
+    FLASH_ACR = 1u << 8;
+#endif
+#ifdef RESET_CACHE
+    FLASH_ACR = 1u << 10;
+    FLASH_ACR = 1u << 10 | 1u << 12;
+#endif
+#ifdef READ_LAST
+    result[9] = REG(0x080FFFFC);
+#endif
+    return 0;
+}

@@ -1,0 +1,32 @@
+/* A sector is erased, words are programmed with PSIZE as defined; result[0]: FLASH_SR, result[1]: the last word. */
+#include "part.h"
+
+#ifndef SECTOR
+#define SECTOR 4
+#endif
+#ifndef SIZE
+#define SIZE 2
+#endif
+
+static void wait(void)
+{
+    while ((FLASH_SR & 1u << 16) != 0) {
+    }
+}
+
+int main(void)
+{
+#ifdef DIRTY
+    RCC_CIR = 0;
+#else
+    FLASH_SR = 0xF3;
+#endif
+    FLASH_KEYR = 0x45670123;
+    FLASH_KEYR = 0xCDEF89AB;
+    FLASH_CR = SIZE << 8 | SECTOR << 3 | 2;
+    FLASH_CR |= 1u << 16;
+    wait();
+    result[0] = FLASH_SR;
+    result[1] = REG(0x08010000);
+    return 0;
+}

@@ -1,0 +1,231 @@
+#include "supply.h"
+
+#include <string.h>
+
+#include "board.h"
+#include "complain.h"
+#include "line.h"
+
+enum {
+    PWR_CR = 0x00,
+    PWR_CSR = 0x04,
+    MV_DECIMALS = 3,
+    MS_DECIMALS = 9,
+    MV_MAX = 4000, /* DS8626, absolute maximum */
+    OFF = 3,       /* level of the brown-out reset: none */
+};
+
+#define PWR_CR_RESET UINT32_C(0x4000) /* VOS: scale 1 */
+#define PWR_CR_MASK UINT32_C(0x43FF)
+#define PWR_CR_PVDE (UINT32_C(1) << 4)
+#define PWR_CR_PLS (UINT32_C(7) << 5)
+#define PWR_CSR_PVDO (UINT32_C(1) << 2)
+#define PWR_CSR_VOSRDY (UINT32_C(1) << 14)
+#define MS_MAX UINT64_C(1000000000)
+
+/* The data sheet does not say how long the detector takes to begin; assumed, and longer than those of other parts. */
+#define SETTLE_PS (100 * VTIME_PS_PER_US)
+
+/* Millivolts at the low end, typical, at the high end of the range. */
+struct threshold {
+    uint16_t rising[3];
+    uint16_t falling[3];
+};
+
+/* DS8626, VPVD by PLS[2:0]. */
+static const struct threshold detector[] = {
+    {{2090, 2140, 2190}, {1980, 2040, 2080}}, {{2230, 2300, 2370}, {2130, 2190, 2250}},
+    {{2390, 2450, 2510}, {2290, 2350, 2390}}, {{2540, 2600, 2650}, {2440, 2510, 2560}},
+    {{2700, 2760, 2820}, {2590, 2660, 2710}}, {{2860, 2930, 2990}, {2650, 2840, 3020}},
+    {{2960, 3030, 3100}, {2850, 2930, 2990}}, {{3070, 3140, 3210}, {2950, 3030, 3090}},
+};
+
+/* DS8626, VBOR3 to VBOR1 by BOR_LEV (RM0090 3.9.8), and last what is always there, VPOR/PDR. */
+static const struct threshold reset_levels[] = {
+    {{2850, 2920, 2970}, {2750, 2830, 2880}},
+    {{2530, 2590, 2630}, {2440, 2500, 2560}},
+    {{2230, 2290, 2330}, {2130, 2190, 2240}},
+    {{1640, 1720, 1800}, {1600, 1680, 1760}},
+};
+
+static const uint16_t release_us[] = {500, 1500, 3000}; /* DS8626, TRSTTEMPO */
+
+static uint32_t voltage_at(const struct supply *supply, uint64_t ps)
+{
+    unsigned i = supply->points;
+    while (i > 1 && supply->point[i - 1U].ps > ps) {
+        i--;
+    }
+    if (i == supply->points) {
+        return supply->point[i - 1U].mv;
+    }
+    uint64_t begin = supply->point[i - 1U].ps;
+    uint64_t span = supply->point[i].ps - begin;
+    uint32_t from = supply->point[i - 1U].mv;
+    uint32_t to = supply->point[i].mv;
+    uint32_t way = (uint32_t)vtime_scale(to > from ? to - from : from - to, ps - begin, span);
+    return to > from ? from + way : from - way;
+}
+
+/* When the voltage is another one, by a millivolt; NEVER: it stays. */
+static uint64_t next_change(const struct supply *supply, uint64_t ps)
+{
+    for (unsigned i = 0; i + 1U < supply->points; i++) {
+        uint64_t begin = supply->point[i].ps;
+        uint64_t end = supply->point[i + 1U].ps;
+        uint32_t from = supply->point[i].mv;
+        uint32_t to = supply->point[i + 1U].mv;
+        uint64_t way = to > from ? to - from : from - to;
+        if (ps >= end) {
+            continue;
+        }
+        if (ps < begin || way == 0) {
+            return ps < begin ? begin : end;
+        }
+        uint64_t next = begin + vtime_scale(end - begin, vtime_scale(way, ps - begin, end - begin) + 1U, way) + 1U;
+        return next < end ? next : end;
+    }
+    return VTIME_NEVER;
+}
+
+static void watch_voltage(struct supply *supply)
+{
+    const struct threshold *level = &detector[(supply->pwr_cr & PWR_CR_PLS) >> 5];
+    supply->low = supply->mv < (supply->low ? level->rising : level->falling)[supply->corner];
+}
+
+/* The reset begins; the RAM forgets only below the level that is always there. */
+static void hold(struct board *board)
+{
+    struct supply *supply = &board->supply;
+    supply->held = true;
+    supply->release_ps = VTIME_NEVER;
+    flash_cut(board);
+    board_request_reset(board, RESET_HELD);
+}
+
+static void release(struct board *board)
+{
+    struct supply *supply = &board->supply;
+    bool forgotten = supply->forgotten;
+    supply->held = false;
+    supply->forgotten = false;
+    supply->brown_outs += forgotten ? 0U : 1U;
+    board_request_reset(board, forgotten ? RESET_POWER : RESET_BROWN_OUT);
+}
+
+static void watch_reset(struct board *board, uint64_t ps)
+{
+    struct supply *supply = &board->supply;
+    const struct threshold *level = &reset_levels[flash_brown_out_level(&board->flash)];
+    supply->forgotten |= supply->mv < reset_levels[OFF].falling[supply->corner];
+    if (!supply->held) {
+        if (supply->mv < level->falling[supply->corner]) {
+            hold(board);
+        }
+    } else if (supply->mv < level->rising[supply->corner]) {
+        supply->release_ps = VTIME_NEVER;
+    } else if (supply->release_ps == VTIME_NEVER) {
+        supply->release_ps = ps + release_us[supply->corner] * VTIME_PS_PER_US;
+    } else if (ps >= supply->release_ps) {
+        release(board);
+    }
+}
+
+void supply_event(struct board *board, uint64_t cycle)
+{
+    struct supply *supply = &board->supply;
+    uint64_t ps = vtime_ps_of_cycle(&board->time, cycle);
+    supply->mv = voltage_at(supply, ps);
+    supply->least_mv = supply->mv < supply->least_mv ? supply->mv : supply->least_mv;
+    watch_voltage(supply);
+    watch_reset(board, ps);
+    uint64_t next = next_change(supply, ps);
+    if (supply->held) {
+        next = supply->release_ps < next ? supply->release_ps : next;
+    } else {
+        flash_watch_supply(board);
+        rcc_check_limits(board);
+    }
+    if (next != VTIME_NEVER) {
+        events_set_ps(board, EVENT_SUPPLY, next);
+    }
+}
+
+void supply_reset(struct board *board)
+{
+    board->supply.pwr_cr = PWR_CR_RESET;
+    board->supply.settled_ps = VTIME_NEVER;
+}
+
+static bool read_points(struct supply *supply, const char *at)
+{
+    const char *end = at + strlen(at);
+    for (bool more = true; more; supply->points++) {
+        uint64_t ps = 0;
+        uint64_t mv = 0;
+        if (supply->points == SUPPLY_POINTS_MAX ||
+            (supply->points > 0 && (!line_read_fixed(&at, end, MS_DECIMALS, MS_MAX * VTIME_PS_PER_MS, &ps) ||
+                                    ps <= supply->point[supply->points - 1U].ps || at == end || *at++ != ':')) ||
+            !line_read_fixed(&at, end, MV_DECIMALS, MV_MAX, &mv)) {
+            return false;
+        }
+        supply->point[supply->points].ps = ps;
+        supply->point[supply->points].mv = (uint32_t)mv;
+        more = at != end && *at == ',';
+        at += more ? 1 : 0;
+    }
+    return at == end;
+}
+
+bool supply_open(struct board *board)
+{
+    struct supply *supply = &board->supply;
+    const char *text = board->options->supply == NULL ? "3.3" : board->options->supply;
+    *supply = (struct supply){.corner = board->options->thresholds, .least_mv = MV_MAX, .release_ps = VTIME_NEVER};
+    if (!read_points(supply, text)) {
+        complain("--supply %s: not volts, or volts and times; write for example 3.3,50:3.3,60:2.5", text);
+        return false;
+    }
+    supply->mv = supply->point[0].mv;
+    supply->held = supply->mv < reset_levels[flash_brown_out_level(&board->flash)].rising[supply->corner];
+    supply->forgotten = supply->held;
+    events_set_ps(board, EVENT_SUPPLY, 0);
+    return true;
+}
+
+bool pwr_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
+{
+    const struct supply *supply = &board->supply;
+    bool on = (supply->pwr_cr & PWR_CR_PVDE) != 0;
+    (void)instance;
+    if (offset == PWR_CSR && on && board_now_ps(board) < supply->settled_ps) {
+        board_fail(board, "PWR_CSR is read before the voltage detector, just switched on, can be believed");
+    }
+    *value = offset == PWR_CR ? supply->pwr_cr : PWR_CSR_VOSRDY | (on && supply->low ? PWR_CSR_PVDO : 0U);
+    return offset == PWR_CR || offset == PWR_CSR;
+}
+
+/* Between its two thresholds a detector that is switched on, or to another level, says "low". */
+static void start_detector(struct board *board)
+{
+    struct supply *supply = &board->supply;
+    supply->low = true;
+    watch_voltage(supply);
+    supply->settled_ps = board_now_ps(board) + SETTLE_PS;
+}
+
+bool pwr_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask)
+{
+    struct supply *supply = &board->supply;
+    uint32_t before = supply->pwr_cr;
+    (void)instance;
+    if (offset != PWR_CR) {
+        return false;
+    }
+    supply->pwr_cr = ((before & ~mask) | (value & mask)) & PWR_CR_MASK;
+    if ((supply->pwr_cr & PWR_CR_PVDE) != 0 && ((before ^ supply->pwr_cr) & (PWR_CR_PVDE | PWR_CR_PLS)) != 0) {
+        start_detector(board);
+    }
+    return true;
+}
