@@ -3,6 +3,7 @@
 #include <assert.h>
 
 #include "hal_board.h"
+#include "hal_flash.h"
 
 /* What masters read must not change with the order of our own lists. */
 static_assert(HAL_BOARD_CAUSE_POWER == 0 && HAL_BOARD_CAUSE_FAULT == 3, "causes are numbered in messages.md");
@@ -57,6 +58,7 @@ static uint8_t switch_bits(const struct io *io)
     bits |= hal_board_may_start_programs() ? 0U : PROTOCOL_STATUS_NOT_STARTED;
     bits |= io->memory_locked ? PROTOCOL_STATUS_LOCKED : 0U;
     bits |= io->simulating ? PROTOCOL_STATUS_SIMULATING : 0U;
+    bits |= hal_flash_is_there() ? 0U : PROTOCOL_STATUS_NO_STORE;
     return (uint8_t)bits;
 }
 

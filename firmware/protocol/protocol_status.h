@@ -28,7 +28,8 @@ enum {
     X(NO_CRYSTAL, 0)  /* no motion, as step times would be wrong */                                                    \
     X(NOT_STARTED, 1) /* behind a watchdog or a fault the stored programs have not been started */                     \
     X(LOCKED, 2)      /* T40 */                                                                                        \
-    X(SIMULATING, 3)  /* T41 */
+    X(SIMULATING, 3)  /* T41 */                                                                                        \
+    X(NO_STORE, 4)    /* the part is too small for stored programs */
 
 /* Bits of `motors`. X(NAME, bit) */
 #define PROTOCOL_STATUS_MOTORS(X)                                                                                      \

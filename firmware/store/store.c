@@ -114,6 +114,10 @@ void store_init(struct store *store)
 {
     struct store_record mark[HAL_FLASH_AREAS];
     *store = (struct store){0};
+    if (!hal_flash_is_there()) {
+        lose_all(store);
+        return;
+    }
     for (unsigned area = 0; area < HAL_FLASH_AREAS; area++) {
         mark[area] = store_record_read(area, 0);
     }

@@ -15,6 +15,8 @@
  * meant, all are damaged. A record without whole-mark is what a cut or a failure has left; it does not count and the
  * text before it does. One wrong bit anywhere makes at most one motor damaged.
  *
+ * A part without the memory keeps nothing: all motors count as damaged, so that they tell it, and a store fails.
+ *
  * Life: at 10 000 erases for each area the rotation is good for 220 000 stores of the longest text on all motors (11
  * in each area beside the four copies) and for 17 million of 100 bytes. Storing what is stored already writes nothing.
  */

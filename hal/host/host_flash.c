@@ -43,8 +43,14 @@ static struct effect next_effect(struct host_machine *machine, uint32_t length)
 static uint8_t *area_at(struct host_machine *machine, unsigned area, uint32_t offset, uint32_t length)
 {
     assert(area < HAL_FLASH_AREAS);
+    assert(!machine->faults.no_flash);
     assert(offset <= HAL_FLASH_AREA_BYTES && length <= HAL_FLASH_AREA_BYTES - offset);
     return &machine->flash[area][offset];
+}
+
+bool hal_flash_is_there(void)
+{
+    return !host_current()->faults.no_flash;
 }
 
 void hal_flash_read(unsigned area, uint32_t offset, uint8_t *bytes, uint32_t length)
@@ -58,6 +64,9 @@ bool hal_flash_write_word(unsigned area, uint32_t offset, const uint8_t bytes[HA
     static const uint8_t erased_word[HAL_FLASH_WORD_BYTES] = {ERASED, ERASED, ERASED, ERASED};
     struct host_machine *machine = host_current();
     assert(offset % HAL_FLASH_WORD_BYTES == 0);
+    if (machine->faults.no_flash) {
+        return false;
+    }
     uint8_t *word = area_at(machine, area, offset, HAL_FLASH_WORD_BYTES);
     struct effect effect = next_effect(machine, HAL_FLASH_WORD_BYTES);
     bool fits = true;
@@ -74,6 +83,9 @@ bool hal_flash_write_word(unsigned area, uint32_t offset, const uint8_t bytes[HA
 bool hal_flash_erase(unsigned area)
 {
     struct host_machine *machine = host_current();
+    if (machine->faults.no_flash) {
+        return false;
+    }
     uint8_t *bytes = area_at(machine, area, 0, HAL_FLASH_AREA_BYTES);
     struct effect effect = next_effect(machine, HAL_FLASH_AREA_BYTES);
     memset(bytes + effect.begin, ERASED, effect.end - effect.begin);

@@ -15,6 +15,9 @@ enum {
     HAL_FLASH_WORD_BYTES = 4,
 };
 
+/* Whether the part has the areas. Where it has not, nothing may be read, and writing and erasing fail. */
+bool hal_flash_is_there(void);
+
 /* Copies `length` bytes at `offset` of an area; all must lie inside it. */
 void hal_flash_read(unsigned area, uint32_t offset, uint8_t *bytes, uint32_t length);
 

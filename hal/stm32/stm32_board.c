@@ -43,6 +43,7 @@ void hal_board_init(void)
     stm32_step_start(stm32_board_clock.crystal);
     stm32_pins_start();
     stm32_supply_start();
+    stm32_flash_start(*(const volatile uint16_t *)(uintptr_t)stm32_part_flash_kb_at);
     stm32_line_start(&stm32_board_clock);
     enable_interrupt(STM32_LINE_IRQ, STM32_PRIORITY_LINE);
     stm32_watchdog_start();

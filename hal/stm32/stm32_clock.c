@@ -1,5 +1,6 @@
 #include "board.h"
 #include "stm32_private.h"
+#include "stm32_supply.h"
 #include "stm32f4.h"
 
 /*
@@ -16,7 +17,13 @@ enum {
     CLOCK_PLL = 2,
     DIVIDE_BY_2 = 4,
     DIVIDE_BY_4 = 5,
-    WAIT_STATES = 5, /* 168 MHz at 2.7 to 3.6 V, RM0090 3.5.1 */
+    /* Down to the level at which the board's part is held in reset. */
+    WAIT_STATES = STM32_WAIT_STATES(STM32_BROWN_OUT_FALLING_MIN_MV(BOARD_BROWN_OUT_LEVEL)),
+
+    DEVICE = 0x413, /* DBGMCU_IDCODE: STM32F405 and F407 but for revision A (RM0090 38.6.1) */
+    DEVICE_MASK = 0xFFF,
+    REVISION_PLACE = 16,
+    REVISION_A = 0x1000,
 
     /* A turn of a waiting loop takes at least 4 cycles of 16 MHz: 50 ms or more. A crystal takes 2 ms. */
     TURNS_MAX = 200000,
@@ -30,6 +37,27 @@ static bool wait_for(const volatile uint32_t *word, uint32_t mask, uint32_t valu
         }
     }
     return false;
+}
+
+/* The internal oscillator drives the chip, all else is off: so it is after a reset, and not where a boot loader has
+ * started this program. The dividers change only then, as APB1 must not be too fast meanwhile. */
+static bool return_to_internal(void)
+{
+    RCC_CR |= RCC_CR_HSION;
+    if (!wait_for(&RCC_CR, RCC_CR_HSIRDY, RCC_CR_HSIRDY)) {
+        return false;
+    }
+    RCC_CFGR &= ~RCC_CFGR_SW(3U);
+    if (!wait_for(&RCC_CFGR, RCC_CFGR_SWS(3U), 0)) {
+        return false;
+    }
+    RCC_CFGR = 0;
+    RCC_CR &= ~(RCC_CR_CSSON | RCC_CR_PLLON | RCC_CR_HSEON);
+    if (!wait_for(&RCC_CR, RCC_CR_PLLRDY | RCC_CR_HSERDY, 0)) {
+        return false;
+    }
+    RCC_CR &= ~RCC_CR_HSEBYP;
+    return true;
 }
 
 static bool start_crystal(void)
@@ -51,9 +79,17 @@ static bool start_pll(uint32_t source_mhz, uint32_t source)
     return wait_for(&RCC_CR, RCC_CR_PLLRDY, RCC_CR_PLLRDY);
 }
 
+/* Revision A reads wrong instructions with it, and names itself as an STM32F2 does (errata ES0182). */
+static uint32_t prefetch(void)
+{
+    uint32_t identity = DBG_IDCODE;
+    bool known = (identity & (uint32_t)DEVICE_MASK) == (uint32_t)DEVICE;
+    return known && identity >> REVISION_PLACE != (uint32_t)REVISION_A ? FLASH_ACR_PRFTEN : 0U;
+}
+
 static bool switch_to_pll(void)
 {
-    FLASH_ACR = FLASH_ACR_LATENCY((uint32_t)WAIT_STATES) | FLASH_ACR_PRFTEN | FLASH_ACR_ICEN | FLASH_ACR_DCEN;
+    FLASH_ACR = FLASH_ACR_LATENCY((uint32_t)WAIT_STATES) | prefetch() | FLASH_ACR_ICEN | FLASH_ACR_DCEN;
     if (!wait_for(&FLASH_ACR, FLASH_ACR_LATENCY(7U), FLASH_ACR_LATENCY((uint32_t)WAIT_STATES))) {
         return false;
     }
@@ -70,9 +106,10 @@ static bool switch_to_pll(void)
  * PLL it drives the chip itself. A crystal that fails later raises the NMI, a fault. */
 struct stm32_clock stm32_clock_start(void)
 {
-    bool crystal = start_crystal();
+    bool internal = return_to_internal();
+    bool crystal = internal && start_crystal();
     uint32_t source_mhz = crystal ? BOARD_CRYSTAL_MHZ : (uint32_t)INTERNAL_MHZ;
-    if (!start_pll(source_mhz, crystal ? RCC_PLLCFGR_PLLSRC : 0U) || !switch_to_pll()) {
+    if (!internal || !start_pll(source_mhz, crystal ? RCC_PLLCFGR_PLLSRC : 0U) || !switch_to_pll()) {
         return (struct stm32_clock){.core_hz = INTERNAL_HZ, .apb1_hz = INTERNAL_HZ, .apb2_hz = INTERNAL_HZ};
     }
     if (crystal) {

@@ -24,8 +24,7 @@ uint32_t stm32_edge_irq(unsigned input)
 
 void stm32_edge_start(void)
 {
-    RCC_APB2ENR |= RCC_APB2ENR_SYSCFGEN;
-    (void)RCC_APB2ENR; /* a clock is there two cycles after it was asked for */
+    stm32_enable_clock(&RCC_APB2ENR, RCC_APB2ENR_SYSCFGEN);
     for (unsigned line = INPUT_FIRST; line < INPUT_FIRST + UNIT_INPUTS; line++) {
         uint32_t place = 4U * (line % 4U);
         uint32_t others = SYSCFG_EXTICR(line / 4U) & ~(UINT32_C(0xF) << place);

@@ -1,18 +1,22 @@
 #include "hal_flash.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "base_tick.h"
+#include "board.h"
 #include "stm32_private.h"
 #include "stm32f4.h"
 
 /*
- * The areas are the last two sectors of 1 MB. While a sector is being written or erased the flash answers no read, and
+ * The areas are the last two sectors of 1 MB; a smaller part does not have them. While a sector is being written or erased the flash answers no read, and
  * the processor would stand still at the first one: all of this file, and all interrupts, run from RAM.
  */
 enum {
     SECTOR_FIRST = 10,
-    WIDTH_32 = 2, /* 2.7 to 3.6 V, RM0090 3.6.2 */
+    KB_MIN = 1024,
+    WORD_WRITES = HAL_FLASH_WORD_BYTES / BOARD_FLASH_BYTES, /* of a word: as wide as the supply allows */
+    WIDTH = WORD_WRITES == 1 ? 2 : 1,                       /* of PSIZE, RM0090 3.9.7 */
 
     WRITE_TICKS_MAX = 2 * TICKS_PER_MS, /* datasheet: 100 us */
 };
@@ -20,22 +24,41 @@ enum {
 #define ERASE_TICKS_MAX (4U * TICK_HZ) /* datasheet: 2 s */
 #define ERRORS (FLASH_SR_OPERR | FLASH_SR_WRPERR | FLASH_SR_PGAERR | FLASH_SR_PGPERR | FLASH_SR_PGSERR)
 
+static_assert(BOARD_FLASH_BYTES == 4 || BOARD_FLASH_BYTES == 2, "BOARD_FLASH_BYTES: 4 or 2 at a time");
+
+/* The part has both areas. */
+static bool areas_are_there;
+
 static uint32_t address_of(unsigned area, uint32_t offset)
 {
     return AREA_FIRST + area * (uint32_t)HAL_FLASH_AREA_BYTES + offset;
+}
+
+/* Below the level of stm32_supply.c nothing is begun, and what was going on then is not believed: what is written with
+ * too low a supply may read well and not last (RM0090 3.6.2). */
+static bool supply_is_good(void)
+{
+    return (PWR_CSR & PWR_CSR_PVDO) == 0;
+}
+
+static bool may_begin(void)
+{
+    return areas_are_there && supply_is_good();
 }
 
 /* Waiting counts as life of main: it does what main has asked for, for a limited time. */
 static bool wait_until_done(uint32_t ticks_max)
 {
     uint32_t start = TIM2_CNT;
-    while ((FLASH_SR & FLASH_SR_BSY) != 0) {
+    bool good = true;
+    do {
+        good = supply_is_good() && good;
         if (TIM2_CNT - start > ticks_max) {
             return false;
         }
         stm32_watchdog_main_lives();
-    }
-    return (FLASH_SR & ERRORS) == 0;
+    } while ((FLASH_SR & FLASH_SR_BSY) != 0);
+    return good && supply_is_good() && (FLASH_SR & ERRORS) == 0;
 }
 
 static void unlock(uint32_t control)
@@ -46,12 +69,6 @@ static void unlock(uint32_t control)
     }
     FLASH_SR = ERRORS | FLASH_SR_EOP;
     FLASH_CR = control;
-}
-
-/* Below the 2.9 V of stm32_supply.c nothing is begun: 32 bits at a time need 2.7 V. */
-static bool supply_is_good(void)
-{
-    return (PWR_CSR & PWR_CSR_PVDO) == 0;
 }
 
 static void lock(void)
@@ -69,6 +86,19 @@ static void forget_cached(void)
     FLASH_ACR = access;
 }
 
+void stm32_flash_start(uint32_t part_kb)
+{
+    areas_are_there = part_kb >= (uint32_t)KB_MIN;
+    FLASH_SR = ERRORS | FLASH_SR_EOP;
+    lock();
+    FLASH_OPTCR |= FLASH_OPTCR_OPTLOCK;
+}
+
+bool hal_flash_is_there(void)
+{
+    return areas_are_there;
+}
+
 void hal_flash_read(unsigned area, uint32_t offset, uint8_t *bytes, uint32_t length)
 {
     const uint8_t *stored = (const uint8_t *)(uintptr_t)address_of(area, offset);
@@ -76,28 +106,41 @@ void hal_flash_read(unsigned area, uint32_t offset, uint8_t *bytes, uint32_t len
     memcpy(bytes, stored, length);
 }
 
+/* A word at once, or half of it. */
+static void write_part(uint32_t address, uint32_t value, unsigned part)
+{
+    if (WORD_WRITES == 1) {
+        *(volatile uint32_t *)(uintptr_t)address = value;
+    } else {
+        ((volatile uint16_t *)(uintptr_t)address)[part] = (uint16_t)(value >> 16U * part);
+    }
+    stm32_barrier();
+}
+
 bool hal_flash_write_word(unsigned area, uint32_t offset, const uint8_t bytes[HAL_FLASH_WORD_BYTES])
 {
-    volatile uint32_t *word = (volatile uint32_t *)(uintptr_t)address_of(area, offset);
+    const volatile uint32_t *word = (volatile uint32_t *)(uintptr_t)address_of(area, offset);
     uint32_t value;
-    if (!supply_is_good()) {
+    bool done = may_begin();
+    if (!done) {
         return false;
     }
     memcpy(&value, bytes, sizeof value);
-    unlock(FLASH_CR_PG | FLASH_CR_PSIZE((uint32_t)WIDTH_32));
-    *word = value;
-    stm32_barrier();
-    bool done = wait_until_done(WRITE_TICKS_MAX);
+    unlock(FLASH_CR_PG | FLASH_CR_PSIZE((uint32_t)WIDTH));
+    for (unsigned i = 0; i < (unsigned)WORD_WRITES && done; i++) {
+        write_part(address_of(area, offset), value, i);
+        done = wait_until_done(WRITE_TICKS_MAX);
+    }
     lock();
     return done && *word == value;
 }
 
 bool hal_flash_erase(unsigned area)
 {
-    if (!supply_is_good()) {
+    if (!may_begin()) {
         return false;
     }
-    unlock(FLASH_CR_SER | FLASH_CR_SNB(SECTOR_FIRST + area) | FLASH_CR_PSIZE((uint32_t)WIDTH_32));
+    unlock(FLASH_CR_SER | FLASH_CR_SNB(SECTOR_FIRST + area) | FLASH_CR_PSIZE((uint32_t)WIDTH));
     FLASH_CR |= FLASH_CR_STRT;
     stm32_barrier();
     bool done = wait_until_done(ERASE_TICKS_MAX);

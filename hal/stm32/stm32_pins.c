@@ -32,6 +32,9 @@ static const struct use uses[] = {
 #define X(signal, port, pin, use) {(uint8_t)STM32_PIN_##signal, (uint8_t)USE_##use},
     BOARD_PINS(X)
 #undef X
+#define X(port, pin, what) {(uint8_t)(16 * STM32_PORT_##port + (pin)), (uint8_t)USE_IN_UP},
+    BOARD_PULLED_UP(X)
+#undef X
 };
 
 enum { USES = sizeof uses / sizeof uses[0] };
@@ -55,10 +58,11 @@ static void set_up(const struct use *use)
 
 static void start_ports(void)
 {
+    uint32_t ports = 0;
     for (unsigned i = 0; i < USES; i++) {
-        RCC_AHB1ENR |= RCC_AHB1ENR_GPIOAEN << (uses[i].pin / 16U);
+        ports |= RCC_AHB1ENR_GPIOAEN << (uses[i].pin / 16U);
     }
-    (void)RCC_AHB1ENR; /* a clock is there two cycles after it was asked for */
+    stm32_enable_clock(&RCC_AHB1ENR, ports);
 }
 
 static const uint8_t outputs[] = {

@@ -38,7 +38,18 @@ static inline void stm32_barrier(void)
     __asm__ volatile("dsb\n\tisb" ::: "memory");
 }
 
-/* stm32_clock.c. Called before there are variables and code in RAM. */
+/* A clock enable of RCC, and the time until what it is for takes an access: one that comes sooner is lost (errata ES0182,
+ * "delay after an RCC peripheral clock enabling"; a read-back alone was found to be too short). */
+static inline void stm32_enable_clock(volatile uint32_t *enables, uint32_t bits)
+{
+    *enables |= bits;
+    (void)*enables;
+    (void)*enables;
+    stm32_barrier();
+}
+
+/* stm32_clock.c. From any state, as a boot loader may have left another one. Called before there are variables and code
+ * in RAM. */
 struct stm32_clock {
     uint32_t core_hz;
     uint32_t apb1_hz;
@@ -92,9 +103,12 @@ void stm32_line_interrupt(void);
 /* Lets the bus go when a transmission does not come to its end. Every millisecond. */
 void stm32_line_tick(void);
 
-/* stm32_supply.c. Behind the step timer, before the watchdog. Watches the supply, and sets the level of the brown-out
- * reset, once in the life of a board. */
+/* stm32_supply.c. Behind the step timer, before the watchdog. Watches the supply; takes 0.25 ms. */
 void stm32_supply_start(void);
+
+/* stm32_part.c, stm32_flash.c. The start takes the size of the part's flash, and locks what a boot loader left open. */
+extern const uint32_t stm32_part_flash_kb_at;
+void stm32_flash_start(uint32_t part_kb);
 
 /* stm32_watchdog.c */
 void stm32_watchdog_start(void);

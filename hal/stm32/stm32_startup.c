@@ -25,6 +25,7 @@ enum {
     VECTORS = EXCEPTIONS + 82, /* RM0090 12.1.3 */
     EXCEPTION_PENDSV = 14,
     EXCEPTION_SYSTICK = 15,
+    IRQ_WORDS = 3,
 };
 
 /* Before the handlers are in RAM. */
@@ -70,6 +71,17 @@ static void set_vector(uint32_t number, void (*handler)(void))
     stm32_vectors[number] = (uint32_t)(uintptr_t)handler;
 }
 
+/* A boot loader may have left interrupts on, and pending; what they would lead to is gone. */
+static void silence_interrupts(void)
+{
+    STK_CTRL = 0;
+    SCB_ICSR = SCB_ICSR_PENDSTCLR | SCB_ICSR_PENDSVCLR;
+    for (uint32_t word = 0; word < IRQ_WORDS; word++) {
+        NVIC_ICER(word) = UINT32_MAX;
+        NVIC_ICPR(word) = UINT32_MAX;
+    }
+}
+
 static void start_vectors(void)
 {
     for (uint32_t number = 0; number < VECTORS; number++) {
@@ -92,6 +104,8 @@ static void start_vectors(void)
 _Noreturn void stm32_reset(void)
 {
     assert(SCB_VTOR != (uint32_t)(uintptr_t)stm32_vectors);
+    (void)stm32_mask();
+    silence_interrupts();
     struct stm32_clock clock = stm32_clock_start();
     const uint32_t *here = __builtin_frame_address(0);
     fill(stm32_stack_bottom, here - PAINT_WORDS_LEFT, STACK_PATTERN);
@@ -99,6 +113,7 @@ _Noreturn void stm32_reset(void)
     fill(stm32_zero_begin, stm32_zero_end, 0);
     stm32_board_clock = clock;
     start_vectors();
+    stm32_unmask(0);
     (void)main();
     for (;;) {
     }

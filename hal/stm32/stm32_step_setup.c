@@ -47,8 +47,7 @@ void hal_step_connect(unsigned motor, bool connected)
 void stm32_step_start(bool may_move)
 {
     uint32_t levels = TIM2_CCER_CC1P | TIM2_CCER_CC2P | TIM2_CCER_CC3P | TIM2_CCER_CC4P;
-    RCC_APB1ENR |= RCC_APB1ENR_TIM2EN;
-    (void)RCC_APB1ENR;
+    stm32_enable_clock(&RCC_APB1ENR, RCC_APB1ENR_TIM2EN);
     TIM2_CR1 = 0;
     TIM2_PSC = 0;
     TIM2_ARR = UINT32_MAX;
@@ -81,8 +80,7 @@ void stm32_step_set_client(const struct hal_client *client)
 /* Also before stm32_step_start. */
 void stm32_step_make_safe(void)
 {
-    RCC_APB1ENR |= RCC_APB1ENR_TIM2EN;
-    (void)RCC_APB1ENR;
+    stm32_enable_clock(&RCC_APB1ENR, RCC_APB1ENR_TIM2EN);
     TIM2_DIER = 0;
     TIM2_CCMR1 = TIM2_CCMR1_OC1M((uint32_t)MODE_LOW) | TIM2_CCMR1_OC2M((uint32_t)MODE_LOW);
     TIM2_CCMR2 = TIM2_CCMR2_OC3M((uint32_t)MODE_LOW) | TIM2_CCMR2_OC4M((uint32_t)MODE_LOW);

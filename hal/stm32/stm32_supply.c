@@ -1,42 +1,31 @@
+#include "stm32_supply.h"
+
+#include <assert.h>
+
 #include "base_tick.h"
+#include "board.h"
 #include "stm32_private.h"
 #include "stm32f4.h"
 
-enum {
-    DETECT_2900_MV = 7,    /* of the voltage detector, RM0090 5.4.1 */
-    BROWN_OUT_2700_MV = 0, /* level 3, RM0090 5.2.2 */
-    BROWN_OUT_MASK = 3,
-};
-#define WRITE_TICKS_MAX (4U * TICK_HZ) /* the data sheet does not tell it; an erase takes 2 s */
+static_assert(STM32_DETECT_RISING_MAX_MV(BOARD_DETECT_LEVEL) <= BOARD_SUPPLY_MIN_MV,
+              "BOARD_DETECT_LEVEL: a good supply might never be seen as good");
+static_assert(STM32_DETECT_FALLING_MIN_MV(BOARD_DETECT_LEVEL) >= STM32_FLASH_MIN_MV(BOARD_FLASH_BYTES),
+              "BOARD_DETECT_LEVEL: a supply too low for BOARD_FLASH_BYTES at a time might not be seen");
+static_assert(STM32_BROWN_OUT_RISING_MAX_MV(BOARD_BROWN_OUT_LEVEL) <= BOARD_SUPPLY_MIN_MV,
+              "BOARD_BROWN_OUT_LEVEL: the part might never start");
+static_assert(STM32_BROWN_OUT_FALLING_MIN_MV(BOARD_BROWN_OUT_LEVEL) >= 2100U,
+              "BOARD_BROWN_OUT_LEVEL: below 2.1 V the part cannot run at 168 MHz");
 
-static void wait_until_done(void)
-{
-    uint32_t start = TIM2_CNT;
-    while ((FLASH_SR & FLASH_SR_BSY) != 0 && TIM2_CNT - start < WRITE_TICKS_MAX) {
-    }
-}
-
-/* Once in the life of a board. From the next power-on on, the part is held in reset while its supply is below 2.7 V,
- * where neither the processor at this clock nor the flash is specified. */
-static void set_brown_out_level(void)
-{
-    FLASH_OPTKEYR = FLASH_OPTION_KEY_1;
-    FLASH_OPTKEYR = FLASH_OPTION_KEY_2;
-    FLASH_OPTCR = (FLASH_OPTCR & ~FLASH_OPTCR_BOR_LEV((uint32_t)BROWN_OUT_MASK)) |
-                  FLASH_OPTCR_BOR_LEV((uint32_t)BROWN_OUT_2700_MV);
-    FLASH_OPTCR |= FLASH_OPTCR_OPTSTRT;
-    stm32_barrier();
-    wait_until_done();
-    FLASH_OPTCR |= FLASH_OPTCR_OPTLOCK;
-}
+/* How long the detector takes to begin is in no data sheet of this part; those of its family say 100 us at most. A turn
+ * reads the timer by a slow bus: so many take longer, whatever the clock, if it stands still. */
+#define SETTLE_TICKS (250U * TICKS_PER_US)
+enum { TURNS_MAX = 20000 };
 
 void stm32_supply_start(void)
 {
-    uint32_t level = FLASH_OPTCR & FLASH_OPTCR_BOR_LEV((uint32_t)BROWN_OUT_MASK);
-    RCC_APB1ENR |= RCC_APB1ENR_PWREN;
-    (void)RCC_APB1ENR;
-    PWR_CR |= PWR_CR_PVDE | PWR_CR_PLS((uint32_t)DETECT_2900_MV);
-    if (level != FLASH_OPTCR_BOR_LEV((uint32_t)BROWN_OUT_2700_MV) && (PWR_CSR & PWR_CSR_PVDO) == 0) {
-        set_brown_out_level();
+    stm32_enable_clock(&RCC_APB1ENR, RCC_APB1ENR_PWREN);
+    PWR_CR = (PWR_CR & ~PWR_CR_PLS(7U)) | PWR_CR_PVDE | PWR_CR_PLS(BOARD_DETECT_LEVEL);
+    uint32_t start = TIM2_CNT;
+    for (uint32_t turns = 0; turns < (uint32_t)TURNS_MAX && TIM2_CNT - start < SETTLE_TICKS; turns++) {
     }
 }

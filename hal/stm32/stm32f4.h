@@ -21,8 +21,11 @@
 #define RCC_APB1ENR STM32_REGISTER(RCC_BASE + 0x40U) /* 7.3.13 */
 #define RCC_APB2ENR STM32_REGISTER(RCC_BASE + 0x44U) /* 7.3.14 */
 #define RCC_CSR STM32_REGISTER(RCC_BASE + 0x74U)     /* 7.3.21 */
+#define RCC_CR_HSION (1U << 0)
+#define RCC_CR_HSIRDY (1U << 1)
 #define RCC_CR_HSEON (1U << 16)
 #define RCC_CR_HSERDY (1U << 17)
+#define RCC_CR_HSEBYP (1U << 18)
 #define RCC_CR_CSSON (1U << 19)
 #define RCC_CR_PLLON (1U << 24)
 #define RCC_CR_PLLRDY (1U << 25)
@@ -58,7 +61,6 @@
 #define FLASH_BASE 0x40023C00U
 #define FLASH_ACR STM32_REGISTER(FLASH_BASE + 0x00U)  /* 3.9.1 */
 #define FLASH_KEYR STM32_REGISTER(FLASH_BASE + 0x04U) /* 3.9.3 */
-#define FLASH_OPTKEYR STM32_REGISTER(FLASH_BASE + 0x08U) /* 3.9.4 */
 #define FLASH_SR STM32_REGISTER(FLASH_BASE + 0x0CU)   /* 3.9.5 */
 #define FLASH_CR STM32_REGISTER(FLASH_BASE + 0x10U)   /* 3.9.7 */
 #define FLASH_OPTCR STM32_REGISTER(FLASH_BASE + 0x14U) /* 3.9.8 */
@@ -81,12 +83,12 @@
 #define FLASH_CR_STRT (1U << 16)
 #define FLASH_CR_LOCK (1U << 31)
 #define FLASH_OPTCR_OPTLOCK (1U << 0)
-#define FLASH_OPTCR_OPTSTRT (1U << 1)
-#define FLASH_OPTCR_BOR_LEV(n) ((n) << 2)
-#define FLASH_OPTION_KEY_1 0x08192A3BU /* 3.6.3 */
-#define FLASH_OPTION_KEY_2 0x4C5D6E7FU
 #define FLASH_KEY_1 0x45670123U /* 3.6.1 */
 #define FLASH_KEY_2 0xCDEF89ABU
+
+/* Identification, 38.6.1 */
+#define DBG_BASE 0xE0042000U
+#define DBG_IDCODE STM32_REGISTER(DBG_BASE + 0x00U)
 
 /* General-purpose pins; ports count from A = 0 */
 #define GPIO_BASE 0x40020000U
@@ -182,6 +184,7 @@
 #define EXTI15_10_IRQ 40U
 #define NVIC_BASE 0xE000E000U
 #define NVIC_ISER(n) STM32_REGISTER(NVIC_BASE + 0x100U + 4U * (n)) /* 4.3.2 */
+#define NVIC_ICER(n) STM32_REGISTER(NVIC_BASE + 0x180U + 4U * (n)) /* 4.3.3 */
 #define NVIC_ICPR(n) STM32_REGISTER(NVIC_BASE + 0x280U + 4U * (n)) /* 4.3.5 */
 #define NVIC_IPR(n) STM32_REGISTER(NVIC_BASE + 0x400U + 4U * (n))  /* 4.3.7 */
 
@@ -203,6 +206,7 @@
 #define SCB_BFAR STM32_REGISTER(0xE000ED38U)
 #define SCB_ICSR_PENDSTCLR (1U << 25)
 #define SCB_ICSR_PENDSTSET (1U << 26)
+#define SCB_ICSR_PENDSVCLR (1U << 27)
 #define SCB_ICSR_PENDSVSET (1U << 28)
 #define SCB_AIRCR_RESET 0x05FA0004U
 

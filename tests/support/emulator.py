@@ -2,6 +2,8 @@
 
 The machine has no clock control, pins, flash controller or watchdog: their registers read 0 and
 ignore writes. So the image finds no crystal and all pins low, that is all switches of S1 on: 16.
+It has no memory where the part says how much flash it has, either; so the image is told to look
+for that at the begin of the flash, where its first word stands for more than enough.
 """
 
 from __future__ import annotations
@@ -14,6 +16,7 @@ import time
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from elftools.elf.elffile import ELFFile
 from elftools.elf.sections import SymbolTableSection
@@ -45,6 +48,21 @@ def symbols(image: Path) -> dict[str, int]:
         table = ELFFile(file).get_section_by_name(".symtab")
         assert isinstance(table, SymbolTableSection)
         return {symbol.name: int(symbol["st_value"]) for symbol in table.iter_symbols()}
+
+
+SIZE_AT = "stm32_part_flash_kb_at"
+FLASH_BASE = 0x0800_0000
+
+
+def with_flash_size(image: Path, folder: Path) -> Path:
+    """A copy of the image that finds the size of the flash."""
+    content = bytearray(image.read_bytes())
+    with image.open("rb") as file:
+        (place,) = ELFFile(file).address_offsets(symbols(image)[SIZE_AT], 4)
+    content[place : place + 4] = FLASH_BASE.to_bytes(4, "little")
+    copy = folder / image.name
+    copy.write_bytes(content)
+    return copy
 
 
 def unframe(received: bytes) -> bytes:
@@ -165,13 +183,14 @@ def connect(port: int) -> socket.socket:
 def emulator(image: Path) -> Iterator[Emulator]:
     """Start a board; it is running when this returns."""
     line_port, gdb_port = free_port(), free_port()
-    command = [
-        PROGRAM, "-M", MACHINE, *TIME, "-display", "none", "-monitor", "none",
-        "-kernel", str(image),
-        "-serial", f"tcp:127.0.0.1:{line_port},server=on,wait=off",
-        "-gdb", f"tcp:127.0.0.1:{gdb_port}",
-    ]  # fmt: skip
     with contextlib.ExitStack() as ending:
+        folder = Path(ending.enter_context(TemporaryDirectory()))
+        command = [
+            PROGRAM, "-M", MACHINE, *TIME, "-display", "none", "-monitor", "none",
+            "-kernel", str(with_flash_size(image, folder)),
+            "-serial", f"tcp:127.0.0.1:{line_port},server=on,wait=off",
+            "-gdb", f"tcp:127.0.0.1:{gdb_port}",
+        ]  # fmt: skip
         process = ending.enter_context(subprocess.Popen(command))
         ending.callback(process.kill)
         line = ending.enter_context(connect(line_port))

@@ -21,8 +21,6 @@ OPERATIONS = 15
 """Words of a store: two heads of 5, a text of 4, the whole-mark."""
 FAILURES = ["wrp", "pga", "pgp", "pgs", "op", "silent", "bit"]
 FAILED = b"\x031\x01"
-BROWN_OUT = 0xC
-"""Of the option bytes: 0 is a reset below 2.7 V."""
 SEED = 20261121
 FLIPS = 24
 
@@ -107,31 +105,3 @@ def test_a_damaged_program_blinks_until_it_is_replaced(unit):
     assert modelled.summary["motors"][0]["led"] == 0
     assert message(unit, 3)[0].message == b"\x031\0"
     assert modelled.summary["motors"][0]["position"] == -7
-
-
-def test_a_low_supply_begins_no_operation_and_the_old_program_stays(unit):
-    path = unit.folder / "flash"
-    path.write_bytes(STORED)
-    script = ask(30, b"\x021\\" + NEW) + ask(60, b"\x031") + ask(80, b"\x031")
-    faults = ["--fault", "45:supply=2850", "--fault", "75:supply=3300"]
-
-    modelled = unit.run(script, 0.115, "", "--flash", str(path), "--flash-erase", "0.5", *faults)
-
-    assert [answer.message for answer in message(unit, 3)] == [FAILED, b"\x031\0"]
-    assert modelled.summary["flash"]["erases"] == 1
-
-
-def test_the_level_of_the_brown_out_reset_is_set_once(unit):
-    faults = ["--fault", "40:power", "--fault", "80:jump=60000000"]
-
-    modelled = unit.run("", 0.12, "", *faults)
-
-    assert modelled.summary["flash"]["options"] & BROWN_OUT == 0
-    assert modelled.summary["flash"]["option_writes"] == 1
-    assert modelled.summary["resets"] == {"power": 2, "software": 1, "watchdog": 0}
-
-
-def test_with_a_low_supply_the_level_is_left_for_the_next_start(unit):
-    modelled = unit.run("", 0.04, "", "--fault", "0:supply=2850")
-
-    assert modelled.summary["flash"]["option_writes"] == 0

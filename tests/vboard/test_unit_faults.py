@@ -237,5 +237,4 @@ def test_power_that_goes_in_a_move_leaves_nothing_but_the_stored_programs(unit, 
         count = min(len(before), len(again))
         assert count > 50
         assert list(np.diff(before[:count])) == list(np.diff(again[:count]))
-        # The first start sets the level of the brown-out reset, which takes some milliseconds.
-        assert 0 <= off - (again[0] - before[0]) / TICKS_PER_MS < 6
+        assert abs(off - (again[0] - before[0]) / TICKS_PER_MS) < 1

@@ -136,6 +136,7 @@ class Status:
     not_started: bool
     memory_locked: bool
     simulating: bool
+    no_store: bool
     motors: tuple[MotorStatus, ...]
     late_steps: int
     line: dict[str, int]
@@ -152,6 +153,8 @@ class Status:
             "memory_locked": self.memory_locked,
             "simulating": self.simulating,
             "motors": [asdict(motor) for motor in self.motors],
+            "no_store": self.no_store,
+            "motors": [dict(vars(motor)) for motor in self.motors],
             "late_steps": self.late_steps,
             "line": dict(self.line),
         }
@@ -181,6 +184,8 @@ def parse_status(answer: bytes) -> Status:
         memory_locked=bool(switches & 4),
         simulating=bool(switches & 8),
         motors=tuple(_motor(*each) for each in motors),
+        no_store=bool(switches & 16),
+        motors=tuple(_motor(*each) for each in zip(MOTORS, positions, states, errors, strict=True)),
         late_steps=next(values),
         line=dict(zip(LINE_COUNTS, values, strict=True)),
     )
@@ -206,6 +211,7 @@ def status_text(status: Status) -> str:
     }
     facts |= {"memory": "refuses commands when full (T40)"} if status.memory_locked else {}
     facts |= {"crystal": "missing: no motion"} if status.no_crystal else {}
+    facts |= {"stored": "no programs, the part is too small"} if status.no_store else {}
     lines = [f"{name + ':':<13} {text}" for name, text in facts.items()]
     return "\n".join([table(rows, "rrl"), "", *lines])
 

@@ -255,6 +255,13 @@ void test_a_missing_crystal_is_told(void)
     TEST_ASSERT_EQUAL_HEX8(PROTOCOL_STATUS_NO_CRYSTAL, status.switches);
 }
 
+void test_a_part_too_small_for_stored_programs_is_told(void)
+{
+    machine.faults.no_flash = true;
+    protocol_status_read(&status, interpreter);
+    TEST_ASSERT_EQUAL_HEX8(PROTOCOL_STATUS_NO_STORE, status.switches);
+}
+
 void test_late_steps_are_counted(void)
 {
     machine.late_steps = UINT64_C(0x123456789);

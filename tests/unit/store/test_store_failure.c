@@ -207,6 +207,25 @@ static void go_wrong_everywhere(void)
     }
 }
 
+/* Nothing of it is read, which the machine would not let pass. */
+void test_a_part_without_the_memory_keeps_nothing_and_says_so(void)
+{
+    (void)save(0, "F1000R");
+    machine.faults.no_flash = true;
+    store_init(&store);
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        TEST_ASSERT_TRUE(store_is_damaged(&store, motor));
+        TEST_ASSERT_EQUAL_UINT32(0, store_load(&store, motor, loaded));
+        TEST_ASSERT_EQUAL_INT(STORE_WRITE_FAILED, save(motor, "B500R"));
+        TEST_ASSERT_TRUE(store_is_damaged(&store, motor));
+    }
+    uint8_t word[HAL_FLASH_WORD_BYTES] = {0};
+    TEST_ASSERT_FALSE(hal_flash_write_word(0, 0, word));
+    machine.faults.no_flash = false;
+    store_init(&store);
+    assert_texts("F1000R", "");
+}
+
 void test_a_silent_failure_is_noticed(void)
 {
     (void)save(0, "F1000R");

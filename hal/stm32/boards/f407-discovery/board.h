@@ -54,9 +54,20 @@
     X(D, 4, "audio") X(D, 5, "USB") X(E, 0, "accelerometer") X(E, 1, "accelerometer")             \
     X(E, 3, "accelerometer")
 
+/* Pins without a signal that are pulled up, so that a part beside them rests. */
+#define BOARD_PULLED_UP(X) X(E, 3, "chip select of the accelerometer")
+
 #define BOARD_PACKAGE "LQFP100"
 #define BOARD_CRYSTAL_MHZ 8U
 #define BOARD_USART 3
+
+/* The supply at the part: the lowest in good order (3.0 V behind a diode; 2.89 to 2.94 V were measured on such boards); level of the voltage
+ * detector below which the flash is not written; bytes written at a time; level of the brown-out reset that
+ * `board options` sets (3 is the highest). stm32_supply.c checks that they fit to each other. */
+#define BOARD_SUPPLY_MIN_MV 2890U
+#define BOARD_DETECT_LEVEL 4U
+#define BOARD_FLASH_BYTES 2U
+#define BOARD_BROWN_OUT_LEVEL 2U
 
 /* The level at the pin that means 1: 1 high, 0 low. Opto-isolators pull an input low; a switch that is ON closes to
  * ground. */

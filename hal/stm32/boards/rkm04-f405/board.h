@@ -45,9 +45,20 @@
     X(S1_3, B, 4, IN_UP)       \
     X(S1_4, B, 5, IN_UP)
 
+/* Pins without a signal that are pulled up, so that a part beside them rests. */
+#define BOARD_PULLED_UP(X)
+
 #define BOARD_PACKAGE "LQFP64"
 #define BOARD_CRYSTAL_MHZ 8U
 #define BOARD_USART 1
+
+/* The supply at the part: the lowest in good order (3.3 V less 5 %); level of the voltage
+ * detector below which the flash is not written; bytes written at a time; level of the brown-out reset that
+ * `board options` sets (3 is the highest). stm32_supply.c checks that they fit to each other. */
+#define BOARD_SUPPLY_MIN_MV 3135U
+#define BOARD_DETECT_LEVEL 6U
+#define BOARD_FLASH_BYTES 4U
+#define BOARD_BROWN_OUT_LEVEL 3U
 
 /* The level at the pin that means 1: 1 high, 0 low. Opto-isolators pull an input low; a switch that is ON closes to
  * ground. */
