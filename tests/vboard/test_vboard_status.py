@@ -41,7 +41,7 @@ def test_the_image_tells_inputs_outputs_states_and_counters(unit: VirtualBoard) 
     assert status.outputs == (False, False, False, True, False, False, True, False)
     assert (status.cause, status.no_crystal, status.not_started) == ("power-on", False, False)
     assert [motor.text for motor in status.motors] == [
-        "waiting", "failed: label not found", "at rest", "at rest",
+        "waiting for input 1 to become 1", "failed: label not found", "at rest", "at rest",
     ]  # fmt: skip
     assert [motor.position for motor in status.motors] == [-5, 0, 0, 0]
     assert status.late_steps == 0

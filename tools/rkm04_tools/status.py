@@ -152,9 +152,8 @@ class Status:
             "not_started": self.not_started,
             "memory_locked": self.memory_locked,
             "simulating": self.simulating,
-            "motors": [asdict(motor) for motor in self.motors],
             "no_store": self.no_store,
-            "motors": [dict(vars(motor)) for motor in self.motors],
+            "motors": [asdict(motor) for motor in self.motors],
             "late_steps": self.late_steps,
             "line": dict(self.line),
         }
@@ -183,9 +182,8 @@ def parse_status(answer: bytes) -> Status:
         not_started=bool(switches & 2),
         memory_locked=bool(switches & 4),
         simulating=bool(switches & 8),
-        motors=tuple(_motor(*each) for each in motors),
         no_store=bool(switches & 16),
-        motors=tuple(_motor(*each) for each in zip(MOTORS, positions, states, errors, strict=True)),
+        motors=tuple(_motor(*each) for each in motors),
         late_steps=next(values),
         line=dict(zip(LINE_COUNTS, values, strict=True)),
     )

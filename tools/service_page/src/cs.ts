@@ -157,6 +157,7 @@ export const cs: Dictionary = {
     "live.causeWatchdog": "restartována hlídačem",
     "live.causeFault": "restartována po poruše",
     "live.notStarted": "uložené programy nebyly spuštěny",
+    "live.noStore": "uložené programy: žádné, obvod je příliš malý",
     "live.noCrystal": "chybí krystal: nepohybuje se",
     "live.simulating": "T41: simulace, všechny výstupy jsou na 0",
     "live.locked": "T40: plná paměť odmítá příkazy",

@@ -155,6 +155,7 @@ export const en = {
     "live.causeWatchdog": "restarted by the watchdog",
     "live.causeFault": "restarted by a fault",
     "live.notStarted": "stored programs were not started",
+    "live.noStore": "stored programs: none, the part is too small",
     "live.noCrystal": "crystal missing: no motion",
     "live.simulating": "T41: simulation, all outputs are held at 0",
     "live.locked": "T40: a full memory refuses commands",

@@ -80,6 +80,7 @@ export function unitFacts(unit: LiveUnit): { words: string; isBad: boolean }[] {
     const bad = [
         unit.no_crystal ? t("live.noCrystal") : "",
         unit.not_started ? t("live.notStarted") : "",
+        unit.no_store ? t("live.noStore") : "",
         unit.simulating ? t("live.simulating") : "",
         unit.cause === "reset" ? "" : cause,
     ];

@@ -69,6 +69,7 @@ export interface LiveUnit {
     cause: string;
     no_crystal: boolean;
     not_started: boolean;
+    no_store: boolean;
     memory_locked: boolean;
     simulating: boolean;
     late_steps: number;
