@@ -36,7 +36,7 @@ def test_copies_of_a_line_count_together_and_assertions_not_at_all() -> None:
 
     motion = mcdc.collect(copies, SOURCES)["motion"]
 
-    assert motion.branches == {PLACE: mcdc.Branch(1, 2)}
+    assert motion.branches == {PLACE: mcdc.Branch("f", "a > 1", 1, 2)}
     assert motion.decisions == {PLACE: [True, True]}
 
 
@@ -50,16 +50,35 @@ def test_a_branch_that_was_never_taken_is_told(capsys: pytest.CaptureFixture[str
 
 def test_a_branch_with_a_reason_is_excused() -> None:
     folders = mcdc.collect(files(0, 2, [True, True]), SOURCES)
-    excuses = mcdc.read_excuses("# why\nmotion/f.c | if (a > 1 && b > 1) { | true | never so\n")
+    excuses = mcdc.read_excuses("# why\nmotion/f.c | f | a>1 | true | never so\n")
 
     assert mcdc.report(folders, SOURCES, excuses)
 
 
-def test_an_excuse_is_for_one_branch_of_its_text() -> None:
-    sources = {"motion/f.c": SOURCE + SOURCE}
+@pytest.mark.parametrize(
+    "row", ["motion/g.c | f | a > 1 | true", "motion/f.c | g | a > 1 | true",
+            "motion/f.c | f | b > 1 | true", "motion/f.c | f | a > 1 | false"]
+)  # fmt: skip
+def test_an_excuse_of_another_condition_or_function_is_none(row: str) -> None:
+    folders = mcdc.collect(files(0, 2, [True, True]), SOURCES)
+
+    assert not mcdc.report(folders, SOURCES, mcdc.read_excuses(f"{row} | never so\n"))
+
+
+def test_an_excuse_outlives_what_stands_around_its_condition() -> None:
+    sources = {"motion/f.c": SOURCE.replace("if (a > 1 && b > 1) {", "if (a > 1 ||\n        b) {")}
+    folders = mcdc.collect(files(0, 2, [True, True]), sources)
+
+    assert mcdc.report(
+        folders, sources, mcdc.read_excuses("motion/f.c | f | a > 1 | true | never so\n")
+    )
+
+
+def test_an_excuse_is_for_one_of_equal_conditions() -> None:
+    sources = {"motion/f.c": SOURCE.replace("a > 1 && b > 1", "a > 1 && a > 1")}
     [first] = files(0, 2, [True, True])[:1]
-    twice = {**first, "branches": [[5, 9, 5, 14, 0, 2, 0, 0, 4], [13, 9, 13, 14, 0, 2, 0, 0, 4]]}
-    row = "motion/f.c | if (a > 1 && b > 1) { | true | never so\n"
+    twice = {**first, "branches": [[5, 9, 5, 14, 0, 2, 0, 0, 4], [5, 18, 5, 23, 0, 2, 0, 0, 4]]}
+    row = "motion/f.c | f | a > 1 | true | never so\n"
 
     folders = mcdc.collect([twice], sources)
 
@@ -69,7 +88,7 @@ def test_an_excuse_is_for_one_branch_of_its_text() -> None:
 
 def test_an_excuse_for_what_was_reached_is_an_error(capsys: pytest.CaptureFixture[str]) -> None:
     folders = mcdc.collect(files(1, 2, [True, True]), SOURCES)
-    excuses = mcdc.read_excuses("motion/f.c | if (a > 1 && b > 1) { | true | never so")
+    excuses = mcdc.read_excuses("motion/f.c | f | a > 1 | true | never so")
 
     assert not mcdc.report(folders, SOURCES, excuses)
 

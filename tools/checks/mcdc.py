@@ -19,6 +19,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from checks.c_source import source, words
+
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build/mcdc"
 PROFILES = BUILD / "profiles"
@@ -32,6 +34,8 @@ Place = tuple[str, int, int]  # file below firmware/, line, column
 
 @dataclass
 class Branch:
+    function: str
+    condition: str  # or the value of a switch, or `case NAME`, or `default`
     taken: int = 0
     passed: int = 0
 
@@ -47,18 +51,18 @@ class Excuse:
     """A side of a branch that no run can take."""
 
     file: str
-    text: str
+    function: str
+    condition: str
     side: str
     reason: str
 
 
 def read_excuses(text: str) -> list[Excuse]:
-    """Lines `file | source text | true or false | reason`."""
+    """Lines `file | function | condition | true or false | reason`."""
     excuses = []
     for line in text.splitlines():
         if line and not line.startswith("#"):
-            file, source, side, reason = (part.strip() for part in line.split(" | "))
-            excuses.append(Excuse(file, source, side, reason))
+            excuses.append(Excuse(*(part.strip() for part in line.split(" | "))))
     return excuses
 
 
@@ -117,15 +121,26 @@ def collect(files: Iterable[dict[str, Any]], sources: dict[str, str]) -> dict[st
             continue
         stage = stages[stage_of(name)]
         asserted = assertion_lines(sources[name])
-        for line, column, _, _, taken, passed, *_ in file.get("branches", []):
+        for line, column, to_line, to_column, taken, passed, *_ in file.get("branches", []):
             if line not in asserted:
-                branch = stage.branches.setdefault((name, line, column), Branch())
+                place = (name, line, column)
+                if place not in stage.branches:
+                    begin = offset(sources[name], line, column)
+                    end = offset(sources[name], to_line, to_column)
+                    function = source(sources[name]).function_at(begin)
+                    stage.branches[place] = Branch(function, sources[name][begin:end])
+                branch = stage.branches[place]
                 branch.taken += taken
                 branch.passed += passed
         for line, column, *_, shown in file.get("mcdc_records", []):
             if line not in asserted:
                 merge_decision(stage.decisions, (name, line, column), shown)
     return stages
+
+
+def offset(text: str, line: int, column: int) -> int:
+    """A place in a text, of lines and columns from 1."""
+    return sum(map(len, text.splitlines(keepends=True)[: line - 1])) + column - 1
 
 
 def never_linked(files: Iterable[dict[str, Any]], sources: dict[str, str]) -> list[str]:
@@ -179,7 +194,7 @@ def report(stages: dict[str, Stage], sources: dict[str, str], excuses: list[Excu
         unexcused = []
         missing = missing_branches(stage)
         for place, side in missing:
-            excuse = find_excuse(unused, place[0], line_of(place, sources), side)
+            excuse = find_excuse(unused, place[0], stage.branches[place], side)
             if excuse is None:
                 unexcused.append((place, side))
             else:
@@ -198,14 +213,16 @@ def report(stages: dict[str, Stage], sources: dict[str, str], excuses: list[Excu
             print(f"  condition {index} of {place[0]}:{place[1]}  {line_of(place, sources)}")
         good = good and not unexcused and percent >= MCDC_PERCENT
     for excuse in unused:
-        print(f"excused but reached, or not there: {excuse.file} | {excuse.text} | {excuse.side}")
+        row = " | ".join((excuse.file, excuse.function, excuse.condition, excuse.side))
+        print(f"excused but reached, or not there: {row}")
         good = False
     return good
 
 
-def find_excuse(excuses: list[Excuse], file: str, text: str, side: str) -> Excuse | None:
+def find_excuse(excuses: list[Excuse], file: str, branch: Branch, side: str) -> Excuse | None:
+    wanted = (file, branch.function, words(branch.condition), side)
     for excuse in excuses:
-        if (excuse.file, excuse.text, excuse.side) == (file, text, side):
+        if (excuse.file, excuse.function, words(excuse.condition), excuse.side) == wanted:
             return excuse
     return None
 

@@ -158,7 +158,7 @@ def mcdc() -> Count:
     """A check: it runs the C tests again, from the second compiler, and reads what they reached."""
     if not build("mcdc"):
         return Count(failed=1)
-    good = succeeds(sys.executable, "-P", "tools/checks/mcdc.py", show=True)
+    good = succeeds(*PYTHON, "checks.mcdc", show=True)
     return Count(passed=1) if good else Count(failed=1)
 
 
