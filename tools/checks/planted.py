@@ -1,8 +1,8 @@
 """Plants the bugs of tests/planted one at a time in a copy of the tree: is each one caught?
 
-A patch begins with a line that says what is wrong, and one that names the smallest test that must
-fail: `Caught by: ctest NAME` or `Caught by: pytest NODE`. A bug that does not compile is not
-caught, as no test saw it.
+A bug has a name, a line that says what is wrong, and one that names the smallest test that must
+fail: `Caught by: ctest NAME` or `Caught by: pytest NODE`; then come its changes of functions, as
+c_changes.py reads them. A bug that does not compile is not caught, as no test saw it.
 """
 
 from __future__ import annotations
@@ -16,10 +16,14 @@ import subprocess
 import sys
 import time
 from dataclasses import dataclass
+from itertools import groupby
 from pathlib import Path
 
+from checks.c_changes import Change, read_block
+from checks.c_source import Mismatch
+
 ROOT = Path(__file__).resolve().parents[2]
-FOLDER = ROOT / "tests" / "planted"
+LIST = ROOT / "tests" / "planted" / "bugs.txt"
 COPY = ROOT / "build" / "planted" / "tree"
 PARTS = (
     "CMakeLists.txt",
@@ -33,51 +37,64 @@ PARTS = (
 )
 C_SECONDS_MAX = 30  # that a test may take; a loop without end is caught by then
 PYTHON_SECONDS_MAX = 300
+HEAD = re.compile(r"([a-z0-9-]+): (.+\.)")
 CAUGHT_BY = re.compile(r"Caught by: (ctest|pytest) (\S+)")
 STATUS_SOME_FAILED = 1  # of pytest; others mean that no test ran
 
 
 @dataclass(frozen=True)
 class Bug:
-    """A patch, what it says of itself, and the test that it names."""
+    """What is wrong, the test that sees it, and the changes that make it so."""
 
-    patch: Path
+    name: str
     what: str
     runner: str
     test: str
+    changes: tuple[Change, ...]
 
     def __str__(self) -> str:
-        return f"{self.patch.stem}: {self.what}"
+        return f"{self.name}: {self.what}"
 
 
-class BadPatch(Exception):
-    """A patch that does not say what it has to."""
-
-
-def read(patch: Path) -> Bug:
-    """The bug of a patch."""
-    lines = patch.read_text().splitlines()
-    match = CAUGHT_BY.fullmatch(lines[1]) if len(lines) > 1 else None
-    if not lines or not lines[0].endswith(".") or match is None:
-        raise BadPatch(f"{patch.name}: the head must say what is wrong, and what it is caught by")
-    return Bug(patch, lines[0], match[1], match[2])
+def read(block: str) -> Bug:
+    """The bug of a block of the list."""
+    lines = block.splitlines()
+    first, second = [*lines, "", ""][:2]
+    head, caught = HEAD.fullmatch(first), CAUGHT_BY.fullmatch(second)
+    if head is None or caught is None:
+        raise Mismatch(f"`NAME: What is wrong.` and `Caught by: ...` must be the head of: {block}")
+    places: list[list[str]] = []
+    for line in lines[2:]:
+        if line[:1] in "-+ " and places:
+            places[-1].append(line)
+        else:
+            places.append([line])
+    changes = [change for place in places for change in read_block(place)[0]]
+    if not changes:
+        raise Mismatch(f"{head[1]}: nothing is changed")
+    return Bug(head[1], head[2], caught[1], caught[2], tuple(changes))
 
 
 def bugs(names: list[str] | None = None) -> list[Bug]:
     """All bugs, or those that are named."""
-    patches = sorted(FOLDER.glob("*.patch"))
-    return [read(patch) for patch in patches if not names or patch.stem in names]
+    blocks = re.sub(r"^#.*\n", "", LIST.read_text(), flags=re.MULTILINE).strip().split("\n\n")
+    there = [read(block) for block in blocks]
+    if unknown := set(names or []) - {bug.name for bug in there}:
+        raise Mismatch(f"there is no bug {', '.join(sorted(unknown))}")
+    return [bug for bug in there if not names or bug.name in names]
 
 
-def apply(bug: Bug, folder: Path, *options: str) -> str:
-    """Apply a patch in a folder; what git complains of."""
-    # Inside of a repository git would take the paths of a patch for those of the repository.
-    environment = {**os.environ, "GIT_CEILING_DIRECTORIES": str(folder.parent)}
-    done = subprocess.run(
-        ["git", "apply", "--verbose", *options, bug.patch], cwd=folder, env=environment,
-        capture_output=True, text=True,
-    )  # fmt: skip
-    return "" if done.returncode == 0 else done.stderr.strip()
+def changed(bug: Bug, folder: Path) -> dict[Path, str]:
+    """The files of a folder as they are with a bug; a Mismatch if it does not fit them."""
+    after = {}
+    for file, changes in groupby(bug.changes, lambda change: change.file):
+        if not (folder / file).is_file():
+            raise Mismatch(f"there is no file {file}")
+        text = (folder / file).read_text()
+        for change in changes:
+            text = change.apply(text)
+        after[folder / file] = text
+    return after
 
 
 def environment() -> dict[str, str]:
@@ -159,9 +176,13 @@ def test_fails(bug: Bug) -> bool | None:
 
 def plant(bug: Bug) -> str:
     """Plant a bug, try its test and take the bug out again; what is wrong if it was not caught."""
-    if complaint := apply(bug, COPY):
-        return f"the patch no longer applies: {complaint}"
     try:
+        after = changed(bug, COPY)
+    except Mismatch as error:
+        return f"it no longer fits: {error}"
+    before = {path: path.read_text() for path in after}
+    try:
+        write(after)
         if complaint := build({target(bug)}):
             return f"it does not compile: {complaint[-2000:]}"
         fails = test_fails(bug)
@@ -169,8 +190,12 @@ def plant(bug: Bug) -> str:
             return f"{bug.test} was not run"
         return "" if fails else f"{bug.test} does not see it"
     finally:
-        if complaint := apply(bug, COPY, "--reverse"):
-            raise BadPatch(f"{bug}: cannot be taken out again: {complaint}")
+        write(before)
+
+
+def write(files: dict[Path, str]) -> None:
+    for path, text in files.items():
+        path.write_text(text)
 
 
 def prepare(chosen: list[Bug]) -> list[str]:
@@ -194,8 +219,11 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         description="Plants bugs and looks whether the tests catch them."
     )
-    parser.add_argument("names", nargs="*", metavar="NAME", help="of a patch (all)")
-    chosen = bugs(parser.parse_args().names)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="of a bug (all)")
+    try:
+        chosen = bugs(parser.parse_args().names)
+    except Mismatch as error:
+        parser.error(str(error))
     if complaints := prepare(chosen):
         print("\n".join(complaints))
         return 1
