@@ -36,25 +36,27 @@ MOVES = {
     "endless": "S100 V800 A9000 G+",
     "limit": "S400 (8",
     "guarded": "M7 N6 S100 V700 A9000 F50 R",
+    "jog": "S100 V900 A9000 G-",
 }
-PULSES_MAX = 80
-"""Of a run without end."""
+PULSES_MAX, JOG_PULSES_MAX = 80, 15
+"""Of a run without end; of the jog, whose curve is the same, what matters is how it is ended."""
 
 INPUT_BEGIN = (Edge(0, 2, 1), Edge(0, 6, 1))
 """N2 and N6 guard inputs that are 1 at first."""
 
 SETUP = "\\ M1 N2 X3 "
-BEHIND = " U T1 W7 S200 F4 R T2"
+BEHIND = {move: " U T1 W7 S200 F4 R T2" if move != "jog" else "" for move in MOVES}
 """The program around each move: guards and a total stop before it, more to do behind it."""
 
 
 @dataclass(frozen=True)
 class Action:
-    """What happens at a pulse: a message, or an edge of an input."""
+    """What happens at a pulse: a message to a motor, or an edge of an input."""
 
     name: str
     text: str = ""
     edge: tuple[int, int] | None = None
+    motor: int = 1
 
 
 STOPS = (
@@ -65,21 +67,22 @@ STOPS = (
     Action("X", edge=(3, 1)),
 )
 SPEEDS = tuple(Action(f"V{v}", f"V{v}") for v in (1, 60, 100, 101, 300, 16_000))
-ACTIONS = (*STOPS, *SPEEDS, Action("C75", "C75"))
+SIMULATION = (Action("T41", "T41", motor=2), Action("C41", "C41", motor=2))
+ACTIONS = (*STOPS, *SPEEDS, Action("C75", "C75"), Action("more", "T4 H C100 T6"), *SIMULATION)
 OFFSETS = (0, 1, 40 * MS // 1000)
 """Ticks behind the pulse: with it, right behind it, while its interrupt has not ended."""
 
 
 def script(move: str, actions: Iterable[tuple[int, Action]]) -> Script:
     """Return a run of a move with actions at given ticks, and a `C75` at last."""
-    text = f"{SETUP}{MOVES[move]}{BEHIND}"
+    text = f"{SETUP}{MOVES[move]}{BEHIND[move]}"
     requests, edges = [Request(0, b"\x021" + text.encode())], list(INPUT_BEGIN)
     tick = 0
     for tick, action in actions:
         if action.edge:
             edges.append(Edge(tick, *action.edge))
         else:
-            requests.append(Request(tick, b"\x021" + action.text.encode()))
+            requests.append(Request(tick, b"\x02%d" % action.motor + action.text.encode()))
     resume = tick + GO_ON_MS * MS
     requests += [Request(resume, b"\x021C75"), Request(resume + 1, b"\x040")]
     start = epoch(move, actions)
@@ -95,7 +98,8 @@ def probe() -> Iterator[Probe]:
 def pulses_of(probe: Probe, move: str) -> list[int]:
     """The ticks of the pulses of a move that nothing disturbs."""
     run = Script((Request(0, f"\x021{SETUP}{MOVES[move]}".encode()),), INPUT_BEGIN, 2000 * MS)
-    return [abs(tick) for tick in probe.run(run).pulses[1][:PULSES_MAX]]
+    pulses = probe.run(run).pulses[1][: JOG_PULSES_MAX if move == "jog" else PULSES_MAX]
+    return [abs(tick) for tick in pulses]
 
 
 def assert_all_agree(probe: Probe, move: str, runs: Iterable[list[tuple[int, Action]]]) -> None:

@@ -19,8 +19,9 @@ class Flow:
         self.next = 1
         self.place = 0
         self._memory = memory
-        self._loops: list[tuple[int, int]] = []
         self._calls: list[int] = []
+        self._loops: list[list[tuple[int, int]]] = [[]]
+        """Those open in the main program, and in each call: where its body begins, passes left."""
 
     def fetch(self) -> Command:
         """Take the next command, the oldest that is left if that one is gone."""
@@ -46,6 +47,7 @@ class Flow:
                 if not self._calls:
                     raise Failed(". without a call")
                 self.next = self._calls.pop()
+                self._loops.pop()
 
     def _find(self, label: int) -> int:
         target = self._memory.find_label(label)
@@ -58,17 +60,25 @@ class Flow:
             raise Failed("more than 6 nested calls")
         target = self._find(label)
         self._calls.append(self.next)
+        self._loops.append([])
         self.next = target
 
     def _begin_loop(self, times: int) -> None:
-        if len(self._loops) == LOOPS_MAX:
+        """Begin a loop; what has been jumped out of, and comes again, begins anew."""
+        here = self._loops[-1]
+        begins = [begin for begin, _ in here]
+        if self.next in begins:
+            del here[begins.index(self.next) :]
+        if sum(map(len, self._loops)) == LOOPS_MAX:
             raise Failed("more than 8 nested loops")
-        self._loops.append((self.next, times))
+        here.append((self.next, times))
 
     def _end_loop(self) -> None:
-        if not self._loops:
+        """End a pass of the loop begun last, be it in a caller."""
+        loops = next((loops for loops in reversed(self._loops) if loops), None)
+        if loops is None:
             raise Failed("E without L")
-        begin, left = self._loops.pop()
+        begin, left = loops.pop()
         if left > 1:
-            self._loops.append((begin, left - 1))
+            loops.append((begin, left - 1))
             self.next = begin

@@ -6,8 +6,10 @@ leaves the order of two things open.
 
 from __future__ import annotations
 
+from collections import deque
+
 from language_motor import Motor
-from language_signals import Difference, Signal, Variables, Watch
+from language_signals import SEEN_TICKS, Difference, Moment, Signal, Variables, Watch
 from language_text import Command, Refused, parse
 from language_world import World
 from program_probe import MOTORS, Record, Request, Script
@@ -23,7 +25,8 @@ def compare(script: Script, record: Record) -> None:
         raise Difference(f"the judge: {record.complaints}")
     if record.late:
         raise Difference(f"{record.late} pulses were late")
-    motors = _motors(script, record)
+    switches: list[tuple[Moment, bool]] = []
+    motors = _motors(script, record, switches)
     for request, answer in zip(script.requests, record.answers, strict=True):
         _compare_answer(motors, request, answer)
     for number, motor in motors.items():
@@ -32,19 +35,38 @@ def compare(script: Script, record: Record) -> None:
         if position != record.positions[number - 1]:
             raise Difference(f"motor {number} is at {record.positions[number - 1]}, not {position}")
         motor.expect_no_more(script.end)
+    _compare_simulation(motors, switches)
 
 
-def _motors(script: Script, record: Record) -> dict[int, Motor]:
+def _motors(
+    script: Script, record: Record, switches: list[tuple[Moment, bool]]
+) -> dict[int, Motor]:
     inputs = {
         n: Signal((edge.tick, edge.level) for edge in script.edges if edge.number == n)
         for n in range(1, 9)
     }
     variables = Variables(record.events)
     functions: set[int] = set()
-    return {
-        n: Motor(n, World(inputs, variables, Watch(n, record.events), record.pulses[n], functions))
-        for n in MOTORS
-    }
+
+    def world(n: int) -> World:
+        trains = {True: record.pulses[n], False: record.simulated[n]}
+        watch, connections = Watch(n, record.events), deque(record.connections[n])
+        return World(inputs, variables, watch, trains, connections, functions, switches)
+
+    return {n: Motor(n, world(n)) for n in MOTORS}
+
+
+def _compare_simulation(motors: dict[int, Motor], switches: list[tuple[Moment, bool]]) -> None:
+    """Each move reaches the pins if simulation was off when it began; unsure near a switch."""
+    switches.sort(key=lambda switch: switch[0].high)
+    for number, motor in motors.items():
+        for begun, connected in motor.starts:
+            last = [(m, on) for m, on in switches if m.low <= begun.high][-2:]
+            near = any(m.high >= begun.low - SEEN_TICKS for m, _ in last)
+            known = len({on for _, on in last}) < 2 or last[0][0].high < last[1][0].low
+            wanted = not last[-1][1] if last else True
+            if known and not near and connected != wanted:
+                raise Difference(f"motor {number}: connected is {connected} at {begun.low}")
 
 
 def _compare_answer(motors: dict[int, Motor], request: Request, answer: bytes) -> None:
@@ -92,7 +114,10 @@ def _take(motor: Motor, commands: list[Command], tick: int) -> int:
         motor.reset(tick)
         commands = commands[len(letters) - letters[::-1].index("\\") :]
     stored = [c for c in commands if c.letter != "K" and c != Command("C", 75)]
+    jog_stopped, end = motor.is_jog_stopped, motor.memory.end
     had_room = [motor.memory.write(command, motor.is_locked) for command in stored]
+    if jog_stopped and motor.memory.end > end:
+        motor.leave_jog(tick)
     motor.wake(tick)
     return 0 if all(had_room) else FULL
 

@@ -10,12 +10,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 from language_flow import Flow
+from language_marks import Marks
 from language_memory import Memory
+from language_pins import Pins
 from language_pulses import Follower
 from language_setup import ERRORS, Failed, Order, Setup
-from language_signals import COMMAND_TICKS, MS, SEEN_TICKS, US, Difference, Moment, Unsure
+from language_signals import COMMAND_TICKS, MS, SEEN_TICKS, US, Levels, Moment, Unsure
 from language_text import Command
-from language_world import BEHIND_TICKS, BURST_MAX, LOCK, STOPS, Phase, World
+from language_world import BEHIND_TICKS, BURST_MAX, LOCK, SIMULATION, STOPS, Phase, World
 
 
 class Motor:
@@ -23,15 +25,14 @@ class Motor:
 
     def __init__(self, number: int, world: World) -> None:
         self.number = number
-        self.position = 0
         self.phase = Phase.IDLE
         self._world = world
         self._watch = world.watch
-        self._ticks = [abs(tick) for tick in world.pulses]
-        self._pulses_taken = 0
+        self._pins = Pins(world)
         self._moving: Order | None = None
-        self._own_writes = world.variables.own_writes(number)
-        self._writes_made = 0
+        self.starts: list[tuple[Moment, bool]] = []
+        """When its moves began, and whether they reached the pins."""
+        self._levels = Levels(world.inputs, world.variables, number)
         self._clock = 0
         self._now = Moment(0, 0)
         self._start_over()
@@ -54,7 +55,7 @@ class Motor:
         r"""Take a `\`; the motor has been advanced to the tick."""
         moving = self.phase is Phase.MOVING
         if moving:
-            self._forget_marks(tick)
+            self._marks.forget(tick, self.made_at(tick))
             self._stop("\\", tick)
         self._start_over()
         if moving:
@@ -65,13 +66,13 @@ class Motor:
 
     def wake(self, tick: int) -> None:
         """Look at what a message has stored."""
-        idle = self.phase is Phase.IDLE and self._flow.next < self.memory.end
+        idle = self.phase is Phase.IDLE and not self._has_run_all
         if idle or (self.phase is Phase.HELD and self.memory.is_released(self._flow.next)):
             self._run_from(tick, tick)
 
     def halt(self, tick: int) -> None:
-        """Take a `K` that stands alone."""
-        if self.phase is Phase.ENDED or self._cause in ("X", "\\"):
+        """Take a `K` that stands alone; a motor at rest has nothing to stop."""
+        if self.phase is Phase.ENDED or self._cause in ("X", "\\") or self._is_at_rest:
             return
         if self.phase is Phase.MOVING:
             self._resume_wanted = False
@@ -83,6 +84,31 @@ class Motor:
             self._watch.expect("stop", STOPS["K"], tick, tick + MS)
             self._paused, self._due = self.phase, self._due - tick
             self.phase = Phase.STOPPED
+
+    @property
+    def _has_run_all(self) -> bool:
+        return self._flow.next >= self.memory.end
+
+    @property
+    def _is_at_rest(self) -> bool:
+        return self.phase is Phase.IDLE and self._has_run_all
+
+    @property
+    def is_jog_stopped(self) -> bool:
+        """Whether `K` has ended, or is ending, a run without end behind which nothing is stored."""
+        jog = self._moving is not None and self._moving.is_endless and not self._moving.limit
+        paused = self.phase is Phase.STOPPED and self._paused in (Phase.MOVING, Phase.RUNNING)
+        braking = self.phase is Phase.MOVING and self._cause == "K"
+        return jog and (paused or braking) and self._has_run_all
+
+    def leave_jog(self, tick: int) -> None:
+        """Something was stored behind a jog that has been stopped: it follows the stand."""
+        self._order = None
+        self._resume_wanted = False
+        if self.phase is Phase.MOVING:
+            self._cause = "jog"
+        else:
+            self._run_from(tick, tick)
 
     def resume(self, tick: int) -> None:
         """Take a `C75` that stands alone."""
@@ -120,7 +146,9 @@ class Motor:
     def position_at(self, tick: int) -> int:
         """The position counter."""
         made = self.made_at(tick)
-        return self.position + self._moving.heading * made if self._moving else self.position
+        if self.phase is not Phase.MOVING:
+            self._pins.follow(tick)
+        return self._pins.position + (self._moving.heading * made if self._moving else 0)
 
     @property
     def place(self) -> int:
@@ -131,10 +159,9 @@ class Motor:
         """Compare the pulses of a move that has not ended, and that nothing else has happened."""
         last = self.made_at(end)
         if self.phase is Phase.MOVING:
-            self._mark_passed(last)
-        made = self._pulses_taken + last
-        if made != len(self._ticks):
-            raise Difference(f"motor {self.number}: {len(self._ticks)} pulses, not {made}")
+            self._marks.pass_by(last)
+            self._pins.take(last)
+        self._pins.expect_no_more(self.number)
         self._watch.expect_no_more()
 
     # Time
@@ -160,8 +187,8 @@ class Motor:
         return False
 
     def _rest(self, until: int) -> bool:
-        """Idle, held, stopped or ended: only a total stop comes by itself."""
-        if self.phase is Phase.ENDED:
+        """Idle, held, stopped or ended: only a total stop comes by itself, and not at rest."""
+        if self.phase is Phase.ENDED or self._is_at_rest:
             return False
         found = self._total_stop(self._now.low, until)
         if found is not None:
@@ -182,11 +209,12 @@ class Motor:
         if any(self._world.inputs[n].during(self._now) for n in self._totals):
             self._end_by_x(self._now.low)
             return True
-        if self._flow.next >= self.memory.end:
+        if self._has_run_all:
             if self._flow.place:
                 self._watch.expect("end", 0, self._clock, self._now.high)
             self.phase = Phase.IDLE
             return True
+        self._pins.settle(self._now)
         command = self._flow.fetch()
         self._burst += 1
         if self._burst > BURST_MAX:
@@ -245,13 +273,13 @@ class Motor:
             case "T" | "C":
                 self._switch(command.letter, n)
             case "=":
-                self.position = n
+                self._pins.position = n
             case "R":
                 self._begin(self._setup.order())
             case "G":
-                self._begin(self._setup.way(n - self.position))
+                self._begin(self._setup.way(n - self._pins.position))
             case "H":
-                self._begin(self._setup.way(-self.position))
+                self._begin(self._setup.way(-self._pins.position))
             case "G+" | ")":
                 self._begin(self._setup.run(1, n))
             case "G-" | "(":
@@ -269,7 +297,7 @@ class Motor:
             case "[":
                 self._hold()
             case _:
-                self._flow.obey(command, self._level)
+                self._flow.obey(command, lambda number: self._levels.at(number, self._now))
 
     def _switch(self, letter: str, n: int) -> None:
         value = n if letter == "T" else -n
@@ -277,28 +305,20 @@ class Motor:
             self._now.pin(self._watch.expect("out", value, self._now.low, self._now.high))
         elif n >= 80 and n != 100:
             self._now.pin(self._watch.expect("var", value, self._now.low, self._now.high))
-            self._writes_made += 1
+            self._levels.writes_made += 1
         elif n == 100:
-            self.position = 0
-        elif letter == "T":
-            self._world.functions.add(n)
+            self._pins.position = 0
         else:
-            self._world.functions.discard(n)
-
-    def _level(self, n: int) -> int:
-        if n <= 8:
-            return self._world.inputs[n].during(self._now)
-        made = self._writes_made
-        place = self._own_writes[made - 1] if made else -1
-        next_own = self._own_writes[made] if made < len(self._own_writes) else None
-        return self._world.variables.level(n, place, next_own, self._now)
+            turn = self._world.functions.add if letter == "T" else self._world.functions.discard
+            turn(n)
+            if n == SIMULATION:
+                self._pins.simulate(letter == "T", self._now)
 
     def _begin_look(self, n: int, level: int) -> None:
-        if self._level(n) == level:
+        if self._levels.at(n, self._now) == level:
             return
         self._watch.expect("wait", 0, self._now.low, self._now.high)
-        inputs, variables = self._world.inputs, self._world.variables
-        self._sought = (inputs[n] if n <= 8 else variables.signal(n), level)
+        self._sought = (self._levels.signal(n), level)
         self.phase = Phase.LOOKING
 
     def _hold(self) -> None:
@@ -336,7 +356,9 @@ class Motor:
     def _begin(self, order: Order | None) -> None:
         if order is None:
             return
+        self._pins.settle(self._now)
         start = self._start("move", order.value)
+        self.starts.append((replace(self._now), self._pins.connected))
         self._order = self._moving = order
         self._cause = ""
         self.phase = Phase.MOVING
@@ -349,10 +371,10 @@ class Motor:
         if order.limit and self._world.inputs[order.limit].during(looked):
             self._begin_nothing("limit", start, looked)
             return
-        self._follower = Follower(start, order.curve, self._ticks, self._pulses_taken)
+        self._follower = Follower(start, order.curve, self._pins.ticks, self._pins.taken)
         self._cared = start
-        if order.last_begins == 0:
-            self._mark(start, self._now.high)
+        self._marks = Marks(order, self._watch, self._follower)
+        self._marks.start(self._now.high)
 
     def _begin_nothing(self, cause: str, start: int, looked: Moment) -> None:
         """A guard has its level already: the move makes no step."""
@@ -361,11 +383,6 @@ class Motor:
         if cause != "limit":
             self._guards[cause] = 0
         self.phase = Phase.RUNNING
-
-    def _mark(self, low: int, high: int) -> None:
-        assert self._moving
-        for output in self._moving.marks:
-            self._watch.expect("out", output, low, high)
 
     def _move(self, until: int) -> bool:
         if self._cause and (done := self._watch.next("done")):
@@ -425,37 +442,12 @@ class Motor:
         """The move has made its last pulse; main has something to do at `seen`."""
         assert self._moving
         made = self._follower.made
-        steps = self._moving.heading * made
-        self._watch.expect("done", steps, done, done)
-        taken = self._world.pulses[self._pulses_taken : self._pulses_taken + made]
-        if any((tick > 0) != (self._moving.heading > 0) for tick in taken):
-            raise Difference(f"motor {self.number}: a pulse the wrong way")
-        self._pulses_taken += made
-        self.position += steps
-        self._mark_passed(made)
+        self._watch.expect("done", self._moving.heading * made, done, done)
+        self._pins.end_move(self._moving.heading, made, done, seen)
+        if self._marks.pass_by(made) and self._order:
+            self._order = replace(self._order, marks=())
         self._run_from(done, seen)
         self._finish(made, seen)
-
-    def _mark_passed(self, made: int) -> None:
-        assert self._moving
-        border = self._moving.last_begins
-        tick = self._follower.tick_of(min(border, made))
-        high = tick + SEEN_TICKS
-        if 0 < border < made:
-            self._mark(tick, high)
-        elif 0 < border == made:
-            said = [self._watch.allow("out", n, tick, high) for n in self._moving.marks]
-            if self._order and any(said):
-                self._order = replace(self._order, marks=())
-
-    def _forget_marks(self, tick: int) -> None:
-        r"""Of a move with a `\`: a last section that begins behind it sets no outputs."""
-        assert self._moving
-        border = self._moving.last_begins
-        if self.made_at(tick) < border:
-            self._moving = replace(self._moving, marks=())
-        elif self._moving.marks and border and tick - self._follower.tick_of(border) < SEEN_TICKS:
-            raise Unsure("a total reset when the last section begins")
 
     def _finish(self, made: int, seen: int) -> None:
         """Go on behind a move as what has stopped it wants."""
@@ -485,8 +477,6 @@ class Motor:
             self.phase = Phase.LOOKING
         elif self._paused is Phase.HELD and not self.memory.is_released(self._flow.next):
             self.phase = Phase.HELD
-        elif self._paused is Phase.IDLE and self._flow.next >= self.memory.end:
-            self.phase = Phase.IDLE
 
     def _total_stop(self, low: int, until: int) -> int | None:
         """The first tick at which an input of X is 1, before another tick."""

@@ -126,7 +126,8 @@ class Setup:
         if self.table:
             self.table_has_run = True
             heading = -self.table_heading if self.table_is_turned else self.table_heading
-            return Order(tuple(self.table), self.start_speed, heading, 0, self.table_marks)
+            marks = tuple(mark for mark in self.table_marks if mark in self.functions)
+            return Order(tuple(self.table), self.start_speed, heading, 0, marks)
         return self.way(self.heading * self.steps)
 
     def way(self, steps: int) -> Order | None:

@@ -128,6 +128,29 @@ class Variables:
         return Signal((write.tick, int(write.value > 0)) for write in writes)
 
 
+class Levels:
+    """The levels that the program of a motor sees; `writes_made` counts its own so far."""
+
+    def __init__(self, inputs: dict[int, Signal], variables: Variables, motor: int) -> None:
+        self._inputs = inputs
+        self._variables = variables
+        self._own = variables.own_writes(motor)
+        self.writes_made = 0
+
+    def at(self, number: int, moment: Moment) -> int:
+        """The level of an input or a variable."""
+        if number <= 8:
+            return self._inputs[number].during(moment)
+        made = self.writes_made
+        place = self._own[made - 1] if made else -1
+        next_own = self._own[made] if made < len(self._own) else None
+        return self._variables.level(number, place, next_own, moment)
+
+    def signal(self, number: int) -> Signal:
+        """The same over time."""
+        return self._inputs[number] if number <= 8 else self._variables.signal(number)
+
+
 class Watch:
     """The events of one motor, those of each name in their order, as the model expects them."""
 

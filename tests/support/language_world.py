@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import dataclass
 from enum import Enum, auto
 
-from language_signals import US, Signal, Variables, Watch
+from language_signals import US, Moment, Signal, Variables, Watch
+from program_probe import Connection
 
 BEHIND_TICKS = 200 * US
 """By so much a move or a wait may be late and still count from the program clock."""
 
 LOCK = 40
 """The function that keeps a full memory from being overwritten."""
+
+SIMULATION = 41
+"""The function that disconnects the outputs, and each motor when it stands."""
 
 BURST_MAX = 3000
 """Commands without a wait; a program with more may be one that never waits."""
@@ -36,11 +41,15 @@ class Phase(Enum):
 class World:
     """What surrounds a motor: inputs by number, the variables as they were, its own record.
 
-    `functions` are those of the whole unit that are on, the same set for all motors.
+    `trains` are its pulses at the pins (True) and in simulation (False). `functions` are those of
+    the whole unit that are on, the same set for all motors; `switches`, likewise, when simulation
+    was switched on or off.
     """
 
     inputs: dict[int, Signal]
     variables: Variables
     watch: Watch
-    pulses: list[int]
+    trains: dict[bool, list[int]]
+    connections: deque[Connection]
     functions: set[int]
+    switches: list[tuple[Moment, bool]]

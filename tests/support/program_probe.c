@@ -10,7 +10,9 @@
  * Goes out, for each run:
  *   judge SENTENCE      what the judge complains of
  *   pulses MOTOR T ...  of each motor that made any; a minus: backward
+ *   simulated MOTOR T ...   those that did not reach the pins, likewise
  *   event T MOTOR NUMBER VALUE, answer T HEX   as they happen
+ *   connection T MOTOR LEVEL   of STEP and DIR, likewise
  *   end LATE POSITION POSITION POSITION POSITION
  * Exit status 2: the input is no such thing, or too long.
  */
@@ -31,8 +33,10 @@ struct probe {
     struct host_machine machine;
     struct unit unit;
     struct judge judge;
-    int64_t pulse[UNIT_MOTORS][PULSES_MAX];
-    uint32_t pulse_count[UNIT_MOTORS];
+    struct train {
+        int64_t pulse[PULSES_MAX];
+        uint32_t count;
+    } trains[2][UNIT_MOTORS]; /* at the pins, and simulated */
     struct host_input input[INPUTS_MAX];
     uint32_t input_count;
     bool running;
@@ -44,14 +48,31 @@ static _Noreturn void complain(const char *what)
     exit(2);
 }
 
+static void add_pulse(struct probe *probe, struct train *train, uint64_t tick, unsigned motor, bool backward)
+{
+    if (train->count == PULSES_MAX) {
+        complain("too many pulses");
+    }
+    train->pulse[train->count++] = backward ? -(int64_t)tick : (int64_t)tick;
+    judge_unit_step(probe, tick, motor, backward);
+}
+
 static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
 {
     struct probe *probe = context;
-    if (probe->pulse_count[motor] == PULSES_MAX) {
-        complain("too many pulses");
-    }
-    probe->pulse[motor][probe->pulse_count[motor]++] = backward ? -(int64_t)tick : (int64_t)tick;
-    judge_unit_step(probe, tick, motor, backward);
+    add_pulse(probe, &probe->trains[0][motor], tick, motor, backward);
+}
+
+static void on_simulated(void *context, uint64_t tick, unsigned motor, bool backward)
+{
+    struct probe *probe = context;
+    add_pulse(probe, &probe->trains[1][motor], tick, motor, backward);
+}
+
+static void on_connection(void *context, uint64_t tick, unsigned motor, bool connected)
+{
+    judge_unit_connection(context, tick, motor, connected);
+    (void)printf("connection %" PRIu64 " %u %d\n", tick, motor + 1U, connected);
 }
 
 static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
@@ -65,8 +86,13 @@ static void begin(struct probe *probe, uint64_t epoch)
     probe->judged = (struct judged_unit){.unit = &probe->unit, .judge = &probe->judge, .machine = &probe->machine};
     judge_unit_begin(&probe->judged, epoch);
     probe->machine.listener.step = on_step;
+    probe->machine.listener.simulated = on_simulated;
+    probe->machine.listener.connection = on_connection;
     probe->machine.listener.trace = on_trace;
-    memset(probe->pulse_count, 0, sizeof probe->pulse_count);
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        probe->trains[0][motor].count = 0;
+        probe->trains[1][motor].count = 0;
+    }
     probe->input_count = 0;
     probe->running = false;
 }
@@ -119,17 +145,23 @@ static void send_request(struct probe *probe, const char *text)
     (void)printf("\n");
 }
 
+static void report_train(const char *name, unsigned motor, const struct train *train)
+{
+    if (train->count > 0) {
+        (void)printf("%s %u", name, motor + 1U);
+        for (uint32_t i = 0; i < train->count; i++) {
+            (void)printf(" %" PRId64, train->pulse[i]);
+        }
+        (void)printf("\n");
+    }
+}
+
 static void report(struct probe *probe)
 {
     (void)judge_unit_end(&probe->judged, probe->machine.now, stdout, "judge ");
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        if (probe->pulse_count[motor] > 0) {
-            (void)printf("pulses %u", motor + 1U);
-            for (uint32_t i = 0; i < probe->pulse_count[motor]; i++) {
-                (void)printf(" %" PRId64, probe->pulse[motor][i]);
-            }
-            (void)printf("\n");
-        }
+        report_train("pulses", motor, &probe->trains[0][motor]);
+        report_train("simulated", motor, &probe->trains[1][motor]);
     }
     (void)printf("end %" PRIu64, probe->machine.late_steps);
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {

@@ -62,12 +62,35 @@ class Event:
     value: int
 
 
+@dataclass(frozen=True)
+class Connection:
+    """STEP and DIR of a motor are connected to their pins, or disconnected.
+
+    `ends_move`: it is the very next thing behind the end of a move of this motor.
+    """
+
+    tick: int
+    connected: bool
+    ends_move: bool
+
+
+def _trains() -> dict[int, list[int]]:
+    return {motor: [] for motor in MOTORS}
+
+
 @dataclass
 class Record:
-    """What a run did; pulses of a motor are ticks, negative ones backward."""
+    """What a run did; pulses of a motor are ticks, negative ones backward.
 
-    pulses: dict[int, list[int]] = field(default_factory=lambda: {motor: [] for motor in MOTORS})
+    Those that are `simulated` did not reach the pins.
+    """
+
+    pulses: dict[int, list[int]] = field(default_factory=_trains)
+    simulated: dict[int, list[int]] = field(default_factory=_trains)
     events: list[Event] = field(default_factory=list)
+    connections: dict[int, list[Connection]] = field(
+        default_factory=lambda: {motor: [] for motor in MOTORS}
+    )
     answers: list[bytes] = field(default_factory=list)
     complaints: list[str] = field(default_factory=list)
     late: int = 0
@@ -115,8 +138,14 @@ def _read(record: Record, words: list[str]) -> bool:
         record.answers.append(bytes.fromhex(words[2]) if len(words) > 2 else b"")
     elif kind == "judge":
         record.complaints.append(" ".join(words[1:]))
-    elif kind == "pulses":
-        record.pulses[int(words[1])] = [int(tick) for tick in words[2:]]
+    elif kind in ("pulses", "simulated"):
+        trains = record.pulses if kind == "pulses" else record.simulated
+        trains[int(words[1])] = [int(tick) for tick in words[2:]]
+    elif kind == "connection":
+        tick, motor, level = map(int, words[1:])
+        last = record.events[-1] if record.events else None
+        ends_move = last is not None and (last.motor, last.name) == (motor, "done")
+        record.connections[motor].append(Connection(tick, bool(level), ends_move))
     else:
         record.late, *record.positions = map(int, words[1:])
     return kind == "end"

@@ -64,6 +64,7 @@ OUTPUT = st.one_of(
     _numbered("C", st.integers(1, 8), VARIABLES),
     _numbered("T", st.integers(42, 58)),
     _numbered("C", st.integers(42, 58)),
+    st.sampled_from(["T41", "C41"]),
     st.just("C100"),
     _numbered("=", st.integers(-300, 300)),
 )
@@ -143,7 +144,10 @@ def _nested(inner: Text) -> Text:
         lambda t: f"'{t[0]} J{t[1]} @{t[0]} {t[2]} . @{t[1]}"
     )
     again = st.tuples(st.integers(1, 4), body, WAIT).map(lambda t: f"@{t[0]} {t[1]} {t[2]} J{t[0]}")
-    return _weighted((3, loop), (1, skip), (1, call), (1, again))
+    left = st.tuples(st.integers(1, 4), body, SOURCES, st.sampled_from("HL"), body, WAIT).map(
+        lambda t: f"@{t[0]} L5 {t[1]} I{t[2]}{t[3]}{t[0] + 4} {t[4]} E @{t[0] + 4} {t[5]} J{t[0]}"
+    )
+    return _weighted((3, loop), (1, skip), (1, call), (1, again), (1, left))
 
 
 STATEMENT = st.recursive(SIMPLE, _nested, max_leaves=12)
@@ -173,7 +177,8 @@ FILLER = st.builds(
 """Enough of a program to fill the memory, or to come near it."""
 
 LATER = _weighted(
-    (8, st.sampled_from(["K", "C75", "K", "C75", "\\", "]", "R"])),
+    (10, st.sampled_from(["K", "C75", "K", "C75", "\\", "]", "R", "G+", "G-"])),
+    (2, st.sampled_from(["T41", "C41"])),
     (6, _numbered("V", SPEEDS)),
     (3, _several(ANYTHING, 3)),
     (3, _joined(st.just("\\"), PROGRAM)),
