@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -88,3 +90,30 @@ def test_the_checker_says_what_is_wrong_with_a_file(
 
     assert board_pins.main([str(header)]) == 1
     assert f"{header}: PA4 is used twice" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "complaint"),
+    [
+        ("BOARD_SUPPLY_MIN_MV 3135U", "BOARD_SUPPLY_MIN_MV 3099U", "never be seen as good"),
+        ("BOARD_DETECT_LEVEL 6U", "BOARD_DETECT_LEVEL 7U", "never be seen as good"),
+        ("BOARD_DETECT_LEVEL 6U", "BOARD_DETECT_LEVEL 5U", "never be seen as good"),
+        ("BOARD_DETECT_LEVEL 6U", "BOARD_DETECT_LEVEL 4U", "might not be seen"),
+        ("BOARD_SUPPLY_MIN_MV 3135U", "BOARD_SUPPLY_MIN_MV 2890U", "the part might never start"),
+        ("BOARD_BROWN_OUT_LEVEL 3U", "BOARD_BROWN_OUT_LEVEL 0U", "cannot run at 168 MHz"),
+        ("BOARD_FLASH_BYTES 4U", "BOARD_FLASH_BYTES 3U", "might not be seen"),
+    ],
+)
+@pytest.mark.skipif(not shutil.which(board.COMPILER), reason=f"{board.COMPILER} is not installed")
+def test_levels_that_do_not_fit_the_supply_do_not_compile(
+    tmp_path: Path, old: str, new: str, complaint: str
+) -> None:
+    assert old in GOOD
+    (tmp_path / "board.h").write_text(GOOD.replace(old, new))
+    folders = [tmp_path, *(board.ROOT / each for each in ("hal/include", "firmware/base"))]
+    command = [board.COMPILER, "-std=c11", "-fsyntax-only", *(f"-I{each}" for each in folders)]
+    source = str(board.ROOT / "hal/stm32/stm32_supply.c")
+    done = subprocess.run([*command, source], capture_output=True, text=True)
+
+    assert done.returncode == 1
+    assert complaint in done.stderr

@@ -213,13 +213,84 @@ def test_a_flasher_that_fails_otherwise_is_shown(tool, tmp_path, monkeypatch):
     assert "verify error" in result.out
 
 
-def test_a_flashed_board_is_told(tool, tmp_path, monkeypatch):
-    fake_tool(tmp_path, "openocd", "exit 0")
-    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+OPENOCD_SIZE = "case \"$*\" in *mdh*) echo '0x1fff7a22: {:04x} ';; *) echo written >>log;; esac"
+DFU_NAME = '"@Internal Flash  /0x08000000/04*016Kg,01*064Kg,{:02d}*128Kg"'
+DFU_LIST = """case "$*" in
+*-l*) echo 'Found DFU: [0483:df11] ver=2200, alt=1, name="@Option Bytes  /0x1FFFC000/01*016 e"'
+echo 'Found DFU: [0483:df11] ver=2200, devnum=5, cfg=1, intf=0, alt=0, name={}, serial="1"';;
+*) echo written >>log; """
 
-    result = tool("board", "flash")
+
+@pytest.fixture(scope="module")
+def built() -> board.Image:
+    return board.build(board.DEFAULT_BOARD)
+
+
+@pytest.fixture
+def fake(built, tmp_path, monkeypatch):
+    """Tools of this name run such a script; what they write is in `log`. The image is there."""
+    monkeypatch.setattr(board, "build", board.image_of)
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+    log = tmp_path / "log"
+    return lambda name, script: fake_tool(tmp_path, name, f"cd {tmp_path}\n{script}") or log
+
+
+@pytest.mark.parametrize(
+    ("name", "script"),
+    [
+        ("openocd", OPENOCD_SIZE.format(1024)),
+        ("dfu-util", DFU_LIST.format(DFU_NAME.format(7)) + "exit 0;; esac"),
+    ],
+)
+def test_a_flashed_board_is_told(tool, fake, name, script):
+    log = fake(name, script)
+    result = tool("board", "flash", "--tool", name)
 
     assert (result.status, result.out) == (0, "rkm04-f405 is flashed\n")
+    assert log.read_text() == "written\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "script"),
+    [
+        ("openocd", OPENOCD_SIZE.format(512)),
+        ("dfu-util", DFU_LIST.format(DFU_NAME.format(3)) + "exit 0;; esac"),
+    ],
+)
+def test_nothing_is_written_into_a_part_without_room_for_stored_programs(tool, fake, name, script):
+    log = fake(name, script)
+    result = tool("board", "flash", "--tool", name)
+
+    assert result.status == NOT_SO
+    assert "this part has 512 kB of flash" in result.complaint
+    assert not log.exists()
+    assert tool("board", "flash", "--tool", name, "--small", "--json").json["flash_kb"] == 512
+    assert log.read_text() == "written\n"
+
+
+@pytest.mark.parametrize("name", ["openocd", "stm32flash"])
+def test_a_tool_that_does_not_tell_the_size_is_told(tool, fake, name):
+    fake(name, "exit 0")
+    result = tool("board", "flash", "--tool", name, "--port", "/dev/ttyS9")
+
+    assert result.status == 0
+    assert f"{name} does not tell the size of the flash" in result.out
+
+
+@pytest.mark.parametrize(
+    ("said", "ended", "status"),
+    [
+        ("File downloaded successfully", 74, 0),
+        ("Download done.", 74, NOT_SO),
+        ("File downloaded successfully", 1, NOT_SO),
+        ("Error during download get_status", 74, NOT_SO),
+    ],
+)
+def test_dfu_util_that_loses_the_board_behind_its_work_has_done_it(tool, fake, said, ended, status):
+    fake("dfu-util", f"case \"$*\" in *-l*) exit 0;; esac; echo '{said}'; "
+         f"echo 'dfu-util: Error during download get_status' >&2; exit {ended}")  # fmt: skip
+
+    assert tool("board", "flash", "--tool", "dfu-util").status == status
 
 
 def test_a_flasher_that_is_not_installed_is_told(tool, monkeypatch):

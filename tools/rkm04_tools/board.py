@@ -16,6 +16,7 @@ from pathlib import Path
 
 from checks import board_size
 
+from rkm04_tools import board_part
 from rkm04_tools.failure import DONE, NO_CONNECTION, NOT_SO, Failure
 from rkm04_tools.table import table, thousands
 
@@ -27,6 +28,11 @@ FLASH_ADDRESS = "0x08000000"
 SECTOR_BYTES = 16 * 1024
 USB_LOADER = "0483:df11"
 """How the chip's own loader shows up on USB."""
+
+DFU_LEFT = 74
+"""How dfu-util ends when it cannot ask the board for its state; so it is behind `:leave`, too."""
+DFU_WRITTEN = "File downloaded successfully"
+SMALL_SIGN = "if it is less than 1 MB, all four LEDs blink at power-on"
 
 SIZES_HEAD = ("", "bytes", "budget", "used")
 
@@ -61,7 +67,7 @@ FLASHERS = {
     "dfu-util": Flasher(
         "dfu-util",
         re.compile(r"No DFU capable USB device", re.IGNORECASE),
-        "connect the board's USB, and reset it with BOOT0 high",
+        "connect the board's USB, and reset it with BOOT0 high (its README says where that is)",
     ),
     "stm32flash": Flasher(
         "stm32flash",
@@ -175,12 +181,35 @@ def run_flash(options: Namespace) -> int:
     if options.dry_run:
         print(json.dumps({"command": command}) if options.json else shlex.join(command))
         return DONE
-    _write(options.tool, command)
-    print(json.dumps({"flashed": image.board}) if options.json else f"{image.board} is flashed")
+    kilobytes = _look(options)
+    call_flasher(options.tool, command)
+    if options.json:
+        print(json.dumps({"flashed": image.board, "flash_kb": kilobytes}))
+    else:
+        print(f"{image.board} is flashed")
+        if kilobytes is None:
+            print(f"{options.tool} does not tell the size of the flash: {SMALL_SIGN}")
     return DONE
 
 
-def _write(tool: str, command: list[str]) -> None:
+def _look(options: Namespace) -> int | None:
+    """The size of the part's flash, which must do unless --small says otherwise."""
+    look = board_part.look_command(options.tool, options.probe, USB_LOADER)
+    if not look:
+        return None
+    kilobytes = board_part.flash_kb(options.tool, call_flasher(options.tool, look))
+    if not options.small:
+        board_part.require_room(kilobytes)
+    return kilobytes
+
+
+def has_left(tool: str, status: int, said: str) -> bool:
+    """Whether dfu-util has written all, and only then lost the board, which has left its loader."""
+    return tool == "dfu-util" and status == DFU_LEFT and DFU_WRITTEN in said
+
+
+def call_flasher(tool: str, command: list[str]) -> str:
+    """Run a program that speaks to the board; what it has said."""
     flasher = FLASHERS[tool]
     if not shutil.which(tool):
         hint = f"apt-get install {flasher.package}, or choose another --tool"
@@ -188,8 +217,8 @@ def _write(tool: str, command: list[str]) -> None:
     # Left to its end if this is killed: half an image in the flash is worse than a late one.
     done = subprocess.run(command, capture_output=True, text=True, errors="replace")
     said = done.stdout + done.stderr
-    if done.returncode == 0:
-        return
+    if done.returncode == 0 or has_left(tool, done.returncode, said):
+        return said
     if flasher.missing.search(said):
         raise Failure(f"{tool} finds no board: {flasher.advice}", NO_CONNECTION)
     print(said)

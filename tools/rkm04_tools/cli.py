@@ -231,9 +231,16 @@ def _add_completion(commands: Commands, parser: Parser) -> None:
     completion.add_arguments(command)
 
 
+BOOT0 = """\
+dfu-util and stm32flash speak to the loader in the chip: reset the board with BOOT0 high, and take
+that away afterwards. dfu-util often ends with 74 as the board leaves the loader; that counts as
+done when the whole image had been written before. The size of the part's flash is read first;
+stm32flash does not tell it."""
+
+
 def _add_board(commands: Commands) -> None:
-    """The three of them; the module is imported here, as only they need it."""
-    from rkm04_tools import board
+    """The four of them; the modules are imported here, as only they need them."""
+    from rkm04_tools import board, board_options
 
     title = "build, measure and flash the firmware of a board"
     command = commands.add_parser("board", help=title, description=title, allow_abbrev=False)
@@ -245,11 +252,18 @@ def _add_board(commands: Commands) -> None:
              "rkm04 board size --json"),
         _add(actions, "flash", board.run_flash, "build the image and write it into the board",
              "rkm04 board flash --tool dfu-util --dry-run"),
+        _add(actions, "options", board_options.run,
+             "show the option bytes of the part, and set its brown-out reset",
+             "rkm04 board options --board f407-discovery"),
     ]  # fmt: skip
     for part in parts:
         part.add_argument("--board", metavar="NAME", default=board.DEFAULT_BOARD,
                           help=f"one of {', '.join(board.names())}")  # fmt: skip
-    flash = parts[-1]
+    board_options.add_arguments(parts[-1])
+    flash = parts[-2]
+    flash.epilog = f"{BOOT0}\n\n{flash.epilog}"
+    flash.add_argument("--small", action="store_true",
+                       help="a part of less than 1 MB will do: no stored programs")  # fmt: skip
     flash.add_argument("--tool", choices=sorted(board.FLASHERS), default="openocd")
     flash.add_argument("--probe", metavar="NAME", default="stlink",
                        help="openocd: its interface script")  # fmt: skip
