@@ -1,11 +1,14 @@
 import { isKey, numberText, t } from "./i18n";
-import type { Answer } from "./protocol";
+import type { Answer, FoundUnit } from "./protocol";
 import { troubleText } from "./trouble";
 
 type Values = NonNullable<Answer["values"]>;
 
 /** One phrase for each motor of a table by motor numbers. */
-function perMotor(table: Record<string, number>, key: "answer.position" | "answer.store"): string {
+function perMotor(
+    table: Record<string, number>,
+    key: "answer.position" | "answer.store" | "answer.sendAll",
+): string {
     const phrases = Object.entries(table).map(([motor, value]) => t(key, { motor, value: numberText(value) }));
     return phrases.join(", ");
 }
@@ -16,8 +19,31 @@ function sent(values: Values): string {
     return [t("answer.send", words), ...overflow, ...(values.notes ?? [])].join("; ");
 }
 
+function sentToAll(commands: Record<string, number>, values: Values): string {
+    const overflow = values.overflow ? [t("answer.overflow")] : [];
+    const start = t(values.together ? "answer.together" : "answer.apart");
+    return [perMotor(commands, "answer.sendAll"), start, ...overflow, ...(values.notes ?? [])].join("; ");
+}
+
+function foundWords(found: FoundUnit[]): string {
+    const units = found.map(({ node, version, remark }) => `${node} (${[version, remark].filter(Boolean).join(", ")})`);
+    return units.length > 0 ? t("answer.found", { units: units.join(", ") }) : t("scan.none");
+}
+
 /** What the values of an answer say; null where its text says as much. */
 function valueWords(message: string, values: Values): string | null {
+    if (values.found) {
+        return foundWords(values.found);
+    }
+    if (values.sent) {
+        return sentToAll(values.sent, values);
+    }
+    if (values.everywhere && message === "store") {
+        return t("answer.toldToStore");
+    }
+    if (values.alone !== undefined) {
+        return t("answer.alone", { text: values.alone });
+    }
     if (values.positions) {
         return perMotor(values.positions, "answer.position");
     }
@@ -46,5 +72,6 @@ export function answerWords(answer: Answer): string {
     }
     const words = answer.values ? valueWords(answer.message, answer.values) : null;
     const fixed = `answer.${answer.message}.done`;
-    return words ?? (isKey(fixed) ? t(fixed) : (answer.text ?? t("log.done")));
+    const nobody = answer.values?.everywhere ? `${t("answer.everywhere")} ` : "";
+    return nobody + (words ?? (isKey(fixed) ? t(fixed) : (answer.text ?? t("log.done"))));
 }

@@ -1,10 +1,11 @@
 import { byId, make } from "./dom";
 import { language, t } from "./i18n";
 import type { Link } from "./link";
-import { ALL_MOTORS, MOTORS, type MessageName } from "./protocol";
+import { ALL_MOTORS, MOTORS, type MessageName, type RequestParts } from "./protocol";
 import { Cell } from "./signal";
 
 const MESSAGES: MessageName[] = ["version", "send", "store", "position", "program", "table", "progress"];
+const TO_ALL_UNITS: MessageName[] = ["send", "store"];
 const RESET_ASKS_MS = 4000;
 /** A second press sooner than this belongs to the first, as in a double click. */
 const RESET_SETTLES_MS = 400;
@@ -20,11 +21,14 @@ export class Commands {
     readonly #link: Link;
     readonly #program: () => ShownProgram;
     readonly #message = byId("message", HTMLSelectElement);
+    readonly #units = byId("units", HTMLSelectElement);
+    readonly #send = byId("send", HTMLButtonElement);
     readonly #reset = byId("reset", HTMLButtonElement);
     readonly #progress = byId("progress", HTMLProgressElement);
     #asksReset = 0;
     #asked_ms = 0;
-    #sending: number | null = null;
+    /** Number of the request whose progress is shown. */
+    #asked: number | null = null;
 
     constructor(link: Link, program: () => ShownProgram) {
         this.#link = link;
@@ -33,13 +37,14 @@ export class Commands {
         this.#listen();
         link.on("progress", ({ id, from, value }) => this.#showProgress(id, from, value));
         link.on("answer", ({ id, from }) => {
-            if (id === this.#sending && this.#isMine(from)) {
+            if (id === this.#asked && this.#isMine(from)) {
                 this.#endProgress();
             }
         });
         link.isOpen.onChange(() => {
             this.#endProgress();
             this.forgetReset();
+            this.#forgetUnits();
         });
         language.watch(() => this.#translate());
         this.motor.onChange(() => this.describe());
@@ -54,7 +59,31 @@ export class Commands {
         const words = { program: this.#program().motor, motor };
         const message = this.#message.value as MessageName;
         const send = t(motor === ALL_MOTORS ? "send.toAll" : "send.toOne", words);
-        byId("send-hint", HTMLElement).textContent = message === "send" ? send : t(`about.${message}`);
+        const about = message === "send" ? send : t(`about.${message}`);
+        const isPossible = !this.#isEverywhere || TO_ALL_UNITS.includes(message);
+        const units = t(isPossible ? "units.sends" : "units.asks");
+        byId("send-hint", HTMLElement).textContent = this.#isEverywhere ? units : about;
+        this.#send.textContent = t(this.#isEverywhere ? "units.submit" : "message.submit");
+        this.#send.classList.toggle("danger", this.#isEverywhere);
+        this.#send.disabled = !isPossible;
+    }
+
+    /** Asks the unit for something; its progress is shown. */
+    request(message: MessageName, motor: number, parts: RequestParts = {}): void {
+        const id = this.#link.nextId();
+        this.#asked = id;
+        this.#link.send({ type: "request", id, message, motor, ...parts });
+    }
+
+    /** Whether the next message goes to all units of the line. */
+    get #isEverywhere(): boolean {
+        return this.#units.value !== "";
+    }
+
+    /** All units are meant once only: what follows goes to one again. */
+    #forgetUnits(): void {
+        this.#units.value = "";
+        this.describe();
     }
 
     #listen(): void {
@@ -70,19 +99,18 @@ export class Commands {
         });
         byId("message-form", HTMLFormElement).addEventListener("submit", (event) => {
             event.preventDefault();
-            this.#request();
+            this.#submit();
         });
         this.#message.addEventListener("change", () => this.describe());
+        this.#units.addEventListener("change", () => this.describe());
     }
 
-    #request(): void {
+    #submit(): void {
         const message = this.#message.value as MessageName;
-        const id = this.#link.nextId();
         const text = message === "send" ? { text: this.#program().text } : {};
-        if (message === "send") {
-            this.#sending = id;
-        }
-        this.#link.send({ type: "request", id, message, motor: this.motor.value, ...text });
+        const everywhere = this.#isEverywhere ? { everywhere: true } : {};
+        this.request(message, this.motor.value, { ...text, ...everywhere });
+        this.#forgetUnits();
     }
 
     /** The first press asks, the second one within a few seconds resets. */
@@ -113,14 +141,14 @@ export class Commands {
     }
 
     #showProgress(id: number, from: number | null | undefined, value: number): void {
-        if (id === this.#sending && this.#isMine(from)) {
+        if (id === this.#asked && this.#isMine(from)) {
             this.#progress.hidden = false;
             this.#progress.value = value;
         }
     }
 
     #endProgress(): void {
-        this.#sending = null;
+        this.#asked = null;
         this.#progress.hidden = true;
     }
 

@@ -160,7 +160,9 @@ export class LiveView {
             lamps.forEach((lamp, index) => {
                 const level = levels?.[index];
                 lamp.dataset.level = level === undefined ? "unknown" : String(level);
-                lamp.setAttribute("aria-pressed", String(level === 1));
+                if (lamp instanceof HTMLButtonElement) {
+                    lamp.setAttribute("aria-pressed", String(level === 1));
+                }
             });
         }
         for (const [index, button] of this.#inputs.entries()) {

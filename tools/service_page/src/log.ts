@@ -6,6 +6,17 @@ import type { Answer, Trouble } from "./protocol";
 
 const KEPT_MAX = 200;
 
+/** Characters that are shown of words and of bytes before the rest has to be asked for. */
+const WORDS_MAX = 400;
+const BYTES_MAX = 300;
+const FOLDED = 90;
+
+function foldedIfLong(text: string, longest: number): HTMLElement | string {
+    return text.length <= longest
+        ? text
+        : make("details", {}, make("summary", {}, `${text.slice(0, FOLDED)} …`), text);
+}
+
 interface Entry {
     at: Date;
     answer: Answer;
@@ -64,10 +75,10 @@ export class Log {
         const time = make("time", {}, at.toLocaleTimeString(language.value, { hour12: false }));
         const title = make("b", {}, this.#title(answer));
         const head = make("div", { class: "log-head" }, time, title);
-        if (answer.motor !== null) {
+        if (answer.motor !== null && answer.message !== "scan") {
             head.append(make("span", { class: "log-who" }, this.#who(answer)));
         }
-        const words = make("div", { class: "log-words" }, answerWords(answer));
+        const words = make("div", { class: "log-words" }, foldedIfLong(answerWords(answer), WORDS_MAX));
         const item = make("li", { class: "log-item", "data-message": answer.message }, head, words);
         item.classList.toggle("is-bad", answer.error !== null);
         if (answer.message === "program" && answer.text && answer.motor) {
@@ -78,7 +89,7 @@ export class Log {
     }
 
     #who(answer: Answer): string {
-        const node = t("log.node", { node: answer.node });
+        const node = answer.node === 0 ? t("units.everyone") : t("log.node", { node: answer.node });
         const motor = answer.motor === 0 ? t("motor.all") : t("motor.one", { motor: answer.motor ?? 0 });
         return `${node} · ${motor}`;
     }
@@ -98,7 +109,8 @@ export class Log {
     }
 
     #code(name: "log.message" | "log.frame", bytes: string): HTMLElement {
-        return make("span", { class: name.replace(".", "-") }, make("small", {}, t(name)), make("code", {}, bytes));
+        const code = make("code", {}, foldedIfLong(bytes, BYTES_MAX));
+        return make("span", { class: name.replace(".", "-") }, make("small", {}, t(name)), code);
     }
 
     #editorButton(motor: number, text: string): HTMLElement {

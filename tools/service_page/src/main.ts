@@ -1,3 +1,4 @@
+import { AllPrograms } from "./all_programs";
 import { Commands } from "./commands";
 import { Connection } from "./connection";
 import { byId } from "./dom";
@@ -6,9 +7,10 @@ import { Link } from "./link";
 import { LiveView } from "./live";
 import { Log } from "./log";
 import { Plan } from "./plan";
-import { Programs } from "./programs";
 import { Presence } from "./presence";
+import { Programs } from "./programs";
 import { ALL_MOTORS } from "./protocol";
+import { Scan } from "./scan";
 import { Stop } from "./stop";
 
 /*
@@ -29,6 +31,12 @@ const commands = new Commands(link, () => {
     const motor = programs.shown.value;
     return { motor, text: programs.text(motor) };
 });
+new AllPrograms(
+    commands,
+    () => programs.texts(),
+    () => log.say("send_all", { cause: t("all.empty"), next: "" }),
+);
+new Scan(link, commands);
 const presence = new Presence(link);
 const stop = new Stop(link);
 new Connection(link, presence);
@@ -56,7 +64,8 @@ programs.shown.onChange((motor) => {
 });
 link.on("answer", ({ message, from, error }) => {
     const isOwn = from === undefined || from === link.client;
-    if (message === "send" && isOwn && error?.line !== undefined) {
+    if ((message === "send" || message === "send_all") && isOwn && error?.line !== undefined) {
+        programs.shown.set(error.motor ?? programs.shown.value);
         programs.goTo(error.line, error.column ?? 1);
     }
 });

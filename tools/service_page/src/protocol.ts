@@ -4,13 +4,15 @@ export const MOTORS = [1, 2, 3, 4] as const;
 export const ALL_MOTORS = 0;
 
 export type MessageName =
-    "version" | "send" | "store" | "position" | "program" | "table" | "progress";
+    | "version" | "send" | "store" | "position" | "program" | "table" | "progress"
+    | "send_all" | "scan";
 
 /** Why something did not happen, and what to do about it. `kind` is for translation. */
 export interface Trouble {
     kind?: string;
     cause: string;
     next: string;
+    motor?: number;
     line?: number;
     column?: number;
 }
@@ -19,11 +21,21 @@ export type ToService =
     | { type: "connect"; port: string; node: number }
     | { type: "disconnect" }
     | { type: "ports" }
-    | { type: "request"; id: number; message: MessageName; motor: number; text?: string }
+    | ({ type: "request"; id: number; message: MessageName; motor: number } & RequestParts)
     | { type: "stop"; id: number; nodes: Node[] }
     | { type: "resume" | "reset"; id: number }
     | { type: "speed"; id: number; motor: number; value: number }
     | { type: "input"; input: number; level: 0 | 1 };
+
+export interface RequestParts {
+    text?: string;
+    /** To all units of the line (DNode 0), of which none answers. */
+    everywhere?: boolean;
+    /** Programs by motor, for all at once. */
+    texts?: Record<string, string>;
+    /** Whether they start on the same tick, or each as it arrives. */
+    together?: boolean;
+}
 
 /** A unit: its address on a port. */
 export interface Node {
@@ -110,6 +122,13 @@ export interface AnswerValues {
     messages?: number;
     overflow?: boolean;
     notes?: string[];
+    /** The one command that acts only alone in a message, if it was that. */
+    alone?: string;
+    /** Commands by motor, when all programs were sent. */
+    sent?: Record<string, number>;
+    together?: boolean;
+    everywhere?: boolean;
+    found?: FoundUnit[];
     stored?: Record<string, number>;
     positions?: Record<string, number>;
     points?: [step: number, speed: number][];
@@ -117,6 +136,14 @@ export interface AnswerValues {
     command?: number;
     speed?: number;
     confirmed?: Node[];
+}
+
+/** A unit that has answered a scan; without a version, what it has answered was damaged. */
+export interface FoundUnit {
+    node: number;
+    version: string | null;
+    date: string | null;
+    remark: string;
 }
 
 export interface Port {
