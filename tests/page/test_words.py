@@ -5,14 +5,6 @@ from __future__ import annotations
 from playwright.sync_api import expect
 from service_page import TABLET, shown
 
-NAMELESS = """() => [...document.querySelectorAll("header, main")]
-    .flatMap((part) => [...part.querySelectorAll("button, select, input:not([type=file])")])
-    .filter((field) => !field.closest(".cm-editor") && field.checkVisibility())
-    .filter((field) => !field.textContent.trim() || field.matches("select"))
-    .filter((field) => !field.ariaLabel)
-    .filter((field) => ![...field.labels].some((label) => label.textContent.trim()))
-    .map((field) => field.outerHTML)"""
-
 
 def test_the_language_is_that_of_the_browser_until_another_is_chosen(browser, service):
     with shown(browser, service.url, locale="cs-CZ") as page:
@@ -35,10 +27,6 @@ def test_answers_and_errors_are_in_the_language_too(browser, service):
         expect(page.page.locator(".cm-tooltip")).to_contain_text("čeká se číslo od 1 do 16000")
         page.page.locator("#language").select_option("en")
         expect(page.answers.first).to_contain_text("sent and accepted")
-
-
-def test_every_control_has_a_name(page):
-    assert page.page.evaluate(NAMELESS) == []
 
 
 def test_stop_is_the_second_stop_of_the_tab_key(page):
