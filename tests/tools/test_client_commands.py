@@ -455,7 +455,7 @@ def test_progress_is_shown_on_a_terminal_only(fake, write, monkeypatch, capsys):
     main(["send", path])
 
     err = capsys.readouterr().err
-    assert "sending [###############...............] 1/2" in err
+    assert "sending [###############...............] 1/2, 50 %" in err
     assert err.endswith("\r\x1b[K")
 
 

@@ -320,3 +320,19 @@ def test_a_plot_of_an_unknown_kind_is_refused_before_anything_runs(tool, tmp_pat
 
     expect_wrong_usage(result, "a plot is .svg or .png")
     assert not steps.exists()
+
+
+def test_on_a_terminal_a_long_simulation_tells_per_cent(tool, write, monkeypatch):
+    monkeypatch.setattr("rkm04_tools.host.PROGRESS_AFTER_SECONDS", 0.02)
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+
+    result = tool("sim", write("S2000 V16000 A60000 G+"), "--for", "600")
+
+    told = [
+        int(each) for each in re.findall(r"simulating \.\.\. 0 s, (\d+) % of 600 s", result.err)
+    ]
+    assert result.status == 0
+    assert len(told) > 2
+    assert told == sorted(told)
+    assert told[0] < 60 < told[-1] <= 100
+    assert result.err.endswith("\r\x1b[K")

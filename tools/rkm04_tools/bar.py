@@ -33,4 +33,5 @@ class Bar:
             return
         self._shown = True
         filled = ("#" * (WIDTH * done // total)).ljust(WIDTH, ".")
-        print(f"\r{self.what} [{filled}] {done}/{total}", end="", file=sys.stderr, flush=True)
+        text = f"{self.what} [{filled}] {done}/{total}, {100 * done // total} %"
+        print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)

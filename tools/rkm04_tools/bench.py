@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from rkm04_tools import child, host
+from rkm04_tools.bar import Bar
 from rkm04_tools.failure import DONE
 from rkm04_tools.table import rounded, table
 
@@ -50,7 +51,12 @@ class Row:
 
 def run(options: Namespace) -> int:
     """Measure everything and print it."""
-    rows = [_accuracy(), *_generator_and_simulation(), _instructions()]
+    rows: list[Row] = []
+    parts: list[Callable[[], list[Row]]] = [_accuracy, _generator_and_simulation, _instructions]
+    with Bar("measuring") as bar:
+        for done, measured in enumerate(parts):
+            bar.show(done, len(parts))
+            rows += measured()
     if options.json:
         print(json.dumps({"figures": [{**asdict(row), "met": row.met} for row in rows]}, indent=2))
         return DONE
@@ -73,14 +79,14 @@ def _generator_and_simulation() -> list[Row]:
     return [*rows, Row(name, "times real time", 100, at_most=False, measured=measured)]
 
 
-def _accuracy() -> Row:
+def _accuracy() -> list[Row]:
     row = Row("worst deviation of a pulse", "ticks", 1, at_most=True)
-    return _from_script(row, "accuracy.py", lambda told: told["worst_ticks"])
+    return [_from_script(row, "accuracy.py", lambda told: told["worst_ticks"])]
 
 
-def _instructions() -> Row:
+def _instructions() -> list[Row]:
     row = Row("next tick of a pulse on Cortex-M4", "instructions", 60, at_most=True)
-    return _from_script(row, "arm_count.py", lambda told: told["generator_worst_mean"])
+    return [_from_script(row, "arm_count.py", lambda told: told["generator_worst_mean"])]
 
 
 def _from_script(row: Row, name: str, figure: Callable[[dict[str, Any]], float]) -> Row:

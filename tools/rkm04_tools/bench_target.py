@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 from argparse import Namespace
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -20,6 +19,7 @@ from typing import Any
 from checks import board_size
 
 from rkm04_tools import profile, target_figures, target_reactions, target_run
+from rkm04_tools.bar import Bar
 from rkm04_tools.failure import DONE
 from rkm04_tools.table import rounded, table
 from rkm04_tools.target_figures import Figures
@@ -152,7 +152,8 @@ def measure(rig: Rig) -> tuple[dict[Model, Figures], dict[Model, list[Reaction]]
     """Make all figures with both models, two runs at a time."""
     figures: dict[Model, Figures] = {GATE: {}, BESIDE: {}}
     reactions: dict[Model, list[Reaction]] = {}
-    with ThreadPoolExecutor(min(WORKERS, os.cpu_count() or 1)) as pool:
+    pool = ThreadPoolExecutor(min(WORKERS, os.cpu_count() or 1))
+    with pool, Bar("measuring") as bar:
         tasks: dict[Any, tuple[Model, str]] = {}
         for model in (GATE, BESIDE):
             apart = rig.beside(f"reactions-{model.refill}", model)
@@ -161,7 +162,7 @@ def measure(rig: Rig) -> tuple[dict[Model, Figures], dict[Model, list[Reaction]]
                 apart = rig.beside(f"{name}-{model.refill}", model)
                 tasks[pool.submit(function, apart)] = (model, name)
         for done, task in enumerate(as_completed(tasks)):
-            _show_progress(done + 1, len(tasks))
+            bar.show(done + 1, len(tasks))
             model, name = tasks[task]
             if name:
                 _merge(figures[model], task.result())
@@ -176,12 +177,6 @@ def _merge(figures: Figures, more: Figures) -> None:
     deepest = max(figures.get(STACK, 0), more.get(STACK, 0))
     figures.update(more)
     figures[STACK] = deepest
-
-
-def _show_progress(done: int, of: int) -> None:
-    if sys.stderr.isatty():
-        end = "\r\x1b[K" if done == of else ""
-        print(f"\rmeasuring: {done} of {of}{end}", end="", file=sys.stderr, flush=True)
 
 
 def rows_of(figures: Mapping[Model, Figures], sizes: Mapping[str, int]) -> list[Row]:

@@ -53,8 +53,11 @@ class Checked:
         return not self.parsed.errors
 
 
-def check_source(source: Source) -> Checked:
-    """Parse a text; warnings are for texts without errors only."""
+def check_source(source: Source, described: int | None = None) -> Checked:
+    """Parse a text; warnings are for texts without errors only.
+
+    Only the first of many errors are put into words if a number to be `described` is given.
+    """
     parsed = parse(source.message)
     if parsed.errors:
         rows = opcode_rows()
@@ -67,7 +70,7 @@ def check_source(source: Source) -> Checked:
                 describe(source.text, error, rows),
                 error.flag,
             )
-            for error in errors
+            for error in errors[:described]
         ]
         return Checked(source, parsed, found)
     return Checked(source, parsed, [_warning(source, remark) for remark in lint(parsed.commands)])

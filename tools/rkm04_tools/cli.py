@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from difflib import get_close_matches
 from functools import partial
-from typing import NoReturn, TypeAlias
+from typing import Any, NoReturn, TypeAlias
 
-from rkm04_tools import bench, check, serve
+from rkm04_tools import bench, board, board_options, check, completion, serve
 from rkm04_tools.client_options import NODE_HELP, PORT_HELP, add_client_commands
-from rkm04_tools.failure import INTERRUPTED, NOT_SO, Failure
+from rkm04_tools.failure import DONE, INTERRUPTED, NOT_SO, Failure
 
 SIM_NOTES = """\
 INPUTS has lines ms,input,level such as 350.5,3,1: BI3 becomes 1 at 350.5 ms.
@@ -47,6 +48,41 @@ class Parser(argparse.ArgumentParser):
         """End the command."""
         raise Failure(f"{message}; {self.prog} --help shows how it is used")
 
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        """Say which choice may have been meant."""
+        if action.choices is not None and value not in action.choices:
+            meant = _meant(str(value), map(str, action.choices))
+            if meant:
+                name = action.metavar or "/".join(action.option_strings) or action.dest
+                raise argparse.ArgumentError(None, f"{name} {value} is none{meant}")
+        super()._check_value(action, value)
+
+
+def read(parser: Parser, arguments: Sequence[str]) -> argparse.Namespace:
+    """Read a command line; of options that there are not, say which may have been meant."""
+    options, unknown = parser.parse_known_args(arguments)
+    if unknown:
+        command = next((c for c in _named(parser, arguments)), parser)
+        meant = _meant(unknown[0].partition("=")[0], command._option_string_actions)
+        command.error(f"unrecognized arguments: {' '.join(unknown)}{meant}")
+    return options
+
+
+def _named(parser: Parser, arguments: Sequence[str]) -> list[argparse.ArgumentParser]:
+    """The innermost command that a command line names first."""
+    found: list[argparse.ArgumentParser] = []
+    known = dict(completion.commands_of(parser))
+    for word in arguments:
+        if not word.startswith("-") and word in known:
+            found.insert(0, known[word])
+    return found[:1]
+
+
+def _meant(word: str, known: Iterable[str]) -> str:
+    """A question for what may have been meant; empty if nothing is near."""
+    found = get_close_matches(word, list(known), n=1, cutoff=0.6)
+    return f"; did you mean {found[0]}?" if found else ""
+
 
 Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
 
@@ -57,7 +93,10 @@ def main(arguments: Sequence[str]) -> int:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
     try:
-        options = make_parser().parse_args(arguments)
+        if list(arguments[:2]) == ["completion", completion.WORDS]:
+            print("\n".join(completion.offered(make_parser(), arguments[2:])))
+            return DONE
+        options = read(make_parser(), arguments)
         run: Run = options.run
         status = run(options)
         sys.stdout.flush()
@@ -106,6 +145,10 @@ def make_parser() -> Parser:
         epilog="rkm04 COMMAND --help shows an example of each command.",
         allow_abbrev=False,
     )
+    parser.add_argument(
+        "--version", action="version", version=f"rkm04, with the firmware {board.version()}",
+        help="show the version and end",
+    )  # fmt: skip
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_check(commands)
     _add_sim(commands)
@@ -114,7 +157,7 @@ def make_parser() -> Parser:
     _add_serve(commands)
     _add_service(commands)
     add_client_commands(partial(_add, commands))
-    _add_completion(commands, parser)
+    _add_completion(commands)
     return parser
 
 
@@ -222,11 +265,9 @@ def _add_bench(commands: Commands) -> None:
     )
 
 
-def _add_completion(commands: Commands, parser: Parser) -> None:
-    from rkm04_tools import completion
-
-    title = "print what a shell needs to complete commands and options"
-    command = _add(commands, "completion", partial(completion.run, parser), title,
+def _add_completion(commands: Commands) -> None:
+    title = "print what a shell needs to complete commands, options, ports and boards"
+    command = _add(commands, "completion", completion.run, title,
                    completion.EXAMPLE, has_json=False)  # fmt: skip
     completion.add_arguments(command)
 
@@ -239,9 +280,7 @@ stm32flash does not tell it."""
 
 
 def _add_board(commands: Commands) -> None:
-    """The four of them; the modules are imported here, as only they need them."""
-    from rkm04_tools import board, board_options
-
+    """The four of them."""
     title = "build, measure and flash the firmware of a board"
     command = commands.add_parser("board", help=title, description=title, allow_abbrev=False)
     actions = command.add_subparsers(metavar="ACTION", required=True)

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +25,7 @@ from rkm04_tools.failure import Failure
 PROGRAM = "rkm04-host"
 BUILD_VARIABLE = "RKM04_BUILD"
 PROGRESS_AFTER_SECONDS = 1.0
+PROGRESS = re.compile(rb"^progress (\d+)\n", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -89,7 +92,11 @@ def opcode_rows() -> list[OpcodeRow]:
 
 def simulate(arguments: Sequence[str], pipes: Sequence[int] = ()) -> dict[str, Any]:
     """Run programs, which may write to these open pipes; the answer is the summary."""
-    return _answer(["sim", *arguments], progress="simulating", pipes=pipes)
+    command = ["sim", *arguments]
+    seconds = next((b for a, b in pairwise(arguments) if a == "--for"), "")
+    if sys.stderr.isatty():
+        command += ["--progress", str(PROGRESS_AFTER_SECONDS)]
+    return _answer(command, progress="simulating", pipes=pipes, of_seconds=float(seconds or 0))
 
 
 def measure() -> dict[str, Any]:
@@ -109,16 +116,23 @@ def program_path() -> Path:
 
 
 def _answer(
-    arguments: Sequence[str], given: bytes = b"", progress: str = "", pipes: Sequence[int] = ()
+    arguments: Sequence[str],
+    given: bytes = b"",
+    progress: str = "",
+    pipes: Sequence[int] = (),
+    of_seconds: float = 0,
 ) -> dict[str, Any]:
-    """Run the program to its end and return what it answers."""
+    """Run the program to its end and return what it answers.
+
+    On a terminal `progress` is shown, with per cent where the program tells its unit time.
+    """
     command = [str(program_path()), *arguments]
     pipe = subprocess.PIPE
     with subprocess.Popen(
         command, stdin=pipe, stdout=pipe, stderr=pipe, env=child.bound(), pass_fds=pipes
     ) as process:
         try:
-            out, complaint = _communicate(process, given, progress)
+            out, complaint = _communicate(process, given, progress, of_seconds)
         except BaseException:
             process.kill()
             raise
@@ -131,7 +145,7 @@ def _answer(
 
 
 def _communicate(
-    process: subprocess.Popen[bytes], given: bytes, progress: str
+    process: subprocess.Popen[bytes], given: bytes, progress: str, of_seconds: float
 ) -> tuple[bytes, bytes]:
     """Wait for the end of the program; show the time on a terminal if it takes long."""
     if not progress or not sys.stderr.isatty():
@@ -142,10 +156,12 @@ def _communicate(
         try:
             answer = process.communicate(given, timeout=PROGRESS_AFTER_SECONDS)
             break
-        except subprocess.TimeoutExpired:
+        except subprocess.TimeoutExpired as still:
             shown = True
-            seconds = time.monotonic() - started
-            print(f"\r{progress} ... {seconds:.0f} s", end="", file=sys.stderr, flush=True)
+            text = f"{progress} ... {time.monotonic() - started:.0f} s"
+            if of_seconds and (told := PROGRESS.findall(still.stderr or b"")):
+                text += f", {int(told[-1]) / of_seconds / 10:.0f} % of {of_seconds:g} s"
+            print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
     if shown:
         print("\r\x1b[K", end="", file=sys.stderr, flush=True)
     return answer
@@ -153,7 +169,13 @@ def _communicate(
 
 def _failed(status: int, complaint: str) -> Failure:
     """Pass on the program's own line, or say that it crashed."""
-    line = complaint.strip().rpartition("\n")[2].removeprefix(f"{PROGRAM}: ")
+    line = (
+        PROGRESS.sub(b"", complaint.encode())
+        .decode()
+        .strip()
+        .rpartition("\n")[2]
+        .removeprefix(f"{PROGRAM}: ")
+    )
     if status > 0 and line:
         return Failure(line)
     how = f"signal {-status}" if status < 0 else f"status {status}"

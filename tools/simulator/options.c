@@ -30,6 +30,7 @@ const char options_usage[] =
     "         --curve         writes speeds and positions over time, in at most N points a motor (2000),\n"
     "                         of the whole time or from one moment to another\n"
     "         --real SECONDS  ends after so much real time too\n"
+    "         --progress SECONDS  tells so often, in real time, how many ms of unit time are done (standard error)\n"
     "         --epoch TICKS   what the unit's clock shows at the start (0)\n"
     "serve    runs units in real time for whoever connects; serve --help says more\n"
     "check    parses a program (- is standard input) and prints commands and errors (JSON)\n"
@@ -99,6 +100,11 @@ static bool read_real(struct options *options, const char *value)
     return read_seconds("--real", value, &options->real_ns);
 }
 
+static bool read_progress(struct options *options, const char *value)
+{
+    return read_seconds("--progress", value, &options->progress_ns);
+}
+
 static bool read_points(struct options *options, const char *value)
 {
     uint64_t points = 0;
@@ -146,7 +152,7 @@ static read_option *find_reader(const char *name)
         const char *name;
         read_option *read;
     } readers[] = {
-        {"--motor", read_motor},   {"--for", read_duration}, {"--epoch", read_epoch}, {"--real", read_real},
+        {"--motor", read_motor},   {"--for", read_duration}, {"--epoch", read_epoch}, {"--real", read_real}, {"--progress", read_progress},
         {"--points", read_points}, {"--from", read_from},    {"--to", read_to},
     };
     for (size_t i = 0; i < sizeof readers / sizeof readers[0]; i++) {

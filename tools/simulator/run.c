@@ -1,5 +1,7 @@
 #include "run.h"
 
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "feed.h"
@@ -98,13 +100,23 @@ static uint64_t run_pass(void *context)
     return wake;
 }
 
+static void tell_progress(struct run *run, uint64_t real_ns)
+{
+    if (run->progress_ns != 0 && real_ns - run->told_ns >= run->progress_ns) {
+        run->told_ns = real_ns;
+        (void)fprintf(stderr, "progress %" PRIu64 "\n", run->machine.now / TICKS_PER_MS);
+    }
+}
+
 /* The clock is asked now and then only, as asking takes longer than a pass. */
 static bool run_is_over(void *context)
 {
     struct run *run = context;
     run->idle = unit_is_idle(&run->unit);
-    if (run->limit_ns != 0 && ++run->passes % PASSES_PER_LOOK == 0) {
-        run->cut = units_real_ns() - run->begin_ns > run->limit_ns;
+    if (++run->passes % PASSES_PER_LOOK == 0 && (run->limit_ns != 0 || run->progress_ns != 0)) {
+        uint64_t real_ns = units_real_ns();
+        run->cut = run->limit_ns != 0 && real_ns - run->begin_ns > run->limit_ns;
+        tell_progress(run, real_ns);
     }
     return run->idle || run->cut;
 }
@@ -127,6 +139,7 @@ void run_begin(struct run *run, uint64_t epoch)
         run->tally[i] = (struct tally){.moves = 0};
         run->positions[i] = 0;
     }
+    run->progress_ns = 0;
     run->limit_ns = 0;
     run->passes = 0;
     run->real_ns = 0;
@@ -139,6 +152,7 @@ void run_begin(struct run *run, uint64_t epoch)
 void run_until(struct run *run, uint64_t until_tick)
 {
     run->begin_ns = units_real_ns();
+    run->told_ns = run->begin_ns;
     host_machine_run(&run->machine, until_tick, run_pass, run_is_over, run);
     run->real_ns += units_real_ns() - run->begin_ns;
 }
@@ -167,6 +181,7 @@ static enum exit_status run_with(const struct options *options, struct feed *fee
     enum exit_status status = EXIT_REFUSED;
     run_begin(run, options->epoch);
     run->limit_ns = options->real_ns;
+    run->progress_ns = options->progress_ns;
     host_machine_set_script(&run->machine, inputs->script, inputs->length);
     if (recorder_open(&run->recorder, &options->paths)) {
         status = run_programs(run, feed, options->duration_ns);
