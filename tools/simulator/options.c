@@ -152,7 +152,8 @@ static read_option *find_reader(const char *name)
         const char *name;
         read_option *read;
     } readers[] = {
-        {"--motor", read_motor},   {"--for", read_duration}, {"--epoch", read_epoch}, {"--real", read_real}, {"--progress", read_progress},
+        {"--motor", read_motor},   {"--for", read_duration}, {"--epoch", read_epoch}, {"--real", read_real},
+        {"--progress", read_progress},
         {"--points", read_points}, {"--from", read_from},    {"--to", read_to},
     };
     for (size_t i = 0; i < sizeof readers / sizeof readers[0]; i++) {

@@ -9,12 +9,20 @@
 #include "summary.h"
 #include "units.h"
 
-enum { PASSES_PER_LOOK = 256 };
+enum { PASSES_PER_LOOK = 256, STEPS_PER_LOOK = 4096 };
 
 static void record(struct run *run, const struct timeline_event *event)
 {
     if (run->recorder.active) {
         recorder_put(&run->recorder, event, run->machine.now);
+    }
+}
+
+static void tell_progress(struct run *run, uint64_t real_ns, uint64_t tick)
+{
+    if (run->progress_ns != 0 && real_ns - run->told_ns >= run->progress_ns) {
+        run->told_ns = real_ns;
+        (void)fprintf(stderr, "progress %" PRIu64 "\n", tick / TICKS_PER_MS);
     }
 }
 
@@ -24,6 +32,9 @@ static void hear_step(void *context, uint64_t tick, unsigned motor, bool backwar
     struct run *run = context;
     int64_t position = mover_position_steps(&run->unit.mover[motor]) + (backward ? -1 : 1);
     run->positions[motor] = position;
+    if (run->progress_ns != 0 && ++run->steps % STEPS_PER_LOOK == 0) {
+        tell_progress(run, units_real_ns(), tick); /* a long run makes many pulses in few passes */
+    }
     uint64_t interval_ticks = tally_count_pulse(&run->tally[motor], tick, position);
     record(run, &(struct timeline_event){.tick = tick,
                                          .kind = TIMELINE_STEP,
@@ -100,14 +111,6 @@ static uint64_t run_pass(void *context)
     return wake;
 }
 
-static void tell_progress(struct run *run, uint64_t real_ns)
-{
-    if (run->progress_ns != 0 && real_ns - run->told_ns >= run->progress_ns) {
-        run->told_ns = real_ns;
-        (void)fprintf(stderr, "progress %" PRIu64 "\n", run->machine.now / TICKS_PER_MS);
-    }
-}
-
 /* The clock is asked now and then only, as asking takes longer than a pass. */
 static bool run_is_over(void *context)
 {
@@ -116,7 +119,7 @@ static bool run_is_over(void *context)
     if (++run->passes % PASSES_PER_LOOK == 0 && (run->limit_ns != 0 || run->progress_ns != 0)) {
         uint64_t real_ns = units_real_ns();
         run->cut = run->limit_ns != 0 && real_ns - run->begin_ns > run->limit_ns;
-        tell_progress(run, real_ns);
+        tell_progress(run, real_ns, run->machine.now);
     }
     return run->idle || run->cut;
 }
@@ -140,6 +143,7 @@ void run_begin(struct run *run, uint64_t epoch)
         run->positions[i] = 0;
     }
     run->progress_ns = 0;
+    run->steps = 0;
     run->limit_ns = 0;
     run->passes = 0;
     run->real_ns = 0;

@@ -23,6 +23,7 @@ struct run {
     uint64_t begin_ns;              /* real time of the beginning, as units_real_ns */
     uint64_t progress_ns;           /* of real time, from telling the progress to telling it again; 0: never */
     uint64_t told_ns;               /* real time at which it was told last */
+    uint32_t steps;                 /* counted while the progress is to be told */
     uint64_t limit_ns;              /* of real time; 0: none */
     uint32_t passes;                /* of the main loop, modulo 2^32 */
     uint64_t real_ns;               /* time that the simulation took */
