@@ -37,8 +37,10 @@ static uint8_t state_bits(const struct interpreter *interpreter)
 
 static uint8_t motor_bits(const struct interpreter *interpreter)
 {
-    unsigned moving = mover_is_moving(interpreter->mover) ? PROTOCOL_STATUS_MOVING : 0U;
-    return (uint8_t)(state_bits(interpreter) | moving);
+    unsigned bits = state_bits(interpreter);
+    bits |= mover_is_moving(interpreter->mover) ? PROTOCOL_STATUS_MOVING : 0U;
+    bits |= interpreter->mover->connected ? 0U : PROTOCOL_STATUS_SIMULATED;
+    return (uint8_t)bits;
 }
 
 static uint8_t awaited(const struct interpreter *interpreter)

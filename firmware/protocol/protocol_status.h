@@ -38,7 +38,8 @@ enum {
     X(WAITING, 2) /* and waits: for a time, a level, or `]` */                                                         \
     X(STOPPED, 3) /* by K, until C75 */                                                                                \
     X(FAILED, 4)  /* by the error in `errors`, until `\` */                                                            \
-    X(ENDED, 5)   /* by X, until `\` */
+    X(ENDED, 5)   /* by X, until `\` */                                                                                \
+    X(SIMULATED, 6) /* STEP and DIR are disconnected (T41) */
 
 enum protocol_status_bit {
 #define X(name, bit) PROTOCOL_STATUS_##name = 1 << (bit),

@@ -23,9 +23,9 @@ NODE = 3
 TEXT = """\
 motor            position  state
     1               5 000  moving
-    2                  -5  waiting for input 5 to become 1
-    3          16 000 000  stopped by K, moving
-    4  -1 099 511 627 776  ended by X
+    2                  -5  waiting for input 5 to become 1, simulated
+    3          16 000 000  stopped by K, moving, simulated
+    4  -1 099 511 627 776  ended by X, simulated
 
 inputs at 1:  1 3 6 8
 outputs at 1: 3 4 5 6, simulated (T41)
@@ -84,7 +84,7 @@ def levels(byte: int) -> list[int]:
 
 
 def motor_bits(motor: dict[str, Any]) -> int:
-    names = ("moving", "running", "waiting", "stopped", "failed", "ended")
+    names = ("moving", "running", "waiting", "stopped", "failed", "ended", "simulated")
     return sum(motor[name] << place for place, name in enumerate(names))
 
 
@@ -165,7 +165,7 @@ def test_what_is_awaited_and_not_known_is_not_made_up(code):
 def test_a_unit_of_the_oldest_layout_does_not_tell_what_is_awaited():
     status = parse_status(AT_WORK.oldest)
 
-    assert (status.layout, status.motors[1].text) == (1, "waiting")
+    assert (status.layout, status.motors[1].text) == (1, "waiting, simulated")
     assert status.line["unsent"] == 111
 
 
@@ -210,6 +210,7 @@ def test_status_as_json(tool, unit):
     assert answer["motors"][0] == {
         "motor": 1, "position": 5000, "moving": True, "running": True, "waiting": False,
         "stopped": False, "failed": False, "ended": False, "error": "", "awaited": None,
+        "simulated": False,
     }  # fmt: skip
     assert answer["line"]["repeats"] == 110
 

@@ -7,10 +7,10 @@ course of the program is judged by its flow; what a rule cannot know for sure it
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Container, Iterator, Sequence
+from dataclasses import dataclass, field
 
-from rkm04_tools.flow import JUMPS, Flow
+from rkm04_tools.flow import JUMPS, WAITS, Flow
 from rkm04_tools.host import Command
 
 LOOPS_MAX = 8
@@ -19,8 +19,10 @@ SECTIONS_MAX = 10
 COMMANDS_MAX = 700
 STEPS = ("STEPS_FORWARD", "STEPS_BACKWARD")
 ALONE = ("HALT", "RESUME")
+TAKES_TIME = WAITS | {"HOLD"}
 MARKS = range(51, 59)
 """Functions that set an output when the last section of a compound move begins."""
+SIMULATION = 41
 
 
 @dataclass(frozen=True)
@@ -91,6 +93,17 @@ def _loops(flow: Flow) -> Iterator[Remark]:
                 opened.pop()
     for command in opened:
         yield Remark(command.offset, "loop-open", f"{command.text} without an E behind it")
+
+
+def _returned_loops(flow: Flow) -> Iterator[Remark]:
+    """Find loops of subroutines that only a `.` ends."""
+    for index in sorted(flow.run - flow.main):
+        command = flow.commands[index]
+        if command.opcode == "LOOP":
+            behind = {flow.commands[i].opcode for i in flow.reached(flow.next_inside(index))}
+            if "RETURN" in behind and "LOOP_END" not in behind:
+                text = f"the . behind it closes {command.text}; an E behind the call is not its own"
+                yield Remark(command.offset, "loop-returned", text)
 
 
 def _calls(flow: Flow) -> Iterator[Remark]:
@@ -216,6 +229,34 @@ def _behind_calls(flow: Flow, end: int) -> Iterator[int]:
             yield from (i + 1 for i in flow.calls[label] if i + 1 < len(flow.commands))
 
 
+def _total_stops(flow: Flow) -> Iterator[Remark]:
+    """Find an X behind which the program only comes to rest."""
+    if not any(command.opcode in TAKES_TIME for command in flow.commands):
+        return
+    for index, command in enumerate(flow.commands):
+        if command.opcode == "TOTAL_STOP" and index in flow.run:
+            behind = {flow.commands[i].opcode for i in _with_steps(flow, [index])}
+            if behind.isdisjoint(TAKES_TIME):
+                text = f"{command.text} does nothing while the motor rests; put it before the moves"
+                yield Remark(command.offset, "total-stop", text)
+
+
+def _simulation(flow: Flow) -> Iterator[Remark]:
+    switches = [c for c in flow.commands if _is_switch(c, [SIMULATION])]
+    if len(switches) == len(flow.commands):
+        return
+    for command in switches:
+        text = (
+            f"{command.text} inside a program switches the outputs at once, "
+            "and every motor of the unit where it next stands"
+        )
+        yield Remark(command.offset, "simulation", text)
+
+
+def _is_switch(command: Command, functions: Container[int]) -> bool:
+    return command.opcode.startswith("FUNCTION_") and command.value in functions
+
+
 def _ignored(flow: Flow) -> Iterator[Remark]:
     if len(flow.commands) == 1:
         return
@@ -242,12 +283,33 @@ class _Compound:
     sections: int = 0
     done: bool = False
     direction: bool = False
+    on: set[int] = field(default_factory=set)
+    off: dict[int, Command] = field(default_factory=dict)
+    """Functions that are on; and those that were on at the first Y and are not any more."""
 
     def append(self) -> None:
         """Do a Y."""
         if self.done or self.sections == 0:
             self.sections, self.done, self.direction = 0, False, self.backward
+            self.off = {}
         self.sections += 1
+
+    def switch(self, command: Command) -> None:
+        """Do a T51 to T58 or C51 to C58."""
+        if command.opcode == "FUNCTION_ON":
+            self.on.add(command.value)
+            self.off.pop(command.value, None)
+        elif command.value in self.on:
+            self.on.discard(command.value)
+            if self.sections > 0:
+                self.off[command.value] = command
+
+    def run(self) -> Iterator[Command]:
+        """Do an R; what was switched off before it."""
+        self.done = self.sections > 0
+        if self.done:
+            yield from self.off.values()
+            self.off = {}
 
     def forget_if_done(self) -> None:
         """Do an F or B."""
@@ -264,18 +326,24 @@ def _compounds(flow: Flow) -> Iterator[Remark]:
         elif command.opcode == "REVERSE":
             state.backward = not state.backward
         elif command.opcode == "MOVE":
-            state.done = state.sections > 0
+            for off in state.run():
+                text = f"{off.text} stands before an R of this compound move; its output is not set"
+                yield Remark(off.offset, "mark-off", text)
         elif command.opcode == "APPEND_SECTION":
             state.append()
             yield from _section(command, state)
-        elif _is_late_mark(command, state):
-            text = f"{command.text} does not act on this compound move; put it before the first Y"
-            yield Remark(command.offset, "mark", text)
+        elif _is_switch(command, MARKS):
+            if _is_late_mark(command, state):
+                text = (
+                    f"{command.text} does not act on this compound move; put it before the first Y"
+                )
+                yield Remark(command.offset, "mark", text)
+            state.switch(command)
 
 
 def _is_late_mark(command: Command, state: _Compound) -> bool:
-    is_mark = command.opcode == "FUNCTION_ON" and command.value in MARKS
-    return is_mark and state.sections > 0 and not state.done
+    is_on = command.opcode == "FUNCTION_ON" and command.value not in state.off
+    return is_on and state.sections > 0 and not state.done
 
 
 def _section(command: Command, state: _Compound) -> Iterator[Remark]:
@@ -290,12 +358,15 @@ def _section(command: Command, state: _Compound) -> Iterator[Remark]:
 RULES = (
     _labels,
     _loops,
+    _returned_loops,
     _calls,
     _returns,
     _unreachable,
     _busy_loops,
     _speeds,
     _no_steps,
+    _total_stops,
+    _simulation,
     _ignored,
     _too_many,
     _compounds,

@@ -80,7 +80,7 @@ class MotorStatus:
 
     `moving`: a move is in progress. `running`: its program is; `waiting`: it is, and waits for a
     time, a level or `]`; for which of them is in `awaited`, if the unit tells. `stopped` by K until
-    C75, `failed` and `ended` (by X) until `\\`.
+    C75, `failed` and `ended` (by X) until `\\`. `simulated`: its pins are disconnected (T41).
     """
 
     motor: int
@@ -93,6 +93,7 @@ class MotorStatus:
     ended: bool
     error: str
     awaited: Awaited | None = None
+    simulated: bool = False
 
     @property
     def at_rest(self) -> bool:
@@ -115,7 +116,7 @@ class MotorStatus:
             )
             if is_so
         ]
-        return ", ".join(words) or "at rest"
+        return ", ".join((words or ["at rest"]) + ["simulated"] * self.simulated)
 
 
 @dataclass(frozen=True)
@@ -234,9 +235,9 @@ def _awaited(code: int) -> Awaited | None:
 def _motor(
     motor: int, position: int, state: int, error: int, awaited: Awaited | None
 ) -> MotorStatus:
-    moving, running, waiting, stopped, failed, ended = _levels(state, 6)
+    moving, running, waiting, stopped, failed, ended, simulated = _levels(state, 7)
     text = ERRORS[error] if error < len(ERRORS) else f"error {error}"
     return MotorStatus(
         motor, position, moving, running, waiting, stopped, failed, ended, text if failed else "",
-        awaited if waiting else None,
+        awaited if waiting else None, simulated,
     )  # fmt: skip

@@ -130,6 +130,26 @@ void test_outputs_are_told_as_programs_have_set_them(void)
     TEST_ASSERT_EQUAL_HEX8(0, machine.outputs);
 }
 
+/* T41 while motor 1 moves: it is simulated when it stands, motor 2 at once; and the other way round. */
+void test_a_motor_whose_pins_are_disconnected_is_simulated(void)
+{
+    take(1, "F20 R F20 R");
+    run_ms(50);
+    take(2, "T41");
+    run_ms(10);
+    assert_motor(1, PROTOCOL_STATUS_MOVING | PROTOCOL_STATUS_RUNNING);
+    assert_motor(2, PROTOCOL_STATUS_SIMULATED);
+    run_ms(150);
+    assert_motor(1, PROTOCOL_STATUS_MOVING | PROTOCOL_STATUS_RUNNING | PROTOCOL_STATUS_SIMULATED);
+    take(2, "C41");
+    run_ms(10);
+    assert_motor(1, PROTOCOL_STATUS_MOVING | PROTOCOL_STATUS_RUNNING | PROTOCOL_STATUS_SIMULATED);
+    TEST_ASSERT_EQUAL_HEX8(0, status.switches & PROTOCOL_STATUS_SIMULATING);
+    run_ms(200);
+    assert_motor(1, 0);
+    TEST_ASSERT_EQUAL_INT64(20, status.positions_steps[0]);
+}
+
 void test_the_memory_that_is_locked_is_told(void)
 {
     take(1, "T40");
