@@ -93,7 +93,7 @@ class Curves:
 
 
 def _checked(wanted: Wanted) -> dict[int, Checked]:
-    return {m: check_source(Source(f"motor {m}", text), 1) for m, text in wanted.programs.items()}
+    return {m: check_source(Source(f"motor {m}", text)) for m, text in wanted.programs.items()}
 
 
 async def _simulate(wanted: Wanted, checked: dict[int, Checked], folder: Path) -> dict[str, Any]:

@@ -60,7 +60,7 @@ def version(unit: Unit, wait: Wait = USUAL) -> Answer:
 
 
 def _send(motor: Motor, text: str, tell: Tell) -> Answer:
-    checked = check_source(Source(NAME, text), 1)
+    checked = check_source(Source(NAME, text))
     if told := first_error(checked):
         raise ProgramWrong(told)
     sent = send_program(motor, checked, tell)

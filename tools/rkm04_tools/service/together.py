@@ -63,7 +63,7 @@ def send_all(unit: Unit, texts: Mapping[int, str], together: bool, tell: Tell) -
 
 
 def _planned(motor: int, text: str) -> Plan:
-    checked = check_source(Source(f"motor {motor}", text), 1)
+    checked = check_source(Source(f"motor {motor}", text))
     if told := first_error(checked):
         cause = f"motor {motor}: {told['cause']}"
         advice = f"nothing was sent to any motor; {told['next']}"
