@@ -233,6 +233,22 @@ def fits(modelled: Modelled, first: int, count: int, curve: Curve) -> bool:
     return all(abs(int(t - made[0]) - (d - due[0])) <= 2 for t, d in zip(made, due, strict=True))
 
 
+def test_simulation_that_another_motor_switches_costs_no_pulse(unit):
+    """It comes on in the first move and goes off in the second, both at full speed."""
+    programs = {1: b"S2000 V16000 A60000 B4000 R F4000 R B500 R", 2: b"W150 T41 W500 C41"}
+    sent = script(together(programs))
+    end = sent.come_ms[-1] / 1000 + 1.5
+
+    modelled = unit.run(sent.lines + get_positions(end * 1000), end + 0.1)
+
+    ticks, positions = of_motor(modelled.steps, 1)
+    assert (len(ticks), positions[-1]) == (4000 + 500, -4500)
+    assert modelled.positions[0] == -4500
+    assert fits(modelled, 0, 4000, single(4000, 2000, 16000, 60000))
+    assert fits(modelled, 4000, 500, single(500, 2000, 16000, 60000))
+    assert modelled.late_steps == 0
+
+
 def test_k_stops_down_the_ramp_and_c75_makes_the_rest_of_the_move(unit):
     sent = script(
         [Message(1, b"S100 V2000 A4000 F3000 R"), Message(1, b"K", 700), Message(1, b"C75", 900)]
