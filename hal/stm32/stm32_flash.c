@@ -9,8 +9,9 @@
 #include "stm32f4.h"
 
 /*
- * The areas are the last two sectors of 1 MB; a smaller part does not have them. While a sector is being written or erased the flash answers no read, and
- * the processor would stand still at the first one: all of this file, and all interrupts, run from RAM.
+ * The areas are the last two sectors of 1 MB; a smaller part does not have them. While a sector is being written or
+ * erased the flash answers no read, and the processor would stand still at the first one: all of this file, and all
+ * interrupts, run from RAM.
  */
 enum {
     SECTOR_FIRST = 10,

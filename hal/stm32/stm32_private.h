@@ -38,8 +38,8 @@ static inline void stm32_barrier(void)
     __asm__ volatile("dsb\n\tisb" ::: "memory");
 }
 
-/* A clock enable of RCC, and the time until what it is for takes an access: one that comes sooner is lost (errata ES0182,
- * "delay after an RCC peripheral clock enabling"; a read-back alone was found to be too short). */
+/* A clock enable of RCC, and the time until what it is for takes an access: one that comes sooner is lost (errata
+ * ES0182, "delay after an RCC peripheral clock enabling"; a read-back alone was found to be too short). */
 static inline void stm32_enable_clock(volatile uint32_t *enables, uint32_t bits)
 {
     *enables |= bits;

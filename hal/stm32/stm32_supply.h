@@ -15,7 +15,8 @@
     ((level) == 7U ? 2950U : (level) == 6U ? 2850U : (level) == 4U ? 2590U : (level) == 3U ? 2440U : 0U)
 
 /* Where the part starts at the latest, and is held in reset at the latest. */
-#define STM32_BROWN_OUT_RISING_MAX_MV(level) ((level) == 3U ? 2970U : (level) == 2U ? 2630U : (level) == 1U ? 2330U : 0U)
+#define STM32_BROWN_OUT_RISING_MAX_MV(level)                                                                           \
+    ((level) == 3U ? 2970U : (level) == 2U ? 2630U : (level) == 1U ? 2330U : 0U)
 #define STM32_BROWN_OUT_FALLING_MIN_MV(level)                                                                          \
     ((level) == 3U ? 2750U : (level) == 2U ? 2440U : (level) == 1U ? 2130U : 1600U)
 

@@ -163,7 +163,7 @@ def test_a_board_that_is_not_there_is_told(tool, tmp_path, monkeypatch):
 
 def test_the_thresholds_are_those_that_the_firmware_is_checked_against():
     text = (ROOT / "hal" / "stm32" / "stm32_supply.h").read_text()
-    macro = text[text.index("STM32_BROWN_OUT_RISING_MAX_MV") :].partition("\n")[0]
+    macro = text[text.index("STM32_BROWN_OUT_RISING_MAX_MV") :].partition("\n#define")[0]
     found = re.findall(r"== (\d)U \? (\d+)U", macro)
 
     assert len(found) == 3

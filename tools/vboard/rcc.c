@@ -51,9 +51,9 @@ enum {
 #define HSE_STOP_CYCLES 6
 #define PLL_STOP_PS VTIME_PS_PER_US
 
-/* Errata ES0182, "delay after an RCC peripheral clock enabling": an access too short behind the enable is lost: 2 cycles
- * of AHB, or 1 + the divider of APB. The write itself is on its way for 2 more: with a store, a read-back and a store
- * at once the second one was lost on a part. */
+/* Errata ES0182, "delay after an RCC peripheral clock enabling": an access too short behind the enable is lost: 2
+ * cycles of AHB, or 1 + the divider of APB. The write itself is on its way for 2 more: with a store, a read-back and a
+ * store at once the second one was lost on a part. */
 enum { ENABLE_CYCLES_AHB = 2, ENABLE_CYCLES_APB = 1, ENABLE_WAY_CYCLES = 2 };
 
 static uint32_t *word(struct rcc *rcc, uint32_t offset)
@@ -108,6 +108,14 @@ static uint32_t ready_bits(struct board *board)
     return (rcc->hsi_ready_ps <= now ? CR_HSIRDY : 0U) | (hse ? CR_HSERDY : 0U) | (pll ? CR_PLLRDY : 0U);
 }
 
+static void check_bypass(struct board *board, uint32_t value)
+{
+    bool changes = ((*word(&board->rcc, RCC_CR) ^ value) & CR_HSEBYP) != 0;
+    if (changes && (ready_bits(board) & CR_HSERDY) != 0) {
+        board_fail(board, "RCC_CR: HSEBYP must be written only while the crystal's oscillator is off");
+    }
+}
+
 /* What is switched off is seen to be off a little later. */
 static void note_stops(struct board *board, uint32_t value)
 {
@@ -124,9 +132,7 @@ static void note_stops(struct board *board, uint32_t value)
 static void write_cr(struct board *board, uint32_t value)
 {
     struct rcc *rcc = &board->rcc;
-    if (((*word(rcc, RCC_CR) ^ value) & CR_HSEBYP) != 0 && (ready_bits(board) & CR_HSERDY) != 0) {
-        board_fail(board, "RCC_CR: HSEBYP must be written only while the crystal's oscillator is off");
-    }
+    check_bypass(board, value);
     note_stops(board, value);
     *word(rcc, RCC_CR) = value & CR_WRITABLE;
     bool crystal = (value & CR_HSEON) != 0 && !board->options->no_crystal && !rcc->crystal_failed;
@@ -137,8 +143,8 @@ static void write_cr(struct board *board, uint32_t value)
         locks = false;
     }
     rcc->pll_ready_ps = started(board, rcc->pll_ready_ps, locks, PLL_LOCK_PS);
-    if ((rcc->source == RCC_SOURCE_PLL && (value & CR_PLLON) == 0) ||
-        (rcc->source == RCC_SOURCE_HSE && (value & CR_HSEON) == 0)) {
+    uint32_t needed = rcc->source == RCC_SOURCE_HSE ? CR_HSEON : CR_PLLON;
+    if (rcc->source != RCC_SOURCE_HSI && (value & needed) == 0) {
         board_fail(board, "RCC_CR switches off the clock that the processor runs on");
     }
     update_switch(board);
@@ -193,7 +199,10 @@ bool rcc_clock_is_on(const struct rcc *rcc, uint32_t offset, unsigned bit)
 
 static unsigned enable_index(uint32_t offset)
 {
-    return offset == RCC_AHB1ENR ? 0 : offset == RCC_APB1ENR ? 1U : 2U;
+    if (offset == RCC_AHB1ENR) {
+        return 0;
+    }
+    return offset == RCC_APB1ENR ? 1U : 2U;
 }
 
 bool rcc_clock_has_come(const struct board *board, uint32_t offset, unsigned bit)

@@ -158,24 +158,43 @@ void supply_reset(struct board *board)
     board->supply.settled_ps = VTIME_NEVER;
 }
 
+/* MS: of a point behind the first one. */
+static bool read_time(const struct supply *supply, const char **at, const char *end, uint64_t *ps)
+{
+    if (!line_read_fixed(at, end, MS_DECIMALS, MS_MAX * VTIME_PS_PER_MS, ps) || *at == end || **at != ':') {
+        return false;
+    }
+    (*at)++;
+    return *ps > supply->point[supply->points - 1U].ps;
+}
+
+static bool read_point(struct supply *supply, const char **at, const char *end)
+{
+    uint64_t ps = 0;
+    uint64_t mv = 0;
+    if (supply->points == SUPPLY_POINTS_MAX || (supply->points > 0 && !read_time(supply, at, end, &ps)) ||
+        !line_read_fixed(at, end, MV_DECIMALS, MV_MAX, &mv)) {
+        return false;
+    }
+    supply->point[supply->points].ps = ps;
+    supply->point[supply->points].mv = (uint32_t)mv;
+    supply->points++;
+    return true;
+}
+
 static bool read_points(struct supply *supply, const char *at)
 {
     const char *end = at + strlen(at);
-    for (bool more = true; more; supply->points++) {
-        uint64_t ps = 0;
-        uint64_t mv = 0;
-        if (supply->points == SUPPLY_POINTS_MAX ||
-            (supply->points > 0 && (!line_read_fixed(&at, end, MS_DECIMALS, MS_MAX * VTIME_PS_PER_MS, &ps) ||
-                                    ps <= supply->point[supply->points - 1U].ps || at == end || *at++ != ':')) ||
-            !line_read_fixed(&at, end, MV_DECIMALS, MV_MAX, &mv)) {
+    while (read_point(supply, &at, end)) {
+        if (at == end) {
+            return true;
+        }
+        if (*at != ',') {
             return false;
         }
-        supply->point[supply->points].ps = ps;
-        supply->point[supply->points].mv = (uint32_t)mv;
-        more = at != end && *at == ',';
-        at += more ? 1 : 0;
+        at++;
     }
-    return at == end;
+    return false;
 }
 
 bool supply_open(struct board *board)

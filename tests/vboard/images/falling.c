@@ -1,5 +1,5 @@
-/* The voltage detector, level 6, in a supply that changes: result[0] microseconds until it says "low", result[1] until it
- * says "good" again. */
+/* The voltage detector, level 6, in a supply that changes: result[0] microseconds until it says "low", result[1] until
+ * it says "good" again. */
 #include "part.h"
 
 #define PWR_CR REG(0x40007000)

@@ -61,9 +61,9 @@
 #define BOARD_CRYSTAL_MHZ 8U
 #define BOARD_USART 3
 
-/* The supply at the part: the lowest in good order (3.0 V behind a diode; 2.89 to 2.94 V were measured on such boards); level of the voltage
- * detector below which the flash is not written; bytes written at a time; level of the brown-out reset that
- * `board options` sets (3 is the highest). stm32_supply.c checks that they fit to each other. */
+/* The supply at the part: the lowest in good order (3.0 V behind a diode; 2.89 to 2.94 V were measured on such boards);
+ * level of the voltage detector below which the flash is not written; bytes written at a time; level of the brown-out
+ * reset that `board options` sets (3 is the highest). stm32_supply.c checks that they fit to each other. */
 #define BOARD_SUPPLY_MIN_MV 2890U
 #define BOARD_DETECT_LEVEL 4U
 #define BOARD_FLASH_BYTES 2U
