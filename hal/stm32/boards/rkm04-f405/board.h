@@ -52,9 +52,9 @@
 #define BOARD_CRYSTAL_MHZ 8U
 #define BOARD_USART 1
 
-/* The supply at the part: the lowest in good order (3.3 V less 5 %); level of the voltage detector below which the flash
- * is not written; bytes written at a time; level of the brown-out reset that `board options` sets (3 is the highest).
- * stm32_supply.c checks that they fit to each other. */
+/* The supply at the part: the lowest in good order (3.3 V less 5 %); level of the voltage detector below which the
+ * flash is not written; bytes written at a time; level of the brown-out reset that `board options` sets (3 is the
+ * highest). stm32_supply.c checks that they fit to each other. */
 #define BOARD_SUPPLY_MIN_MV 3135U
 #define BOARD_DETECT_LEVEL 6U
 #define BOARD_FLASH_BYTES 4U
