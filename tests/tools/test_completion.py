@@ -30,7 +30,7 @@ def test_every_command_is_offered():
 @pytest.mark.parametrize(("name", "command"), LISTED, ids=[name for name, _ in LISTED])
 def test_every_option_is_offered(name, command):
     options = {o for action in command._actions for o in action.option_strings if o[:2] == "--"}
-    words = f"board {name}" if name in ("build", "size", "flash") else name
+    words = f"board {name}" if name in ("build", "size", "flash", "options") else name
 
     assert set(at(f"{words} --")) == options
 
