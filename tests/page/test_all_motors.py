@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 import pytest
-from playwright.sync_api import expect
+from playwright.sync_api import WebSocket, expect
 from service_page import ServicePage
 
 
@@ -14,12 +14,15 @@ def requests(page: ServicePage) -> list[dict[str, object]]:
     """What the page asks for, to be emptied by the test. Opened anew, so that all of it is seen."""
     asked: list[dict[str, object]] = []
 
-    def note(payload: str) -> None:
+    def note(payload: str | bytes) -> None:
         told = json.loads(payload)
         if told["type"] in ("request", "connect"):
             asked.append({key: told[key] for key in told if key not in ("id", "beat")})
 
-    page.page.on("websocket", lambda socket: socket.on("framesent", note))
+    def listen(socket: WebSocket) -> None:
+        socket.on("framesent", note)
+
+    page.page.on("websocket", listen)
     page.page.reload()
     page.ready()
     return asked

@@ -1,4 +1,4 @@
-"""How the page looks at the widths it is made for, light and dark, and to those who cannot see it."""
+"""How the page looks at the widths it is made for, light and dark, and how it is read aloud."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ OUTSIDE = """() => [...document.querySelectorAll("header *, main *")]
 """What is not wholly between the left and the right edge of the window."""
 
 OVER = """() => {
-    const parts = [...document.querySelectorAll(
-        "main button, main select, main input, main label, main .hint, main h2, main canvas, .card")]
+    const kinds = ["button", "select", "input", "label", ".hint", "h2", "canvas", ".card"];
+    const parts = [...document.querySelectorAll(kinds.map((kind) => `main ${kind}`).join())]
         .filter((part) => !part.closest(".cm-editor, .log-box") && part.checkVisibility());
     const boxes = parts.map((part) => part.getBoundingClientRect());
     const found = [];
@@ -38,8 +38,8 @@ OVER = """() => {
         const [a, b] = [boxes[i], boxes[j]];
         const isOver = a.left < b.right - 1 && b.left < a.right - 1
             && a.top < b.bottom - 1 && b.top < a.bottom - 1;
-        if (i < j && isOver && a.width > 0 && b.width > 0 && !one.contains(other) && !other.contains(one)
-            && !one.closest("#motors") && one.tagName + other.tagName !== "CANVASCANVAS") {
+        const isInside = one.contains(other) || other.contains(one) || one.closest("#motors");
+        if (i < j && isOver && a.width > 0 && b.width > 0 && !isInside) {
             found.push(`${one.outerHTML.slice(0, 60)} over ${other.outerHTML.slice(0, 60)}`);
         }
     }));
