@@ -21,7 +21,7 @@ COMMANDS = [name for name, _ in commands_of(make_parser()) if name not in ("buil
 @pytest.fixture(scope="module")
 def clone(tmp_path_factory) -> Path:
     """What a clone has of the tools, without a build."""
-    root = tmp_path_factory.mktemp("clone")
+    root: Path = tmp_path_factory.mktemp("clone")
     for name in NEEDED:
         shutil.copytree(ROOT / name, root / name, ignore=shutil.ignore_patterns("__pycache__"))
     for name in FILES:

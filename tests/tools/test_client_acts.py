@@ -5,14 +5,16 @@ from __future__ import annotations
 import json
 import signal
 import time
+from types import SimpleNamespace
+from typing import Any
 
 import fake_unit
 import pytest
 from fake_unit import ENDED, FAILED, MOVING, RUNNING, STOPPED, WAITING, FakeLine, FakeUnit
 from rkm04_tools import acting
 from rkm04_tools.line import open_line
-from rkm04_tools.sending import check_program
-from rkm04_tools.streaming import stream_program
+from rkm04_tools.sending import Plan, check_program
+from rkm04_tools.streaming import Feeder, stream_program
 from statuses import Vector
 
 NODE = 3
@@ -428,6 +430,43 @@ def test_an_interruption_of_a_stream_stops_the_motor_and_tells_so(start, serve, 
         assert motor.unit.status().motors[0].stopped
         time.sleep(0.2)
         assert motor.position() == before
+
+
+def test_what_is_restored_does_not_run_until_it_is_told_to(tool, serve, tmp_path, monkeypatch):
+    served = serve("--node", str(NODE))
+    monkeypatch.setenv("RKM04_PORT", served.place)
+    (tmp_path / f"unit-0{NODE}-motor-2.rks").write_text("\\ S1000 V1000 F200 R [ W1 ]")
+
+    assert tool("restore", tmp_path).status == 0
+
+    with open_line(served.place) as line:
+        unit = line.unit(NODE)
+        assert unit.status().motors[1].stopped
+        assert unit.positions() == [0, 0, 0, 0]
+        unit.motor(2).resume()
+        end = time.monotonic() + 10
+        while unit.motor(2).position() != 200:
+            assert time.monotonic() < end
+            time.sleep(0.02)
+
+
+@pytest.mark.parametrize(
+    ("place", "sent", "room"),
+    [(10, 500, 700 - 491), (399, 500, 700 - 491), (400, 500, 700 - 491), (401, 700, 400),
+     (9, 500, 700 - 492), (0, 100, 600), (1, 100, 600), (700, 700, 699)],
+)  # fmt: skip
+def test_what_a_loop_comes_back_to_is_kept(place, sent, room):
+    moving = SimpleNamespace(failed=False, ended=False, stopped=False, at_rest=False)
+    told = SimpleNamespace(motors=[moving])
+    asked: Any = SimpleNamespace(
+        number=1,
+        unit=SimpleNamespace(status=lambda: told),
+        progress=lambda: SimpleNamespace(command=place),
+    )
+    feeder = Feeder(asked, Plan(check_program("R"), []), [(10, 400), (20, 30)], pytest.fail)
+    feeder.sent = sent
+
+    assert feeder._room() == room
 
 
 def test_a_stream_of_loops_moves_as_it_says(serve):

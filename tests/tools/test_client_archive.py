@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import fake_unit
 import pytest
 from fake_unit import FakeLine, FakeUnit
@@ -109,6 +111,49 @@ def test_what_was_restored_is_saved_as_it_was(tool, folder, tmp_path):
 
     first = {path.name: path.read_text() for path in folder.iterdir()}
     assert {path.name: path.read_text() for path in (tmp_path / "again").iterdir()} == first
+
+
+def test_a_backup_names_unit_and_motor_in_the_file_too(folder):
+    assert (folder / "unit-02-motor-3.rks").read_text().startswith("\\ { unit 2, motor 3 }\n")
+
+
+def test_restore_stores_every_program_and_nothing_else(tool, folder, units):
+    units[0].done.clear()
+
+    assert tool("restore", folder).status == 0
+
+    assert [done for done in units[0].done if done[0] == 3] == [b"\x031", b"\x033"]
+
+
+def test_restore_ends_where_a_unit_holds_another_program(tool, folder, units, monkeypatch):
+    def execute(unit: FakeUnit, message: bytes) -> bytes:
+        answer = original(unit, message)
+        if message == b"\x031":
+            unit.programs[1] = b"[]S100F6R"
+        return answer
+
+    original = FakeUnit.execute
+    monkeypatch.setattr(FakeUnit, "execute", execute)
+
+    result = tool("restore", folder)
+
+    assert result.status == 1
+    assert "unit-02-motor-1.rks: the unit holds another program; restore again" in result.complaint
+
+
+def test_a_backup_that_cannot_be_finished_leaves_no_half_file(tool, fake, tmp_path, monkeypatch):
+    def write(path: Path, text: str, **more: str) -> int:
+        whole(path, text[:5], **more)
+        raise OSError(28, "No space left on device")
+
+    whole = Path.write_text
+    monkeypatch.setattr(Path, "write_text", write)
+
+    result = tool("backup", tmp_path / "b")
+
+    assert result.status == 2
+    assert "no space left on device" in result.complaint
+    assert not list((tmp_path / "b").glob("*.rks"))
 
 
 def test_restore_changes_nothing_if_a_unit_is_missing(tool, fake, folder, units):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import signal
 import subprocess
 import sys
@@ -11,6 +12,7 @@ from pathlib import Path
 
 import fake_unit
 import pytest
+import statuses
 from fake_unit import FakeLine, FakeUnit
 from rkm04_tools.cli import main
 from rkm04_tools.client_options import COMMANDS
@@ -317,6 +319,47 @@ def test_watch_tells_the_speed(call, unit, monkeypatch):
     assert 5_000 < motor["speed"] < 15_000
     assert (motor["steps_made"], motor["steps"], motor["command"]) == (247, 5000, 3)
     assert json.loads(lines[2])["motors"][1]["steps"] is None
+
+
+def test_watch_tells_backward_moves_inputs_and_outputs_apart(call, unit, monkeypatch):
+    def move(unit: FakeUnit, message: bytes) -> bytes:
+        if message == b"\x042":
+            unit.positions[1] -= 1000
+        return original(unit, message)
+
+    original = FakeUnit.execute
+    monkeypatch.setattr(FakeUnit, "execute", move)
+    unit.status = statuses.Vector("", inputs=0b101, outputs=0b10).whole
+    unit.tables[2] = b"  2;[(1;100),(248;1000)]"
+    started = time.monotonic()
+
+    text = call("watch", "--motor", "2", "--interval", "0.2", "--count", "3")
+
+    assert time.monotonic() - started >= 0.4
+    last = text.splitlines()[2]
+    assert re.fullmatch(
+        r"0\.[4-9] s  2: -3005 -\d{4} steps/s, step 247 of -, command 3  BI 1 3  BO 2", last
+    )
+
+
+def test_store_of_a_file_for_all_motors_compares_each(tool, fake, unit, write):
+    path = write("S100 V1000 F5000 R")
+    unit.programs = {1: b"S100V1000F5000R", 2: b"S100V1000F5000R", 3: b"S100V1000F5000R", 4: b"R"}
+
+    result = tool("store", path, "--motor", "0")
+
+    assert result.status == 1
+    assert "unit 3, motor 4: the memory holds another program" in result.complaint
+    assert acts(unit) == []
+
+
+def test_a_slow_line_only_takes_longer(call, fake, unit, write):
+    fake.delay_seconds = 0.15  # of the 0.2 s that are waited for
+
+    text = call("send", write("F5000 R"))
+
+    assert "2 commands in 1 message sent" in text
+    assert len(acts(unit)) == 1
 
 
 def test_watch_goes_on_when_a_unit_is_away_for_a_while(call, fake):

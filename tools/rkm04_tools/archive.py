@@ -13,7 +13,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rkm04_tools.check import Checked, check_source
-from rkm04_tools.failure import NO_CONNECTION, NOT_SO, Failure, writing_failed
+from rkm04_tools.failure import (
+    NO_CONNECTION,
+    NOT_SO,
+    Failure,
+    finished_or_absent,
+    writing_failed,
+)
 from rkm04_tools.line import Line
 from rkm04_tools.messages import MOTORS
 from rkm04_tools.sending import (
@@ -102,7 +108,8 @@ def _save(line: Line, node: int, motor: int, folder: Path) -> Saved | None:
     text = textwrap.fill(
         " ".join(commands), COLUMNS, break_long_words=False, break_on_hyphens=False
     )
-    path.write_text(f"\\ {{ unit {node}, motor {motor} }}\n{text}\n", encoding="ascii")
+    with finished_or_absent(path) as part:
+        part.write_text(f"\\ {{ unit {node}, motor {motor} }}\n{text}\n", encoding="ascii")
     return Saved(node, motor, path, len(commands))
 
 

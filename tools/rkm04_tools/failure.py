@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 DONE = 0
@@ -33,6 +35,23 @@ def reading_failed(path: Path, error: OSError) -> Failure:
 def writing_failed(path: Path, error: OSError) -> Failure:
     """Say why a file cannot be written."""
     return Failure(f"{path}: cannot be written: {_reason(error)}; choose another place")
+
+
+@contextmanager
+def finished_or_absent(path: Path) -> Iterator[Path]:
+    """What to write instead of a file: it gets the name when it is whole, or is removed.
+
+    What is no plain file, as a pipe, is written as it is.
+    """
+    if path.exists() and not path.is_file():
+        yield path
+        return
+    part = path.with_name(f"{path.name}.part")
+    try:
+        yield part
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
 
 
 def _reason(error: OSError) -> str:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rkm04_tools.curve import position_line, speed_line, thinned
-from rkm04_tools.failure import Failure, writing_failed
+from rkm04_tools.failure import Failure, finished_or_absent, writing_failed
 from rkm04_tools.host import BUILD_VARIABLE
 from rkm04_tools.record import Event, Record
 from rkm04_tools.signals import Signal
@@ -73,7 +73,9 @@ def draw(record: Record, title: str, signals: Sequence[Signal], path: Path) -> N
         matplotlib.rcParams.update(STYLE)
         figure = _figure(record, title, signals)
         try:
-            figure.savefig(path, format=kind, metadata={"Date": None} if kind == "svg" else None)
+            with finished_or_absent(path) as part:
+                dateless = {"Date": None} if kind == "svg" else None
+                figure.savefig(part, format=kind, metadata=dateless)
         except OSError as error:
             raise writing_failed(path, error) from None
 
