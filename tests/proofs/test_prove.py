@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import pytest
 from checks.c_changes import Change
@@ -155,13 +156,36 @@ def test_the_lemmas_of_a_header_are_left_to_the_header() -> None:
     assert prove_lemmas(contracts) == Result("no_lemmas")
 
 
-def test_a_change_of_a_source_or_a_header_is_not_as_it_was_proved(tmp_path: Path) -> None:
+def test_a_change_of_a_source_is_not_as_it_was_proved(tmp_path: Path) -> None:
     path = PROOFS / "base_tick.acsl"
     other = planted(tmp_path, "firmware/base/base_tick.c", "tick_is_before", "< 0", "<= 0")
 
     assert digest(put_together(path)) == digest(put_together(path))
     assert digest(put_together(path)) != digest(put_together(path, other))
-    assert digest(Contracts("a", text='#include "shifts.h"\n')) != digest(Contracts("a"))
+
+
+def test_a_change_of_a_header_is_not_as_it_was_proved(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("prove.FOLDERS", (tmp_path,))
+    contracts = Contracts("a", text='#include "a.h"\n')
+    digests = []
+    for header in ('#include "b.h"', '#include "b.h" /* why */', '#include "b.h"\nint b;'):
+        (tmp_path / "a.h").write_text(f"{header}\n")
+        (tmp_path / "b.h").write_text("int a;\n")
+        digests.append(digest(contracts))
+    (tmp_path / "b.h").write_text("int c;\n")
+
+    assert digests[0] == digests[1]
+    assert len({*digests, digest(contracts)}) == 3
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [{"proved": ["f"]}, {"unsigned": True}, {"options": ["-a"]}, {"provers": ["z3"]}],
+)
+def test_other_options_are_not_as_it_was_proved(asked: dict[str, Any]) -> None:
+    assert digest(Contracts("a", **asked)) != digest(Contracts("a"))
 
 
 @pytest.mark.parametrize(

@@ -97,6 +97,7 @@ def test_an_anchor_is_a_function_and_a_statement_in_it(anchor: str, where: int) 
         ("before first call second", "no `call second`"),
         ("before first if left", "no statement"),
         ("before first set i", "does not begin a line"),
+        ("before first else", "does not begin a line"),
         ("after first return 2", "does not end a line"),
         ("begin first return 1", "no statement"),
         ("before first", "no statement"),

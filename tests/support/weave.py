@@ -80,7 +80,7 @@ def _block(node: Node, anchor: str) -> Node:
 def _before(source: Source, place: int, anchor: str) -> int:
     """The line of a place, before which there must be nothing else in it."""
     begin = source.code.rfind(b"\n", 0, place) + 1
-    if source.code[begin:place].strip(b" }"):
+    if source.code[begin:place].strip():
         raise Mismatch(f"`{anchor}`: it does not begin a line")
     return source.code.count(b"\n", 0, place)
 

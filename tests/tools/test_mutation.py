@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
 from checks import mutation
-from checks.mutation_operators import mutants
+from checks.mutation_operators import Mutant, mutants
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -127,22 +128,34 @@ def test_the_name_of_a_mutant_outlives_what_does_not_concern_it(
     ]
 
 
+class NoBench:
+    """Sees no mutant."""
+
+    def __init__(self, module: mutation.Module, number: int) -> None:
+        pass
+
+    def is_sound(self) -> bool:
+        return True
+
+    def try_one(self, name: str, mutant: Mutant) -> str:
+        return "survived"
+
+
 def test_a_mutant_that_is_listed_is_not_tried(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    key = keys("int f(int a)\n{\n    return a < 2;\n}\n", tmp_path, monkeypatch)
-    (tmp_path / "list.txt").write_text(f"{key[0]}\n+ a  >=  2\nNo test sees it.\n")
+    key = keys("int f(int a)\n{\n    return a < 2;\n}\n", tmp_path, monkeypatch)[0]
+    (tmp_path / "list.txt").write_text(f"{key}\n+ a  >=  2\nNo test sees it.\n")
     monkeypatch.setattr(mutation, "EQUIVALENT", tmp_path / "list.txt")
-
+    monkeypatch.setattr(mutation, "Bench", NoBench)
     listed = {change.key() for change in mutation.equivalents()}
-
     module = mutation.Module("link", "link", ("a.c",), ())
-    tried = [
-        one.new
-        for name, one in mutation.mutants_of(module, 1)
-        if mutation.key_of(module, name, one).key() not in listed
-    ]
-    assert sorted(tried) == ["1", "3"]
+
+    score = mutation.mutate(module, mutation.mutants_of(module, 1), math.inf, 1, listed)
+
+    assert score is not None
+    assert sorted(one.new for _, one in score.survivors) == ["1", "3"]
+    assert score.counts["listed"] == 2
 
 
 def test_an_entry_without_a_reason_is_refused(
