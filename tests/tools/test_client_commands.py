@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import json
-import re
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
 
-import fake_unit
 import pytest
-import statuses
 from fake_unit import FakeLine, FakeUnit
 from rkm04_tools.cli import main
 from rkm04_tools.client_options import COMMANDS
@@ -294,54 +291,6 @@ def test_scan_of_a_silent_line_is_no_connection(tool, monkeypatch):
     assert as_json.json == {"units": []}
 
 
-def test_watch_prints_a_line_each_time(call, unit):
-    text = call("watch", "--motor", "1", "--interval", "0.05", "--count", "2")
-
-    assert text.splitlines()[0] == (
-        "0.0 s  1: 5000 +0 steps/s, step 247 of 5000, command 3  BI none  BO none"
-    )
-    assert text.count("\n") == 2
-
-
-def test_watch_tells_the_speed(call, unit, monkeypatch):
-    def move(unit: FakeUnit, message: bytes) -> bytes:
-        if message == b"\x041":
-            unit.positions[0] += 1000
-        return original(unit, message)
-
-    original = FakeUnit.execute
-    monkeypatch.setattr(FakeUnit, "execute", move)
-
-    lines = call("watch", "--json", "--interval", "0.1", "--count", "3").splitlines()
-
-    motor = json.loads(lines[2])["motors"][0]
-    assert motor["position"] == 8000
-    assert 5_000 < motor["speed"] < 15_000
-    assert (motor["steps_made"], motor["steps"], motor["command"]) == (247, 5000, 3)
-    assert json.loads(lines[2])["motors"][1]["steps"] is None
-
-
-def test_watch_tells_backward_moves_inputs_and_outputs_apart(call, unit, monkeypatch):
-    def move(unit: FakeUnit, message: bytes) -> bytes:
-        if message == b"\x042":
-            unit.positions[1] -= 1000
-        return original(unit, message)
-
-    original = FakeUnit.execute
-    monkeypatch.setattr(FakeUnit, "execute", move)
-    unit.status = statuses.Vector("", inputs=0b101, outputs=0b10).whole
-    unit.tables[2] = b"  2;[(1;100),(248;1000)]"
-    started = time.monotonic()
-
-    text = call("watch", "--motor", "2", "--interval", "0.2", "--count", "3")
-
-    assert time.monotonic() - started >= 0.4
-    last = text.splitlines()[2]
-    assert re.fullmatch(
-        r"0\.[4-9] s  2: -3005 -\d{4} steps/s, step 247 of -, command 3  BI 1 3  BO 2", last
-    )
-
-
 def test_store_of_a_file_for_all_motors_compares_each(tool, fake, unit, write):
     path = write("S100 V1000 F5000 R")
     unit.programs = {1: b"S100V1000F5000R", 2: b"S100V1000F5000R", 3: b"S100V1000F5000R", 4: b"R"}
@@ -360,38 +309,6 @@ def test_a_slow_line_only_takes_longer(call, fake, unit, write):
 
     assert "2 commands in 1 message sent" in text
     assert len(acts(unit)) == 1
-
-
-def test_watch_goes_on_when_a_unit_is_away_for_a_while(call, fake):
-    fake.faults += [bytes] * 6 + [fake_unit.lost] * 4
-
-    text = call("watch", "--motor", "1", "--interval", "0.05", "--count", "3")
-
-    lines = text.splitlines()
-    assert "unit 3 does not answer" in lines[1]
-    assert "1: 5000" in lines[2]
-
-
-def test_watch_is_redrawn_on_a_terminal(call, fake, monkeypatch, capsys):
-    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
-
-    text = call("watch", "--motor", "2", "--interval", "0.05", "--count", "2")
-
-    first, again = text.split("\x1b[3A\r\x1b[J")
-    assert first == again
-    assert first.splitlines()[1].split() == ["2", "-5", "0", "247", "-", "3"]
-    assert first.splitlines()[2] == "BI none  BO none"
-
-
-def test_ctrl_c_ends_watch_in_order(start, fake):
-    process = start("watch", "--interval", "0.05")
-    assert process.stdout is not None
-    process.stdout.readline()
-
-    process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=10)
-
-    assert (process.returncode, err) == (0, "")
 
 
 def test_ctrl_c_ends_a_command_that_waits(start, unit, fake):
@@ -475,18 +392,6 @@ def test_each_command_that_finds_nobody_ends_with_status_3(tool, write, row):
 
     assert result.status == 3
     assert "nobody listens there" in result.complaint
-
-
-def test_a_reader_that_goes_away_ends_watch_without_a_traceback(start, fake):
-    process = start("watch", "--interval", "0.01", "--motor", "1")
-    assert process.stdout is not None
-    assert process.stderr is not None
-    process.stdout.readline()
-    process.stdout.close()
-
-    assert process.stderr.read() == ""
-    assert process.wait(timeout=10) == 1
-    process.stderr.close()
 
 
 def test_progress_is_shown_on_a_terminal_only(fake, write, monkeypatch, capsys):
