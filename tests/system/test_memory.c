@@ -1,4 +1,5 @@
 /* The 700 commands of program memory (spec, section 6) and T40 (section 7). */
+#include <stdio.h>
 #include <string.h>
 
 #include "bench.h"
@@ -67,6 +68,18 @@ void test_one_motor_that_overflows_makes_the_warning_for_all(void)
     TEST_ASSERT_EQUAL_UINT8(3, bench_send(&bench, 0, "T01"));
 }
 
+/* What motor 1 has done to outputs, in order: levels at the end may be the same whatever was run. */
+static void assert_switched(const char *expected)
+{
+    char text[64] = "";
+    uint32_t count = bench_count(&bench, 1, HAL_TRACE_OUT);
+    for (uint32_t i = 0, length = 0; i < count && length + 4U < sizeof text; i++) {
+        int value = (int)bench_event(&bench, 1, HAL_TRACE_OUT, i)->value;
+        length += (uint32_t)snprintf(text + length, sizeof text - length, "%+d ", value);
+    }
+    TEST_ASSERT_EQUAL_STRING(expected, text);
+}
+
 /* W100, T01 and T02 are overwritten while the program waits: it goes on with the oldest that is left. */
 void test_execution_goes_on_with_the_oldest_command_left(void)
 {
@@ -74,7 +87,7 @@ void test_execution_goes_on_with_the_oldest_command_left(void)
     bench_run_ms(&bench, 10);
     TEST_ASSERT_EQUAL_UINT8(3, bench_send(&bench, 1, "T04 T05 T06"));
     bench_run_idle(&bench);
-    TEST_ASSERT_EQUAL_HEX8(0x3C, bench.machine.outputs);
+    assert_switched("+3 +4 +5 +6 ");
     TEST_ASSERT_EQUAL_UINT64(100 * TICKS_PER_MS, bench_event(&bench, 1, HAL_TRACE_OUT, 0)->tick);
 }
 
@@ -93,7 +106,7 @@ void test_a_loop_whose_beginning_was_overwritten_goes_on_with_the_oldest(void)
     bench_run_ms(&bench, 50);
     bench_send(&bench, 1, "E C01 T02");
     bench_run_idle(&bench);
-    TEST_ASSERT_EQUAL_HEX8(0x02, bench.machine.outputs);
+    assert_switched("+1 +1 -1 +2 ");
     TEST_ASSERT_EQUAL_UINT32(3, bench_count(&bench, 1, HAL_TRACE_WAIT));
 }
 

@@ -7,6 +7,9 @@
 
 #include "unity.h"
 
+/* The longest answer, all of it escaped. */
+enum { ANSWER_MS_MAX = 10000 };
+
 #define DEFAULT_SEED UINT64_C(20261121)
 
 /* The bench is the context of all its listeners. */
@@ -74,12 +77,18 @@ uint64_t line_request(struct line_bench *line, uint8_t address, uint8_t number, 
     return end;
 }
 
+void line_drain(struct line_bench *line)
+{
+    for (uint32_t ms = 0; line->bench->machine.line.to_send_count != 0; ms++) {
+        TEST_ASSERT_LESS_THAN_UINT32_MESSAGE(ANSWER_MS_MAX, ms, "an answer does not end");
+        bench_run_ms(line->bench, 1);
+    }
+}
+
 const char *line_answer(struct line_bench *line, uint8_t number)
 {
     bench_run_ms(line->bench, 20);
-    while (line->bench->machine.line.to_send_count != 0) {
-        bench_run_ms(line->bench, 1);
-    }
+    line_drain(line);
     uint32_t length = line->sent_count - line->read_count;
     TEST_ASSERT_LESS_OR_EQUAL_UINT32(LINE_BENCH_FRAME_MAX, length);
     if (length == 0) {

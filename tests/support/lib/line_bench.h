@@ -43,6 +43,9 @@ void line_run(struct line_bench *line);
 /* Sends a request, its message number and a string, and runs until it has come in. Returns the tick of its end. */
 uint64_t line_request(struct line_bench *line, uint8_t address, uint8_t number, uint8_t message, const char *text);
 
+/* Runs until the unit has sent all that it has to send, which must have an end. */
+void line_drain(struct line_bench *line);
+
 /* Runs for the time of an answer and until it has gone out. Returns what follows its message number, with a 0 behind;
  * NULL: there was none. Fails if what was sent is not one frame with this number that answers the last message. */
 const char *line_answer(struct line_bench *line, uint8_t number);

@@ -183,10 +183,11 @@ void test_what_is_overwritten_before_it_was_run_is_passed_over(void)
 {
     take("W5T01T02");
     poll();
-    for (uint32_t i = 0; i < PROGRAM_COMMANDS_MAX - 1U; i++) {
+    for (uint32_t i = 0; i < PROGRAM_COMMANDS_MAX - 2U; i++) {
         take("V5");
     }
-    run_ms(10);
+    take("W7"); /* where T01 was */
+    run_ms(5 + 7 + 1);
     TEST_ASSERT_EQUAL_HEX8(2, io.outputs);
     TEST_ASSERT_TRUE(interpreter_is_idle(&interpreter));
 }

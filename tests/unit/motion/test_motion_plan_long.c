@@ -36,6 +36,7 @@ void test_pieces_join_on_the_tick(void)
 
     (void)take_segments();
 
+    TEST_ASSERT_EQUAL_UINT(SEGMENTS_MAX, count);
     for (unsigned i = 0; i < count; i++) {
         TEST_ASSERT_EQUAL_UINT32((uint32_t)(1000U + UINT64_C(5250) * (PIECE * i + 1U)), segments[i].tick);
         TEST_ASSERT_EQUAL_UINT64(0, segments[i].residual);
@@ -49,6 +50,7 @@ void test_pieces_off_the_tick_do_not_drift(void)
 
     (void)take_segments();
 
+    TEST_ASSERT_EQUAL_UINT(SEGMENTS_MAX, count);
     for (uint64_t i = 0; i < count; i++) {
         uint64_t pulses = i * PIECE + 1U;
         uint64_t ticks = pulses / 15999U * TICK_HZ + (pulses % 15999U * TICK_HZ + 15999U / 2U) / 15999U;

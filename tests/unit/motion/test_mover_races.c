@@ -9,7 +9,7 @@
 /* An input changes while main works: the tick interrupt comes at any of the calls that main makes to the backend, and
  * the plan interrupt as soon as main lets it. No time passes, so all that counts is what main had done until then. */
 
-enum { INPUT = 1, CALLS_MAX = 400 };
+enum { INPUT = 1, CALLS_MAX = 400, PASSES_MAX = 20000 };
 
 static struct mover mover;
 static uint64_t now;
@@ -178,7 +178,9 @@ static void start_and_make_pulses(unsigned made)
 
 static void run_to_the_end(void)
 {
+    unsigned passes = 0;
     for (mover_poll(&mover); mover_is_moving(&mover); mover_poll(&mover)) {
+        TEST_ASSERT_LESS_THAN_UINT_MESSAGE(PASSES_MAX, passes++, "a move does not end");
         while (mover_feed(&mover)) {
         }
         if (is_armed) {

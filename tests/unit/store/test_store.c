@@ -261,6 +261,7 @@ void test_the_rotation_takes_eleven_of_the_longest_texts_beside_four_copies(void
     store.end = HAL_FLASH_AREA_BYTES;
     (void)save_longest(0);
     for (unsigned area = store.area; store.area == area; stores++) {
+        TEST_ASSERT_LESS_THAN_UINT(LONGEST_RECORDS, stores);
         TEST_ASSERT_EQUAL_INT(STORE_OK, save_longest(1));
     }
 
@@ -288,7 +289,9 @@ void test_all_motors_keep_their_texts_when_the_area_changes(void)
 static void fill_all_but(uint32_t room_bytes)
 {
     while (HAL_FLASH_AREA_BYTES - store.end >= RECORD_EXTRA_BYTES + sizeof longest + room_bytes) {
+        uint32_t end = store.end;
         (void)save_longest(0);
+        TEST_ASSERT_GREATER_THAN_UINT32_MESSAGE(end, store.end, "a text was stored and takes no room");
     }
     uint32_t length = HAL_FLASH_AREA_BYTES - store.end - room_bytes - RECORD_EXTRA_BYTES;
     (void)store_save(&store, 0, longest, length);

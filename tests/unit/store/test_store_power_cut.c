@@ -238,7 +238,9 @@ void test_a_cut_while_the_area_changes_leaves_the_old_text_or_the_new_one(void)
     for (unsigned i = 0; i < 4; i++) {
         unsigned area = store.area;
         while (store.area == area && HAL_FLASH_AREA_BYTES - store.end > STORE_TEXT_BYTES_MAX) {
+            uint32_t end = store.end;
             save_known(0, STORE_TEXT_BYTES_MAX);
+            TEST_ASSERT_GREATER_THAN_UINT32_MESSAGE(end, store.end, "a text was stored and takes no room");
         }
         save_known(0, 10);
         make_text(&fresh, STORE_TEXT_BYTES_MAX);
