@@ -186,6 +186,7 @@ def test_an_endless_program_has_a_curve_of_limited_size(draw, text):
     told = draw(text, text, text, text, seconds=100_000, points=600)
 
     assert not told["ended"]
+    assert set(told["motors"]) == {"1", "2", "3", "4"}
     assert all(len(motor["t"]) <= 602 for motor in told["motors"].values())
     assert len(told["outputs"]) <= 600
 

@@ -9,7 +9,7 @@
 #include "summary.h"
 #include "units.h"
 
-enum { PASSES_PER_LOOK = 256, STEPS_PER_LOOK = 4096 };
+enum { PASSES_PER_LOOK = 256, STEPS_PER_LOOK = 4096, SECONDS_PER_LOOK = 10 };
 
 static void record(struct run *run, const struct timeline_event *event)
 {
@@ -111,6 +111,11 @@ static uint64_t run_pass(void *context)
     return wake;
 }
 
+static void look_at_limit(struct run *run, uint64_t real_ns)
+{
+    run->cut = run->limit_ns != 0 && real_ns - run->begin_ns > run->limit_ns;
+}
+
 /* The clock is asked now and then only, as asking takes longer than a pass. */
 static bool run_is_over(void *context)
 {
@@ -118,7 +123,7 @@ static bool run_is_over(void *context)
     run->idle = unit_is_idle(&run->unit);
     if (++run->passes % PASSES_PER_LOOK == 0 && (run->limit_ns != 0 || run->progress_ns != 0)) {
         uint64_t real_ns = units_real_ns();
-        run->cut = run->limit_ns != 0 && real_ns - run->begin_ns > run->limit_ns;
+        look_at_limit(run, real_ns);
         tell_progress(run, real_ns, run->machine.now);
     }
     return run->idle || run->cut;
@@ -153,11 +158,17 @@ void run_begin(struct run *run, uint64_t epoch)
     unit_start(&run->unit);
 }
 
+/* In a long move there are no passes: with a limit the clock is asked between parts of the time, too. */
 void run_until(struct run *run, uint64_t until_tick)
 {
+    const uint64_t part = (uint64_t)SECONDS_PER_LOOK * TICK_HZ;
     run->begin_ns = units_real_ns();
     run->told_ns = run->begin_ns;
-    host_machine_run(&run->machine, until_tick, run_pass, run_is_over, run);
+    do {
+        bool is_last = run->limit_ns == 0 || until_tick - run->machine.now <= part;
+        host_machine_run(&run->machine, is_last ? until_tick : run->machine.now + part, run_pass, run_is_over, run);
+        look_at_limit(run, units_real_ns());
+    } while (!run->idle && !run->cut && run->machine.now < until_tick);
     run->real_ns += units_real_ns() - run->begin_ns;
 }
 
