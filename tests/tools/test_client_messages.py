@@ -34,7 +34,9 @@ def talks(number: int) -> list[tuple[bytes, bytes]]:
         for talk in loaded
         for each in talk["exchanges"]
     ]
-    return [(asked, answer) for asked, answer in pairs if asked[0] == number and len(asked) > 1]
+    found = [(asked, answer) for asked, answer in pairs if asked[0] == number and len(asked) > 1]
+    assert found != []
+    return found
 
 
 def test_version_has_number_and_date():

@@ -353,14 +353,13 @@ def cpu_seconds(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def test_a_request_and_its_answer_are_quick(serve, capsys):
+def test_a_request_is_answered_within_milliseconds(serve):
+    """The best of many, as a machine that has much to do holds some of them up."""
     talker = serve().talker()
     times = []
     for _ in range(50):
         begin = time.perf_counter()
         talker.ask(VERSION)
         times.append(time.perf_counter() - begin)
-    times.sort()
-    with capsys.disabled():
-        print(f" [request and answer by TCP: median {times[25] * 1e3:.2f} ms,"
-              f" worst {times[-1] * 1e3:.2f} ms] ", end="")  # fmt: skip
+
+    assert min(times) < 0.005

@@ -142,6 +142,7 @@ def test_build_names_the_files_and_the_version(tool):
 
     assert result.status == 0
     assert result.json["version"] == board.version()
+    assert [Path(name).suffix for name in result.json["files"]] == [".elf", ".hex", ".bin"]
     assert all((board.ROOT / name).is_file() for name in result.json["files"])
 
 
