@@ -171,6 +171,15 @@ def test_a_speed_and_a_reset_are_sent_to_one_motor(browser):
     assert browser.request("program", 2)["values"] == {"program": ""}
 
 
+def test_a_speed_of_a_motor_that_stands_is_not_sent(browser):
+    browser.request("send", 2, text="\\ S100 V100")
+
+    told = browser.ask("speed", motor=2, value=9000)
+
+    assert "motor 2 stands: nothing was sent" in told["error"]["cause"]
+    assert browser.request("program", 2)["values"] == {"program": "S100V100"}
+
+
 def test_inputs_of_the_virtual_unit_can_be_set(browser):
     browser.request("send", text="\\ S1000 O03 T02 F100 R")
     browser.say(type="input", input=3, level=1)

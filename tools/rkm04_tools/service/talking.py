@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from rkm04_tools import messages
+from rkm04_tools import acting, messages
 from rkm04_tools.check import check_source
 from rkm04_tools.frame import BROADCAST
 from rkm04_tools.line import USUAL, Motor, Unit, Wait
@@ -48,8 +48,16 @@ def act(unit: Unit, order: Act) -> Answer:
     if order.name == "reset":
         motor.reset()
         return Answer("reset, the program memory is empty")
-    motor.set_speed(order.value)
-    return Answer(f"speed {order.value} steps/s", {"speed": order.value})
+    return _speed(unit, order)
+
+
+def _speed(unit: Unit, order: Act) -> Answer:
+    """Change the speed of those motors that move: to others V would be a command to be stored."""
+    told = acting.change_speed(unit, order.motor, order.value)
+    words = ", ".join(f"motor {each.motor} {each.text}" for each in told)
+    if not any(each.done for each in told):
+        raise UnitRefused(f"{words}; a speed is for moves in progress")
+    return Answer(words, {"speed": order.value})
 
 
 def version(unit: Unit, wait: Wait = USUAL) -> Answer:
