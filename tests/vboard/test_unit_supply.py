@@ -220,10 +220,12 @@ def test_a_start_by_a_boot_loader_is_a_start_as_any_other(unit_of, name, volts):
 
 def test_a_start_by_a_boot_loader_without_a_crystal_is_one_too(unit_of):
     unit = unit_of(REFERENCE)
-    run(unit, "3.3", 0.3, "--left-by-loader", "--no-crystal", sent=ask(200, GET_STATUS))
+    loaded = run(unit, "3.3", 0.3, "--left-by-loader", "--no-crystal", sent=ask(200, GET_STATUS))
 
     (status,) = map(parse_status, of(unit, GET_STATUS[0]))
     assert status.no_crystal
+    assert loaded.summary["flash"]["operations"] == 0
+    assert_locked(loaded)
 
 
 def test_an_erase_as_slow_as_the_data_sheet_allows_moves_no_pulse(unit_of):
