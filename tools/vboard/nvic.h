@@ -41,6 +41,7 @@ enum nvic_irq { /* RM0090 table 61 */
     NVIC_IRQ_USART3 = 39,
     NVIC_IRQ_EXTI15_10 = 40,
     NVIC_IRQ_TIM5 = 50,
+    NVIC_IRQ_USB = 67, /* OTG_FS */
 };
 
 enum {
