@@ -57,15 +57,6 @@ def test_the_accelerator_makes_repeated_branches_cheap(run_image):
     assert cached[18] == plain[18]
 
 
-def test_an_access_to_a_slow_bus_takes_longer_and_a_write_lets_the_program_go_on(run_image):
-    result = run_image("bus").result
-
-    assert result[0] == 100 * (2 + 1 + 3)
-    assert result[1] == 100 * (1 + 4)
-    assert result[2] == pytest.approx(100 * 3, abs=3)
-    assert result[3:5] == [100 * (2 + 1), 100]
-
-
 def test_interrupts_nest_by_priority_and_follow_one_another(run_image):
     result = run_image("exceptions").result
 

@@ -88,6 +88,7 @@ void board_reset(struct board *board, enum reset_cause cause)
     board->stats.depth = 0;
     board->cpu.stalled_forever = board->supply.held;
     faults_reset(board);
+    bus_reset(board);
     nvic_reset(board);
     scb_reset(board);
     core_reset(board);
@@ -146,7 +147,7 @@ void board_lock_up(struct board *board)
 void board_stop_clock(struct board *board)
 {
     static const enum event clocked[] = {EVENT_TIM2, EVENT_TIM3, EVENT_TIM4, EVENT_TIM5, EVENT_SYSTICK,
-                                         EVENT_USART1, EVENT_USART2, EVENT_USART3};
+                                         EVENT_USART1, EVENT_USART2, EVENT_USART3, EVENT_BUS};
     for (unsigned i = 0; i < sizeof clocked / sizeof *clocked; i++) {
         events_set(board, clocked[i], VTIME_NEVER);
     }

@@ -3,16 +3,24 @@
 #include <stddef.h>
 
 #include "board.h"
+#include "reserved.h"
 
 enum {
     BLOCK_BYTES = 0x400,
     PERIPHERAL_BYTES = 0x80000, /* APB1, APB2 and AHB1 */
-    APB_BYTES = 0x20000,
+    APB1_BYTES = 0x10000,
+    APB_BYTES = 0x20000, /* APB1 and APB2 */
     SYSTEM_BYTES = 0x100000,
 };
 
 #define PERIPHERAL_BASE UINT32_C(0x40000000)
 #define SYSTEM_BASE UINT32_C(0xE0000000)
+#define SYSTEM_IPR UINT32_C(0xE000E400)
+#define SYSTEM_IPR_BYTES 0x54U
+#define SYSTEM_SHPR UINT32_C(0xE000ED18)
+#define SYSTEM_SHPR_BYTES 12U
+#define SYSTEM_CFSR UINT32_C(0xE000ED28)
+#define RESERVED_TEXT "it sets bits that are reserved, and must stay 0"
 
 /* A row of RM0090 table 1. */
 struct block {
@@ -94,23 +102,58 @@ static const char *refuse(struct board *board, const struct block *block, uint32
     return address % bytes != 0 ? "not aligned" : NULL;
 }
 
-/* Lets an access start when the one before has arrived. APB is slower than the processor: a read waits for the answer,
- * a write goes on its way while the processor runs on. */
+/* The same for a write. */
+static const char *refuse_write(struct board *board, const struct block *block, uint32_t address, unsigned bytes,
+                                uint32_t bits)
+{
+    const char *why = refuse(board, block, address, bytes);
+    if (why == NULL && bytes == 2 && block->write == timer_write &&
+        timer_register_is_wide(block->instance, (address - block->base) & ~UINT32_C(3))) {
+        return "a half of a register of 32 bits, which must be written by words (RM0090 18.4)";
+    }
+    return why == NULL && (bits & reserved_bits(address)) != 0 ? RESERVED_TEXT : why;
+}
+
+/* PM0214 sections 4.3.12, 4.4.15 and 4.5: words, but for priorities and CFSR, which may be accessed by their parts. */
+static const char *refuse_system(uint32_t address, unsigned bytes)
+{
+    bool has_parts = address - SYSTEM_IPR < SYSTEM_IPR_BYTES || address - SYSTEM_SHPR < SYSTEM_SHPR_BYTES ||
+                     address - SYSTEM_CFSR < 4U;
+    if (address % bytes != 0) {
+        return "not aligned";
+    }
+    return bytes == 4 || has_parts ? NULL : "registers of the core are accessed by words (PM0214 4.3, 4.4, 4.5)";
+}
+
+/* AN4031 table 4: an access to APB takes two clocks of that bus, and before them one of HCLK each for the matrix and to
+ * get into step with the bus. An instruction that finds it idle has the latter two in its own cycles. */
+enum { MATRIX_CYCLES = 2, QUARTER = 4 };
+
+static uint32_t apb_wait(const struct board *board, uint32_t address)
+{
+    bool is_apb1 = address - PERIPHERAL_BASE < APB1_BYTES;
+    uint32_t divider = is_apb1 ? board->rcc.pclk1_divider : board->rcc.pclk2_divider;
+    return board->bus.apb_wait * divider / QUARTER;
+}
+
+static bool is_apb(uint32_t address)
+{
+    return address - PERIPHERAL_BASE < APB_BYTES;
+}
+
+/* Lets an access to APB begin when the one before has arrived; then a read waits for its answer, and a write goes on
+ * its way while the processor runs on. */
 static void wait_for_apb(struct board *board, uint32_t address, bool is_read)
 {
     struct cpu *cpu = &board->cpu;
+    struct bus *bus = &board->bus;
     uint64_t begin = cpu->now;
-    if (address - PERIPHERAL_BASE >= APB_BYTES) {
-        profile_bus(board, address, 0);
-        return;
-    }
-    if (cpu->now < board->bus.apb_busy_until) {
-        cpu->now = board->bus.apb_busy_until;
-    }
-    if (is_read) {
-        cpu->now += board->bus.apb_wait;
-    } else {
-        board->bus.apb_busy_until = cpu->now + board->bus.apb_wait;
+    if (is_apb(address)) {
+        bool is_busy = bus->apb_busy_until > begin;
+        uint64_t end = (is_busy ? bus->apb_busy_until + MATRIX_CYCLES : begin) + apb_wait(board, address);
+        cpu->now = is_busy ? bus->apb_busy_until : begin;
+        cpu->now = is_read ? end : cpu->now;
+        bus->apb_busy_until = end;
     }
     profile_bus(board, address, cpu->now - begin);
 }
@@ -141,22 +184,56 @@ static uint64_t read_peripheral(uc_engine *engine, uint64_t offset, unsigned byt
     return (value & lanes(address, bytes)) >> 8U * (address & 3U);
 }
 
+static void arrive(struct board *board, const struct bus_write *write)
+{
+    const struct block *block = write->block;
+    uint32_t offset = (write->address - block->base) & ~UINT32_C(3);
+    if (!block->write(board, block->instance, offset, write->value, write->mask)) {
+        complain_of(board, "write to", write->address, "no register that is modelled and can be written");
+    }
+}
+
+/* The program may be some instructions further. */
+void bus_event(struct board *board, uint64_t cycle)
+{
+    struct cpu *cpu = &board->cpu;
+    uint64_t now = cpu->now;
+    uint32_t at = cpu->at;
+    cpu->now = cycle;
+    cpu->at = board->bus.write.at;
+    arrive(board, &board->bus.write);
+    cpu->now = now;
+    cpu->at = at;
+}
+
+void bus_reset(struct board *board)
+{
+    board->bus.apb_busy_until = 0;
+    events_set(board, EVENT_BUS, VTIME_NEVER);
+}
+
 static void write_peripheral(uc_engine *engine, uint64_t offset, unsigned bytes, uint64_t value, void *user)
 {
     struct board *board = user;
     uint32_t address = PERIPHERAL_BASE + (uint32_t)offset;
     const struct block *block = find_block(address);
-    const char *why = refuse(board, block, address, bytes);
+    struct bus_write write = {.block = block,
+                              .address = address,
+                              .value = (uint32_t)value << 8U * (address & 3U),
+                              .mask = lanes(address, bytes),
+                              .at = board->cpu.at};
+    const char *why = refuse_write(board, block, address, bytes, write.value & write.mask);
     (void)engine;
 
     wait_for_apb(board, address, false);
     events_run(board, board->cpu.now);
-    if (why == NULL && !block->write(board, block->instance, (address - block->base) & ~3U,
-                                     (uint32_t)value << 8U * (address & 3U), lanes(address, bytes))) {
-        why = "no register that is modelled and can be written";
-    }
     if (why != NULL) {
         complain_of(board, "write to", address, why);
+    } else if (is_apb(address)) {
+        board->bus.write = write;
+        events_set(board, EVENT_BUS, board->bus.apb_busy_until);
+    } else {
+        arrive(board, &write);
     }
 }
 
@@ -164,11 +241,15 @@ static uint64_t read_system(uc_engine *engine, uint64_t offset, unsigned bytes, 
 {
     struct board *board = user;
     uint32_t address = SYSTEM_BASE + (uint32_t)offset;
+    const char *why = refuse_system(address, bytes);
     uint32_t value = 0;
     (void)engine;
     events_run(board, board->cpu.now);
-    if (!core_read(board, address & ~3U, &value)) {
-        complain_of(board, "read of", address, "no register of the core that is modelled");
+    if (why == NULL && !core_read(board, address & ~3U, &value)) {
+        why = "no register of the core that is modelled";
+    }
+    if (why != NULL) {
+        complain_of(board, "read of", address, why);
     }
     return (value & lanes(address, bytes)) >> 8U * (address & 3U);
 }
@@ -177,10 +258,19 @@ static void write_system(uc_engine *engine, uint64_t offset, unsigned bytes, uin
 {
     struct board *board = user;
     uint32_t address = SYSTEM_BASE + (uint32_t)offset;
+    uint32_t word = (uint32_t)value << 8U * (address & 3U);
+    uint32_t mask = lanes(address, bytes);
+    const char *why = refuse_system(address, bytes);
     (void)engine;
     events_run(board, board->cpu.now);
-    if (!core_write(board, address & ~3U, (uint32_t)value << 8U * (address & 3U), lanes(address, bytes))) {
-        complain_of(board, "write to", address, "no register of the core that is modelled and can be written");
+    if (why == NULL && (word & mask & reserved_bits(address)) != 0) {
+        why = RESERVED_TEXT;
+    }
+    if (why == NULL && !core_write(board, address & ~3U, word, mask)) {
+        why = "no register of the core that is modelled and can be written";
+    }
+    if (why != NULL) {
+        complain_of(board, "write to", address, why);
     }
 }
 

@@ -10,16 +10,32 @@
 
 struct board;
 
+struct block;
+
+/* A write that has left the processor and acts when it arrives. */
+struct bus_write {
+    const struct block *block;
+    uint32_t address;
+    uint32_t value;
+    uint32_t mask;
+    uint32_t at; /* the instruction that wrote */
+};
+
 struct bus {
-    uint32_t apb_wait;         /* cycles by which an access to APB1 or APB2 takes longer */
+    uint32_t apb_wait;         /* cycles by which an access to an APB at a quarter of HCLK takes longer */
     uint64_t apb_busy_until;   /* the write that is on its way has arrived */
+    struct bus_write write;    /* there is one at most: the next access to APB waits for it */
 };
 
 /* Maps the peripherals into the processor's addresses. */
 bool bus_init(struct board *board);
 
-/* When the last write has arrived at its peripheral. */
+/* What is on its way is lost. */
+void bus_reset(struct board *board);
+
+/* When the last write has arrived at its peripheral; the arrival. */
 uint64_t bus_idle_cycle(const struct board *board);
+void bus_event(struct board *board, uint64_t cycle);
 
 /* How many registers a peripheral has is known by its model: reads and writes answer false for one it does not have.
  * `mask` has ones where bits are written. */

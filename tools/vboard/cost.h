@@ -35,6 +35,7 @@ enum cost_kind {
     COST_UNKNOWN, /* not decoded yet */
     COST_IT,      /* opens an IT block */
     COST_DIVIDE,  /* UDIV, SDIV: the cost depends on the operands */
+    COST_BARRIER, /* DSB: waits for a write that is on its way */
     COST_MASKS,   /* CPS, MSR: an interrupt may become possible */
     COST_SLEEP,   /* WFI */
     COST_SLEEP_EVENT, /* WFE */

@@ -128,6 +128,9 @@ static bool look_closer(struct board *board, uint32_t address, uint32_t previous
     case COST_DIVIDE:
         cpu->now += division_cycles(cpu, *cost);
         break;
+    case COST_BARRIER:
+        cpu->now = bus_idle_cycle(board) > cpu->now ? bus_idle_cycle(board) : cpu->now;
+        break;
     case COST_MASKS:
         cpu_poke(cpu);
         break;

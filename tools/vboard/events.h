@@ -18,6 +18,7 @@ enum event {
     EVENT_USART1,
     EVENT_USART2,
     EVENT_USART3,
+    EVENT_BUS,
     EVENT_FLASH,
     EVENT_RCC,
     EVENT_CRYSTAL,

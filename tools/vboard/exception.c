@@ -234,11 +234,26 @@ static uint32_t refuse_return(struct board *board, unsigned exception, uint32_t 
     return pend_fault(board, NVIC_USAGE_FAULT) ? chain(board, exception, exc_return) : exc_return;
 }
 
+/* Erratum 838869 of the core (its revisions r0p0 and r0p1): where a handler ends with BX while its last store still
+ * waits for the bus, the processor may take the wrong vector. A DSB between the two helps, and so does a return by POP,
+ * whose load comes behind the store. */
+static void look_for_store(struct board *board)
+{
+    enum { BX_MASK = 0xFF87, BX = 0x4700 };
+    const uint8_t *code = memory_find(&board->memory, board->cpu.at, 2);
+    bool is_bx = code != NULL && ((code[0] | (unsigned)code[1] << 8) & BX_MASK) == BX;
+    if (is_bx && bus_idle_cycle(board) > board->cpu.now) {
+        board_warn(board, "a handler returns by BX while its last write is on its way: put a DSB between the two "
+                          "(core erratum 838869)");
+    }
+}
+
 uint32_t exception_return(struct board *board, uint32_t exc_return)
 {
     struct cpu *cpu = &board->cpu;
     unsigned exception = cpu_read(cpu, UC_ARM_REG_IPSR) & XPSR_EXCEPTION;
 
+    look_for_store(board);
     events_run(board, cpu->now);
     profile_pause(board);
     if (!is_return(exc_return) || !nvic_is_active(&board->nvic, exception)) {

@@ -174,6 +174,9 @@ bool gpio_write(struct board *board, unsigned instance, uint32_t offset, uint32_
         return true;
     case GPIO_PUPDR:
         replace(&port->pupdr, value, mask);
+        if ((port->pupdr & port->pupdr >> 1 & 0x55555555U) != 0) {
+            board_fail(board, "GPIO%c_PUPDR: 3 is no pull (RM0090 8.4.4)", 'A' + (int)instance);
+        }
         break;
     case GPIO_ODR:
         replace(&odr, value, mask);

@@ -7,6 +7,8 @@ enum {
     IWDG_PR = 0x04,
     IWDG_RLR = 0x08,
     IWDG_SR = 0x0C,
+    SR_PVU = 1 << 0,
+    SR_RVU = 1 << 1,
     KEY_RELOAD = 0xAAAA,
     KEY_UNLOCK = 0x5555,
     KEY_START = 0xCCCC,
@@ -65,17 +67,22 @@ static void write_key(struct board *board, uint32_t value)
         reload(board);
     } else if (value == KEY_RELOAD) {
         reload(board);
+    } else if (value != KEY_UNLOCK) {
+        board_fail(board, "IWDG_KR: %04x is no key (RM0090 21.4.1)", (unsigned)value);
     }
 }
 
-static void write_setting(struct board *board, uint32_t *setting, uint32_t value)
+/* Sections 21.3.2 and 21.4: a setting needs the key, and that the one before has been taken over. */
+static void write_setting(struct board *board, uint32_t *setting, uint64_t *end_ps, uint32_t value)
 {
-    struct iwdg *iwdg = &board->iwdg;
-    if (!iwdg->unlocked) {
-        return;
+    uint64_t now = board_now_ps(board);
+    if (!board->iwdg.unlocked) {
+        board_fail(board, "IWDG: a setting is written without the key, and lost (RM0090 21.3.2)");
+    } else if (now < *end_ps) {
+        board_fail(board, "IWDG: a setting is written while the one before is not taken over (RM0090 21.4.2, 21.4.3)");
     }
     *setting = value;
-    iwdg->update_end_ps = board_now_ps(board) + period_ps(board, UPDATE_PERIODS);
+    *end_ps = now + period_ps(board, UPDATE_PERIODS);
 }
 
 bool iwdg_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
@@ -93,7 +100,8 @@ bool iwdg_read(struct board *board, unsigned instance, uint32_t offset, uint32_t
         *value = iwdg->reload;
         return true;
     case IWDG_SR:
-        *value = board_now_ps(board) < iwdg->update_end_ps ? 3U : 0U;
+        *value = (board_now_ps(board) < iwdg->prescaler_end_ps ? SR_PVU : 0U) |
+                 (board_now_ps(board) < iwdg->reload_end_ps ? SR_RVU : 0U);
         return true;
     default:
         return false;
@@ -110,10 +118,10 @@ bool iwdg_write(struct board *board, unsigned instance, uint32_t offset, uint32_
         write_key(board, value & 0xFFFFU);
         return true;
     case IWDG_PR:
-        write_setting(board, &iwdg->prescaler, value & 7U);
+        write_setting(board, &iwdg->prescaler, &iwdg->prescaler_end_ps, value & 7U);
         return true;
     case IWDG_RLR:
-        write_setting(board, &iwdg->reload, value & 0xFFFU);
+        write_setting(board, &iwdg->reload, &iwdg->reload_end_ps, value & 0xFFFU);
         return true;
     default:
         return false;

@@ -60,14 +60,12 @@ void nvic_set_line(struct board *board, enum nvic_irq irq, bool level)
     set(nvic->level, exception, level);
     if (level) {
         nvic_pend(board, exception);
-    } else {
-        nvic->low_cycle[exception] = bus_idle_cycle(board);
     }
 }
 
 bool nvic_line_is_high(const struct board *board, unsigned exception)
 {
-    return get(board->nvic.level, exception) || board->cpu.now < board->nvic.low_cycle[exception];
+    return get(board->nvic.level, exception);
 }
 
 bool nvic_is_active(const struct nvic *nvic, unsigned exception)
@@ -124,7 +122,12 @@ int nvic_active_priority(const struct nvic *nvic)
 
 static int base_priority(struct board *board)
 {
-    uint32_t base = cpu_read(&board->cpu, UC_ARM_REG_BASEPRI) & PRIORITY_MASK;
+    uint32_t base = cpu_read(&board->cpu, UC_ARM_REG_BASEPRI);
+    if ((base & ~(uint32_t)PRIORITY_MASK) != 0) {
+        board_fail(board, "BASEPRI is %02x: four bits of a priority are implemented, the upper ones (PM0214 2.1.3)",
+                   (unsigned)base);
+    }
+    base &= PRIORITY_MASK;
     return base == 0 ? NVIC_PRIORITY_IDLE : group_part(&board->nvic, base);
 }
 

@@ -374,7 +374,7 @@ enum exit_status options_read(struct options *options, int count, char *const ar
                                 .idcode = 0x10076413,
                                 .flash_kb = 1024,
                                 .refill = 3,
-                                .apb_wait = 3,
+                                .apb_wait = 8,
                                 .wait_states = -1};
     for (int i = 0; i < count; i++) {
         bool took_text = false;

@@ -179,6 +179,11 @@ bool scb_read(struct board *board, uint32_t offset, uint32_t *value)
 
 static void write_icsr(struct board *board, uint32_t value)
 {
+    bool both_sv = (value & ICSR_PENDSVSET) != 0 && (value & ICSR_PENDSVCLR) != 0;
+    bool both_st = (value & ICSR_PENDSTSET) != 0 && (value & ICSR_PENDSTCLR) != 0;
+    if (both_sv || both_st) {
+        board_fail(board, "SCB_ICSR: an exception is set and cleared at once (PM0214 4.4.3)");
+    }
     if ((value & ICSR_NMIPENDSET) != 0) {
         nvic_pend(board, NVIC_NMI);
     }
@@ -197,6 +202,7 @@ static void write_icsr(struct board *board, uint32_t value)
 static void write_aircr(struct board *board, uint32_t value)
 {
     if (value >> 16 != AIRCR_KEY) {
+        board_fail(board, "SCB_AIRCR: written without its key, and lost (PM0214 4.4.5)");
         return;
     }
     board->nvic.group_bits = value >> 8 & 7U;
@@ -236,8 +242,10 @@ static bool write_special(struct board *board, uint32_t offset, uint32_t value, 
         write_shcsr(board, (board->scb.shcsr_enables & ~mask) | (value & mask));
         return true;
     case OFFSET_STIR:
-        nvic_pend(board, NVIC_IRQ0 + (value & 0xFFU) % NVIC_IRQS);
-        return true;
+        if ((value & mask) < NVIC_IRQS) {
+            nvic_pend(board, NVIC_IRQ0 + (value & mask));
+        }
+        return (value & mask) < NVIC_IRQS;
     case OFFSET_MPU_CTRL: /* off, as it is */
         return (value & 1U) == 0;
     default:

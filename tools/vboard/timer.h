@@ -52,6 +52,9 @@ void timer_reset(struct board *board, unsigned instance);
 bool timer_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);
 bool timer_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask);
 
+/* Whether a register has 32 bits that mean something. */
+bool timer_register_is_wide(unsigned instance, uint32_t offset);
+
 /* Around a change of the clocks. */
 void timers_hold(struct board *board);
 void timers_release(struct board *board);

@@ -25,6 +25,12 @@ enum {
     CCER_MODELLED = 0x3333,
 };
 
+bool timer_register_is_wide(unsigned instance, uint32_t offset)
+{
+    bool counts = offset == TIM_CNT || offset == TIM_ARR || (offset >= TIM_CCR1 && offset <= TIM_CCR4);
+    return timer_is_wide(instance) && counts;
+}
+
 bool timer_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
 {
     const struct timer *timer = &board->timer[instance];
@@ -209,6 +215,9 @@ static bool write_register(struct board *board, unsigned instance, uint32_t offs
         write_ccmr(board, instance, (offset - TIM_CCMR1) / 4U, value);
         return true;
     case TIM_CCER:
+        if ((value & ~(uint32_t)CCER_MODELLED) != 0) {
+            board_fail(board, "TIM_CCER: CCxNP must be kept cleared for an output (RM0090 18.4.9)");
+        }
         timer->ccer = value & CCER_MODELLED;
         timer_update_outputs(board, instance, board->cpu.now);
         return true;

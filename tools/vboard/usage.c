@@ -29,7 +29,7 @@ const char options_usage[] =
     "cycle model:\n"
     "  --refill P            cycles to refill the pipeline, 1 to 3 (3)\n"
     "  --wait-states N       of the flash, 0 to 15 (as FLASH_ACR says)\n"
-    "  --apb-wait N          cycles by which an access to a slow bus takes longer (3)\n"
+    "  --apb-wait N          cycles by which an access to a bus at a quarter of the clock takes longer (8)\n"
     "  --art                 model the accelerator of the flash\n"
     "  --match-equal         a compare value written while the timer stands on it matches\n"
     "  --exti-mask-first     an edge on a masked line of EXTI leaves nothing pending\n"

@@ -277,6 +277,19 @@ static void write_data(struct board *board, unsigned instance, uint32_t value)
     }
 }
 
+/* A rate of less than one sample, or a fraction that eight samples a bit do not have. */
+static void write_brr(struct board *board, unsigned instance, uint32_t value)
+{
+    struct usart *usart = &board->usart[instance];
+    bool by_8 = (usart->cr1 & CR1_OVER8) != 0;
+    if (usart->shifting && value != usart->brr) {
+        board_fail(board, "USART%u: BRR is changed while a character is sent (RM0090 30.3.4)", instance + 1U);
+    } else if (value >> 4 == 0 || (by_8 && (value & 8U) != 0)) {
+        board_fail(board, "USART%u: BRR %04x is no rate (RM0090 30.3.4, 30.6.3)", instance + 1U, value);
+    }
+    usart->brr = value;
+}
+
 static void write_cr1(struct board *board, unsigned instance, uint32_t value)
 {
     struct usart *usart = &board->usart[instance];
@@ -284,6 +297,9 @@ static void write_cr1(struct board *board, unsigned instance, uint32_t value)
         board_fail(board, "USART%u: CR1 %04x asks for what is not modelled", instance + 1U, value);
     }
     bool could = can_send(usart);
+    if (usart->shifting && !usart->idle_frame && (value & (CR1_UE | CR1_TE)) != (CR1_UE | CR1_TE)) {
+        board_fail(board, "USART%u: the transmitter is switched off in a character (RM0090 30.3.2)", instance + 1U);
+    }
     usart->cr1 = value;
     if (can_send(usart) && !could && !usart->shifting) {
         shift_out(board, instance, true, board->cpu.now); /* section 30.3.2: an idle frame comes first */
@@ -301,7 +317,7 @@ static bool write_register(struct board *board, unsigned instance, uint32_t offs
         write_data(board, instance, value);
         return true;
     case USART_BRR:
-        usart->brr = value & 0xFFFFU;
+        write_brr(board, instance, value);
         return true;
     case USART_CR1:
         write_cr1(board, instance, value);

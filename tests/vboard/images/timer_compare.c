@@ -22,8 +22,10 @@ int main(void)
     result[2] = TIM_SR(TIM2);
     result[3] = GPIO_IDR(GPIOA) & 3;
     TIM_CCMR1(TIM2) = 4 << 4 | 3 << 12; /* forced inactive */
+    (void)TIM_CCMR1(TIM2);              /* it has arrived: the port's bus is faster */
     result[4] = GPIO_IDR(GPIOA) & 3;
     TIM_CCMR1(TIM2) = 1 << 4 | 3 << 12;
+    (void)TIM_CCMR1(TIM2);
     result[5] = GPIO_IDR(GPIOA) & 3; /* still low: no match since */
     TIM_CCR(TIM2, 1) = 1500;
     TIM_CCR(TIM2, 2) = 1600;

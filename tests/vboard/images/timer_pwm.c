@@ -20,6 +20,7 @@ static inline void mode(unsigned of_channel_1)
 
 static inline void note_pin(void)
 {
+    (void)TIM_CR1(TIM2); /* what was written before has arrived */
     note(GPIO_IDR(GPIOA) & 1);
 }
 
