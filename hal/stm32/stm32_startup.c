@@ -22,10 +22,12 @@ enum {
     PAINT_WORDS_LEFT = 32, /* what this file itself may need of the stack */
 
     EXCEPTIONS = 16,
-    VECTORS = EXCEPTIONS + 82, /* RM0090 12.1.3 */
+    IRQS = 82, /* RM0090 12.1.3 */
+    VECTORS = EXCEPTIONS + IRQS,
     EXCEPTION_PENDSV = 14,
     EXCEPTION_SYSTICK = 15,
-    IRQ_WORDS = 3,
+    IRQ_WORDS = (IRQS + 31) / 32,
+    LAST_IRQS = (1 << IRQS % 32) - 1, /* of the last word; the rest of it is reserved */
 };
 
 /* Before the handlers are in RAM. */
@@ -77,8 +79,9 @@ static void silence_interrupts(void)
     STK_CTRL = 0;
     SCB_ICSR = SCB_ICSR_PENDSTCLR | SCB_ICSR_PENDSVCLR;
     for (uint32_t word = 0; word < IRQ_WORDS; word++) {
-        NVIC_ICER(word) = UINT32_MAX;
-        NVIC_ICPR(word) = UINT32_MAX;
+        uint32_t there = word + 1U < IRQ_WORDS ? UINT32_MAX : LAST_IRQS;
+        NVIC_ICER(word) = there;
+        NVIC_ICPR(word) = there;
     }
 }
 

@@ -20,12 +20,20 @@
 #ifndef STM32_STEP_PRIVATE_H
 #define STM32_STEP_PRIVATE_H
 
+#include <assert.h>
+
 #include "base_limits.h"
 #include "base_tick.h"
 #include "board.h"
 #include "step_channel.h"
 #include "stm32_private.h"
 #include "stm32f4.h"
+
+/* The bus of the timer runs at a quarter of the core's clock, the timer at half. An access takes two clocks of that
+ * bus, and one of the core each for the matrix and to get into step with the bus (AN4031, table 4): a write acts that
+ * much behind its instruction, and the next access waits for it. `cycles` are those of the code. */
+enum { CYCLES_PER_TICK = 2, BUS_ACCESS_CYCLES = 2 * 4 + 2 };
+#define TICKS_OF_WRITES(writes, cycles) (((writes) * BUS_ACCESS_CYCLES + (cycles)) / CYCLES_PER_TICK)
 
 #define TICKS_OF_NS(ns) (((ns) * TICKS_PER_US + 999U) / 1000U)
 
@@ -35,15 +43,24 @@ enum {
     SETUP_TICKS = TICKS_OF_NS(BOARD_DIR_SETUP_NS),
     HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS) + HIGH_TICKS,
 
-    WRITE_TICKS = 24, /* at most, from a look at the counter until a channel is armed */
-    ROOM_TICKS = LOW_TICKS + WRITE_TICKS,
-    MOVE_TICKS = LOW_TICKS + 10, /* the same for the one write that moves an armed edge on */
-    SPIN_TICKS = 2 * WRITE_TICKS,
+    /* At most, from a look at the counter until what was decided has arrived: the write that holds a pin low, or moves
+     * an armed edge on; those that end a pulse by the channel; those that arm it. The tests have the cycles of code. */
+    WRITE_TICKS = TICKS_OF_WRITES(1, 48),
+    MOVE_WRITE_TICKS = TICKS_OF_WRITES(1, 16),
+    FALL_TICKS = TICKS_OF_WRITES(2, 48),
+    ARM_TICKS = TICKS_OF_WRITES(5, 80),
+
+    ROOM_TICKS = LOW_TICKS + WRITE_TICKS > ARM_TICKS ? LOW_TICKS + WRITE_TICKS : ARM_TICKS,
+    MOVE_TICKS = LOW_TICKS + MOVE_WRITE_TICKS,
+    SPIN_TICKS = 48, /* what an interrupt more takes at least */
     STUCK_TICKS = 5 * TICKS_PER_MS,
 
     /* The first lead for a change of speed; where planning takes longer, the mover tries again with twice as much. */
     LEAD_TICKS = 60 * TICKS_PER_US,
 };
+
+static_assert(SPIN_TICKS >= FALL_TICKS, "a pulse that its channel ends is not over before the channel knows");
+static_assert(ROOM_TICKS >= ARM_TICKS, "no edge comes before its channel is armed");
 
 /* What a channel does with its pin, RM0090 18.4.7. */
 enum {

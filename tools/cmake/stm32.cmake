@@ -18,6 +18,10 @@ endfunction()
 rkm04_add_image(rkm04_image ${image} firmware/main.c)
 rkm04_add_image(rkm04_bench ${image}-bench hal/stm32/bench/bench_main.c)
 
+# For a test that asks for it.
+rkm04_add_image(rkm04_disarm ${image}-disarm tests/vboard/images/disarm_main.c)
+set_target_properties(rkm04_disarm PROPERTIES EXCLUDE_FROM_ALL ON)
+
 set(checks ${PROJECT_SOURCE_DIR}/tools/checks)
 set(board_header ${PROJECT_SOURCE_DIR}/hal/stm32/boards/${RKM04_BOARD}/board.h)
 set(run_check ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_SOURCE_DIR}/tools PYTHONDONTWRITEBYTECODE=1

@@ -96,15 +96,16 @@ def image_of(board: str) -> Image:
     return Image(board, ROOT / "build" / folder)
 
 
-def build(board: str) -> Image:
-    """Build the image of a board, with the compiler installed if need be."""
+def build(board: str, target: str = "all") -> Image:
+    """Build the image of a board, with the compiler installed if need be, or another target."""
     image = image_of(board)
     if not shutil.which(COMPILER):
         _call([str(ROOT / "tools" / "setup"), "board"], "the compiler cannot be installed")
     configure = ["cmake", "--preset", "stm32", "-B", str(image.folder), f"-DRKM04_BOARD={board}"]
     with _alone_in(image.folder) as lock:
         _call(configure, "the build cannot be set up", lock)
-        _call(["cmake", "--build", str(image.folder)], "the image does not build", lock)
+        building = ["cmake", "--build", str(image.folder), "--target", target]
+        _call(building, "the image does not build", lock)
     return image
 
 
