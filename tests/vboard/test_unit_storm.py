@@ -20,6 +20,8 @@ PROGRAM = b"S500V16000A60000M08F3000RB3000R"
 MOTORS = range(1, 5)
 FLOOD_MS, FLOOD_END_MS, END_MS = 30.0, 1100.0, 1200.0
 STORM_KHZ = 100
+CHARACTER_US = 1000 * BYTE_MS
+"""Until then the unit lets the line go, firmware/docs/line.md."""
 REQUESTS = [b"\x040", b"\x051", b"\x062", b"\x073", b"\x040"]
 
 
@@ -75,6 +77,8 @@ def test_a_storm_on_inputs_and_line_moves_no_pulse_and_the_unit_answers(unit, in
     assert quiet.late_steps == busy.late_steps == 0
     assert (first_tick(quiet.steps) - first_tick(busy.steps)) / TICKS_PER_MS == pytest.approx(0)
     assert heard(unit.folder)[-1].message == TOLD_VERSION
+    assert 0 < busy.summary["line"]["release_max"] < CHARACTER_US
+    assert busy.summary["warnings"] == 0  # no handler returns while its last write is on its way
     assert busy.summary["resets"] == {"power": 1, "software": 0, "watchdog": 0}
     print(f"load {quiet.summary['load']} quiet, {busy.summary['load']} busy")
 
