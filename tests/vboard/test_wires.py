@@ -254,13 +254,13 @@ def test_an_interrupt_that_does_not_end_holds_off_none_before_it_and_all_others(
     assert ran == set().union(*ranks(name)[:before])
 
 
-STEPS_MIN, TURNS_MIN = 200, 20
+STEPS_MIN, TURNS_MIN = 60, 20
 
 
 def test_the_direction_stands_still_around_pulses_when_simulation_begins_and_ends(wired):
     """Motor 1 goes backward all the time, so its DIR changes with the simulation only."""
     unit = wired()
-    line = ask(START_MS, b"\x021\\S2000V15990A60000[L40B40RB7RW1E")
+    line = ask(START_MS, b"\x021\\S2000V2000[L40B5RB3RW1E")
     line += ask(START_MS + 40, b"\x022\\[L25C41W4T41W3E")
     line += ask(START_MS + 80, b"\x020]")
 
