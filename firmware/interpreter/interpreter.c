@@ -71,12 +71,11 @@ bool interpreter_has_run_all(const struct interpreter *interpreter)
     return interpreter->next == interpreter->memory.written;
 }
 
-/* Whether X can act: in a program that is being executed, and before what has come to a motor at rest. */
+/* Whether X can act. What comes to a motor at rest begins to be executed before its first command is. */
 static bool is_executing(const struct interpreter *interpreter)
 {
     switch ((enum interpreter_state)interpreter->state) {
     case INTERPRETER_IDLE:
-        return !interpreter_has_run_all(interpreter);
     case INTERPRETER_RESETTING:
     case INTERPRETER_ENDED:
     case INTERPRETER_FAILED:

@@ -170,6 +170,7 @@ void test_jumping_out_of_loops_can_go_on_for_ever(const char *text)
 TEST_CASE("@1 L3 R I80H2 T80 J1 @2 E", 1 + 3)
 TEST_CASE("@1 L3 L2 R I80H2 T80 J1 @2 E E", 1 + 6)
 TEST_CASE("L2 @1 L3 R I80H2 T80 J1 @2 E E", 1 + 6)
+TEST_CASE("@1 L7 I80H2 L2 R T80 J1 @2 R E", 1 + 7)
 TEST_CASE("L3 '1 E J9 @1 L5 R I80H2 T80 . E @2 E .", 1 + 5 + 5)
 void test_a_loop_reached_again_begins_anew(const char *text, unsigned passes)
 {

@@ -46,12 +46,14 @@ void test_what_follows_a_jog_begins_when_the_motor_stands(void)
     TEST_ASSERT_TRUE(bench_output(&bench, 1));
 }
 
-void test_what_follows_a_jog_that_stands_begins_at_once(void)
+TEST_CASE(50)
+TEST_CASE(700000)
+void test_what_follows_a_jog_that_stands_begins_at_once(unsigned us)
 {
     bench_send(&bench, 1, "S1000 G+");
     bench_run_ms(&bench, 100);
     bench_do(&bench, 1, "K");
-    bench_run_ms(&bench, 700);
+    bench_run_ticks(&bench, (uint64_t)us * TICKS_PER_US);
     uint64_t sent = bench_now(&bench);
     bench_do(&bench, 1, "H");
     TEST_ASSERT_EQUAL_UINT64(sent, bench_event(&bench, 1, HAL_TRACE_MOVE, 1)->tick);
@@ -143,6 +145,10 @@ void test_new_commands_take_back_a_c75_that_waits_for_a_jog_to_stand(void)
     bench_do(&bench, 1, "T01");
     TEST_ASSERT_TRUE(bench_output(&bench, 1));
     TEST_ASSERT_EQUAL_UINT32(1, bench_count(&bench, 1, HAL_TRACE_MOVE));
+    bench_send(&bench, 1, "F2000 R");
+    bench_run_ms(&bench, 100);
+    bench_do(&bench, 1, "K");
+    TEST_ASSERT_EQUAL_INT(INTERPRETER_STOPPED, bench_state(&bench, 1));
 }
 
 /* A guard and K together stop a jog: new commands run all the same, while the motor brakes and behind it. */
