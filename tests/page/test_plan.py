@@ -184,12 +184,31 @@ def test_outputs_that_the_program_sets_are_drawn_below(page):
     expect(rows).to_be_hidden()
 
 
+WATCH_LABELS = """() => {
+    const draw = CanvasRenderingContext2D.prototype.fillText;
+    window.labels = [];
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
+        if (this.canvas.closest("#plan-position") && !text.endsWith("s")) {
+            window.labels.push(text);
+        }
+        return draw.call(this, text, ...rest);
+    };
+}"""
+
+
 def test_a_motion_far_from_zero_fills_its_plot(page):
+    page.page.evaluate(WATCH_LABELS)
     for place in (900_000, -900_000, 1_999_000_000):
+        page.write("F1 R")
+        page.expect_pulses(1)
         page.write(f"={place} S100 V1000 A2000 F400 R W300 D R")
         page.expect_pulses(800)
         assert height(page, "plan-position", 1) > 0.5
         assert height(page, "plan-speed", 1) > 0.5
+        page.page.evaluate("() => { window.labels = []; }")
+        page.page.locator("#zoom-reset").click()
+        labels = page.page.evaluate("window.labels")
+        assert len(set(labels)) == len(labels) >= 2
 
 
 def test_the_axis_follows_what_is_zoomed_to(page):

@@ -55,9 +55,10 @@ def _speed(unit: Unit, order: Act) -> Answer:
     """Change the speed of those motors that move: to others V would be a command to be stored."""
     told = acting.change_speed(unit, order.motor, order.value)
     words = ", ".join(f"motor {each.motor} {each.text}" for each in told)
-    if not any(each.done for each in told):
+    moving = [each.motor for each in told if each.done]
+    if not moving:
         raise UnitRefused(f"{words}; a speed is for moves in progress")
-    return Answer(words, {"speed": order.value})
+    return Answer(words, {"speed": order.value, "motors": moving})
 
 
 def version(unit: Unit, wait: Wait = USUAL) -> Answer:
