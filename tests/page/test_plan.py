@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 
 import pytest
@@ -184,16 +185,24 @@ def test_outputs_that_the_program_sets_are_drawn_below(page):
     expect(rows).to_be_hidden()
 
 
+PLAIN = str.maketrans({"\N{MINUS SIGN}": "-", ",": ""})
 WATCH_LABELS = """() => {
-    const draw = CanvasRenderingContext2D.prototype.fillText;
+    const { fillText: draw, clearRect: clear } = CanvasRenderingContext2D.prototype;
     window.labels = [];
+    CanvasRenderingContext2D.prototype.clearRect = function (...rest) {
+        if (this.canvas.closest("#plan-position")) {
+            window.labels = [];
+        }
+        return clear.call(this, ...rest);
+    };
     CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
-        if (this.canvas.closest("#plan-position") && !text.endsWith("s")) {
+        if (this.canvas.closest("#plan-position")) {
             window.labels.push(text);
         }
         return draw.call(this, text, ...rest);
     };
 }"""
+"""Keeps what was written at the axes of the positions when they were drawn last."""
 
 
 def test_a_motion_far_from_zero_fills_its_plot(page):
@@ -205,10 +214,26 @@ def test_a_motion_far_from_zero_fills_its_plot(page):
         page.expect_pulses(800)
         assert height(page, "plan-position", 1) > 0.5
         assert height(page, "plan-speed", 1) > 0.5
-        page.page.evaluate("() => { window.labels = []; }")
-        page.page.locator("#zoom-reset").click()
-        labels = page.page.evaluate("window.labels")
-        assert len(set(labels)) == len(labels) >= 2
+        assert len(set(labels(page)[0])) == len(labels(page)[0]) >= 2
+
+
+def test_the_numbers_of_an_axis_say_where_they_stand(page):
+    page.page.evaluate(WATCH_LABELS)
+    for ms in (2_000, 20_000, 700):
+        page.write(f"F1 R W{ms} F10 R")
+        page.expect_pulses(11)
+        for axis in labels(page):
+            numbers = [float(text.split()[0].translate(PLAIN)) for text in axis]
+            distances = [b - a for a, b in itertools.pairwise(numbers)]
+            assert distances == pytest.approx([distances[0]] * len(distances))
+
+
+def labels(page: ServicePage) -> tuple[list[str], list[str]]:
+    """Numbers of the axes of the positions: steps, and seconds."""
+    page.page.locator("#zoom-reset").click()
+    drawn = page.page.evaluate("window.labels")
+    seconds = [text for text in drawn if text.endswith("s")]
+    return [text for text in drawn if text not in seconds], seconds
 
 
 def test_the_axis_follows_what_is_zoomed_to(page):

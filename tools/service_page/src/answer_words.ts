@@ -60,7 +60,8 @@ function valueWords(message: string, values: Values): string | null {
         return t("answer.progress", { steps: numberText(values.steps), command: values.command ?? 0 });
     }
     if (values.speed !== undefined) {
-        return t("answer.speed", { speed: numberText(values.speed) });
+        const motors = values.motors?.join(", ") ?? "";
+        return t("answer.speed", { speed: numberText(values.speed), motors });
     }
     return values.points?.length === 0 ? t("answer.noTable") : null;
 }

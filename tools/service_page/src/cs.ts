@@ -219,7 +219,7 @@ export const cs: Dictionary = {
     "answer.found": "jednotky, které odpovídají: {units}",
     "answer.overflow": "paměť programu byla plná, příkazy byly přepsány",
     "answer.progress": "ujeté kroky {steps}, pořadí příkazu {command}",
-    "answer.speed": "rychlost {speed} kroků/s",
+    "answer.speed": "rychlost {speed} kroků/s do konce pohybu: motor {motors}",
     "answer.noTable": "žádný pohyb neprobíhá",
     "answer.stop.done": "všechny motory zastavují, všechny jednotky potvrdily; pokračuje se povelem Pokračovat",
     "answer.resume.done": "pokračuje",

@@ -217,7 +217,7 @@ export const en = {
     "answer.found": "units that answer: {units}",
     "answer.overflow": "the program memory was full, commands were lost",
     "answer.progress": "steps made {steps}, command number {command}",
-    "answer.speed": "speed {speed} steps/s",
+    "answer.speed": "speed {speed} steps/s, until the move ends: motor {motors}",
     "answer.noTable": "no move in progress",
     "answer.stop.done": "all motors stop, every unit has confirmed; Resume goes on",
     "answer.resume.done": "told to go on",

@@ -76,12 +76,23 @@ export function numberText(value: number, digits = 0): string {
 
 const PLAIN_BELOW = 10_000_000;
 
+const DECIMALS_MAX = 9;
+
+/** Decimal places that a number has, as 2.5 has one. */
+function decimalsOf(value: number): number {
+    let decimals = 0;
+    while (decimals < DECIMALS_MAX && Math.abs(value * 10 ** decimals - Math.round(value * 10 ** decimals)) > 1e-6) {
+        decimals += 1;
+    }
+    return decimals;
+}
+
 /** A number for an axis: short, but never the same as its neighbour, which is `distance` away. */
 export function axisNumber(value: number, distance: number): string {
     const digits = Math.ceil(Math.log10(Math.abs(value) / distance)) + 1;
     const format: Intl.NumberFormatOptions =
         Math.abs(value) < PLAIN_BELOW
-            ? { maximumFractionDigits: Math.max(0, Math.ceil(-Math.log10(distance))) }
+            ? { maximumFractionDigits: decimalsOf(distance) }
             : { notation: "compact", maximumSignificantDigits: Math.min(Math.max(digits, 4), 21) };
     return value.toLocaleString(LOCALES[language.value], format).replace("-", "−");
 }

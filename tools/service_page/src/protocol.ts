@@ -136,6 +136,8 @@ export interface AnswerValues {
     command?: number;
     speed?: number;
     confirmed?: Node[];
+    /** The motors that got the speed. */
+    motors?: number[];
 }
 
 /** A unit that has answered a scan; without a version, what it has answered was damaged. */
