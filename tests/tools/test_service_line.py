@@ -292,13 +292,6 @@ def test_a_wrong_program_is_refused_with_its_place_and_nothing_is_sent(browser):
     assert browser.request("program")["values"] == {"program": ""}
 
 
-def test_a_program_is_stored_only_if_it_is_the_one_in_the_memory(browser):
-    browser.request("send", text="\\ F1 R")
-
-    assert browser.request("store", text="\\ F2 R")["error"]["kind"] == "UnitRefused"
-    assert browser.request("store", text="\\ F1 R")["values"] == {"stored": {"1": 2}}
-
-
 def test_every_address_of_the_virtual_line_has_a_unit(browser):
     browser.request("send", text="\\ S1000 F7 R")
     browser.until(lambda m: m["type"] == "live" and m["motors"][0]["position"] == 7)

@@ -100,7 +100,10 @@ def test_nothing_starts_before_all_have_their_program(browser):
     assert told["request_message"] == "02 30 5D"
     frames = told["request_bytes"]
     assert frames.index("5C 5B 43") < frames.index("02 32 5C 5B") < frames.rindex("02 30 5D")
+    browser.until(lambda m: m["type"] == "live" and m["motors"][0]["position"] == 5)
     until_at(browser, 5, 6, 0, 0)
+    looks = [m["motors"] for m in browser.heard if m["type"] == "live"]
+    assert all(motors[1]["position"] < 10 for motors in looks if motors[0]["position"] == 5)
 
 
 def test_a_motor_that_waits_in_another_program_is_not_started_with_the_others(browser):
@@ -128,6 +131,15 @@ def test_what_cannot_wait_for_the_others_is_refused_before_anything_is_sent(brow
     assert words in told["error"]["cause"]
     assert "nothing was sent to any motor" in told["error"]["next"]
     assert programs(browser) == [""] * 4
+
+
+def test_a_program_is_stored_only_if_it_is_the_one_in_the_memory(browser):
+    browser.request("send", text="\\ F1 R")
+
+    refused = browser.request("store", text="\\ F2 R")
+    assert refused["error"]["kind"] == "UnitRefused"
+    assert refused["request_bytes"] == ""
+    assert browser.request("store", text="\\ F1 R")["values"] == {"stored": {"1": 2}}
 
 
 def test_all_motors_are_stored_each_with_its_own_program(browser):
