@@ -262,6 +262,19 @@ def test_a_full_memory_is_reported(motor, unit):
     assert motor.send("F100R").overflow
 
 
+def test_a_memory_that_was_full_for_one_part_only_is_reported(motor, unit, monkeypatch):
+    def execute(unit: FakeUnit, message: bytes) -> bytes:
+        answer = original(unit, message)
+        return answer[:2] + b"\x03\0" if message.startswith(b"\x021\\") else answer
+
+    original = FakeUnit.execute
+    monkeypatch.setattr(FakeUnit, "execute", execute)
+
+    sent = motor.send(LONG)
+
+    assert (sent.messages, sent.overflow) == (2, True)
+
+
 def test_the_rest_of_a_program_does_not_go_to_a_unit_that_has_restarted(motor, unit):
     with pytest.raises(UnitRestarted):
         motor.send(LONG, lambda done, total: unit.restart() if done == 1 else None)
