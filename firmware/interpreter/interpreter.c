@@ -74,21 +74,8 @@ bool interpreter_has_run_all(const struct interpreter *interpreter)
 /* Whether X can act. What comes to a motor at rest begins to be executed before its first command is. */
 static bool is_executing(const struct interpreter *interpreter)
 {
-    switch ((enum interpreter_state)interpreter->state) {
-    case INTERPRETER_IDLE:
-    case INTERPRETER_RESETTING:
-    case INTERPRETER_ENDED:
-    case INTERPRETER_FAILED:
-        return false;
-    case INTERPRETER_RUNNING:
-    case INTERPRETER_HELD:
-    case INTERPRETER_MOVING:
-    case INTERPRETER_WAIT_TIME:
-    case INTERPRETER_WAIT_LEVEL:
-    case INTERPRETER_STOPPED:
-        break;
-    }
-    return true;
+    return interpreter->state != INTERPRETER_IDLE && interpreter->state != INTERPRETER_RESETTING &&
+           interpreter->state != INTERPRETER_ENDED && interpreter->state != INTERPRETER_FAILED;
 }
 
 /* Has X acted? The mover stops a move by itself; this sees all the rest, and an X while another stop is going on. */

@@ -27,13 +27,12 @@ static void take_halt(struct interpreter *interpreter, uint64_t now_ticks)
     case INTERPRETER_WAIT_LEVEL:
         break;
     }
-    if (is_at_rest(interpreter, now_ticks)) {
-        return;
+    if (!is_at_rest(interpreter, now_ticks)) {
+        interpreter->wait_left = interpreter->clock > now_ticks ? interpreter->clock - now_ticks : 0;
+        interpreter_stop(interpreter, HAL_TRACE_STOP_COMMAND, now_ticks);
+        interpreter->resume_state = interpreter->state;
+        interpreter->state = INTERPRETER_STOPPED;
     }
-    interpreter->wait_left = interpreter->clock > now_ticks ? interpreter->clock - now_ticks : 0;
-    interpreter_stop(interpreter, HAL_TRACE_STOP_COMMAND, now_ticks);
-    interpreter->resume_state = interpreter->state;
-    interpreter->state = INTERPRETER_STOPPED;
 }
 
 /* C75: goes on where K has stopped, as soon as the motor stands. */

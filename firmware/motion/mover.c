@@ -263,16 +263,14 @@ void mover_set_position(struct mover *mover, int64_t position_steps)
 
 void mover_connect(struct mover *mover, bool connected)
 {
-    if (connected == mover->connected) {
-        return;
+    if (connected && !mover->connected) {
+        mover_set_position(mover, mover->real_steps);
+        hal_step_connect(mover->motor, true);
+    } else if (!connected && mover->connected) {
+        mover->real_steps = mover_position_steps(mover);
+        hal_step_connect(mover->motor, false);
     }
     mover->connected = connected;
-    if (connected) {
-        mover_set_position(mover, mover->real_steps);
-    } else {
-        mover->real_steps = mover_position_steps(mover);
-    }
-    hal_step_connect(mover->motor, connected);
 }
 
 bool mover_take_mark(struct mover *mover)
