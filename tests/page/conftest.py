@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from fake_unit import FakeLine, FakeUnit
 from playwright.sync_api import Browser, expect, sync_playwright
-from service_page import PATIENCE_SECONDS, Service, ServicePage, shown
+from service_page import PATIENCE_SECONDS, Service, ServicePage, free_port, shown
 
 CHROMIUM = Path("/usr/bin/chromium")
 
@@ -59,3 +60,71 @@ def page(browser: Browser, service: Service) -> Iterator[ServicePage]:
 def own_page(browser: Browser, own_service: Service) -> Iterator[ServicePage]:
     with shown(browser, own_service.url) as page:
         yield page
+
+
+NODE, OTHER = 3, 5
+"""Of the units on a line of the test's own."""
+
+
+@pytest.fixture(scope="session")
+def lines_service() -> Iterator[Service]:
+    """One that may be connected to any line."""
+    with running() as service:
+        yield service
+
+
+@pytest.fixture
+def unit() -> FakeUnit:
+    return FakeUnit(NODE)
+
+
+@pytest.fixture(scope="session")
+def line_port() -> int:
+    """One for all lines: a page keeps units in mind that it has seen on other ones."""
+    return free_port()
+
+
+@pytest.fixture
+def line(unit: FakeUnit, line_port: int) -> Iterator[FakeLine]:
+    line = FakeLine(unit, FakeUnit(OTHER), port=line_port)
+    yield line
+    line.close()
+
+
+@pytest.fixture
+def reopen(line: FakeLine, unit: FakeUnit, line_port: int) -> Iterator[Callable[[], FakeLine]]:
+    """Bring a line back that the test has closed, at the same port."""
+    opened: list[FakeLine] = []
+
+    def begin() -> FakeLine:
+        opened.append(FakeLine(unit, FakeUnit(OTHER), port=line_port))
+        return opened[-1]
+
+    yield begin
+    for each in opened:
+        each.close()
+
+
+@pytest.fixture(scope="module")
+def open_page(browser: Browser, lines_service: Service) -> Iterator[ServicePage]:
+    """One page for many tests, since it takes a second to be drawn."""
+    with shown(browser, lines_service.url, waits=False) as page:
+        yield page
+
+
+@pytest.fixture
+def lines_page(
+    open_page: ServicePage, line: FakeLine, unit: FakeUnit, reopen: Callable[[], FakeLine]
+) -> Iterator[ServicePage]:
+    """The page, connected to the unit of the test's own line; at the end all have stopped."""
+    open_page.connect(line.port, NODE)
+    open_page.ready()
+    open_page.sent.clear()
+    yield open_page
+    line.units |= {NODE: unit, OTHER: FakeUnit(OTHER)}
+    unit.status = b""
+    open_page.connect(line.port, NODE)
+    open_page.stopped()
+    open_page.page.locator("#connect").click()
+    expect(open_page.page.locator("#port")).to_be_enabled()
+    assert open_page.faults == []

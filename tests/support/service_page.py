@@ -7,6 +7,7 @@ import json
 import os
 import re
 import signal
+import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -22,14 +23,23 @@ DESK = (1400, 900)
 TABLET = (820, 1180)
 
 
+def free_port() -> int:
+    """A port of TCP that nobody uses now."""
+    with socket.create_server(("127.0.0.1", 0)) as found:
+        return int(found.getsockname()[1])
+
+
 class Service:
     """A running `rkm04 service` on a free port, with a virtual unit of its own."""
 
-    def __init__(self) -> None:
+    def __init__(self, *arguments: str, listen: int = 0) -> None:
         environment = {**os.environ, "PYTHONPATH": str(ROOT / "tools")}
         environment.pop("RKM04_PORT", None)
         self._process = subprocess.Popen(
-            [*COMMAND, "--listen", "0"], env=environment, stdout=subprocess.PIPE, text=True
+            [*COMMAND, "--listen", str(listen), *arguments],
+            env=environment,
+            stdout=subprocess.PIPE,
+            text=True,
         )
         assert self._process.stdout
         told = self._process.stdout.readline()
@@ -37,16 +47,21 @@ class Service:
             self.end()
         self.url: str = json.loads(told)["url"]
 
-    def end(self) -> None:
-        """Ctrl-C, if it still runs."""
-        self._process.send_signal(signal.SIGINT)
+    def tell(self, number: int) -> None:
+        """Send a signal."""
+        self._process.send_signal(number)
+
+    def end(self, number: int = signal.SIGINT) -> None:
+        """Ctrl-C, or another signal, if it still runs."""
+        self.tell(signal.SIGCONT)
+        self.tell(number)
         self._process.communicate(timeout=PATIENCE_SECONDS)
 
 
 class ServicePage:
     """One page in one browser. It fails at its end if a script of the page has failed."""
 
-    def __init__(self, page: Page, url: str) -> None:
+    def __init__(self, page: Page, url: str, waits: bool = True) -> None:
         self.page = page
         self.sent: list[str] = []
         """Types of all that the page has sent to the service."""
@@ -54,13 +69,45 @@ class ServicePage:
         page.on("pageerror", lambda error: self.faults.append(str(error)))
         page.on("websocket", self._listen)
         page.goto(url)
-        self.ready()
+        if waits:
+            self.ready()
 
     def ready(self) -> None:
         """Wait until the page is connected and has drawn."""
         expect(self.page.locator("body")).to_have_attribute("data-connected", "true")
         expect(self.plan).to_have_attribute("data-drawn", re.compile(r"\d+"))
         expect(self.position(1)).not_to_have_text(NOT_KNOWN)
+
+    def connect(self, port: str, node: int = 1) -> None:
+        """Leave the unit that is connected for another one."""
+        button = self.page.locator("#connect")
+        expect(button).to_be_enabled()
+        if self.page.locator("#port").is_disabled():
+            places = ("#port-other", "#node")
+            if [self.page.locator(place).input_value() for place in places] == [port, str(node)]:
+                return
+            button.click()
+            expect(self.page.locator("#port")).to_be_enabled()
+        self.page.locator("#port").select_option("")
+        self.page.locator("#port-other").fill(port)
+        self.page.locator("#node").select_option(str(node))
+        button.click()
+        expect(self.page.locator("body")).to_have_attribute("data-connected", "true")
+
+    @property
+    def alarm(self) -> Locator:
+        """The line under STOP; `data-kind` says asked, failed, done or none."""
+        return self.page.locator("#alarm")
+
+    def stopped(self) -> None:
+        """Press STOP until all units have confirmed."""
+        expect(self.page.locator("#state")).to_have_attribute("data-kind", "good")
+        self.page.keyboard.press("Escape")
+        expect(self.alarm).to_have_attribute("data-kind", "done")
+
+    def state(self, motor: int) -> Locator:
+        """What a motor does, in words."""
+        return self.page.locator(f"#state-{motor}")
 
     def _listen(self, socket: WebSocket) -> None:
         socket.on("framesent", lambda frame: self.sent.append(json.loads(frame)["type"]))
@@ -151,16 +198,22 @@ class ServicePage:
 
 @contextlib.contextmanager
 def shown(
-    browser: Browser, url: str, size: tuple[int, int] = DESK, locale: str = "en-GB"
+    browser: Browser,
+    url: str,
+    size: tuple[int, int] = DESK,
+    locale: str = "en-GB",
+    waits: bool = True,
+    touch: bool = False,
 ) -> Iterator[ServicePage]:
-    """Open the page in a browser of its own."""
+    """Open the page in a browser of its own; where it `waits`, until it shows a unit."""
     width, height = size
     context: BrowserContext = browser.new_context(
-        viewport={"width": width, "height": height}, locale=locale, accept_downloads=True
-    )
+        viewport={"width": width, "height": height}, locale=locale, accept_downloads=True,
+        has_touch=touch,
+    )  # fmt: skip
     context.set_default_timeout(PATIENCE_SECONDS * 1000)
     try:
-        service_page = ServicePage(context.new_page(), url)
+        service_page = ServicePage(context.new_page(), url, waits)
         yield service_page
         assert service_page.faults == []
     finally:

@@ -170,7 +170,7 @@ def test_a_port_that_is_lost_in_between_leaves_the_nodes_unconfirmed(desk, line)
 def test_a_stop_without_a_port_names_the_units_of_the_port_that_was_closed(desk, line):
     desk.ask(Disconnect())
 
-    told = desk.stop()
+    told = desk.stop([Node(line.port, 3), Node("virtual", 1)])
 
     assert told["error"]["kind"] == "NotConnected"
     assert desk.worker.state.stop == (Node(line.port, 3),)
@@ -180,9 +180,11 @@ def test_units_of_a_port_that_was_closed_keep_a_stop_open_virtual_ones_do_not(de
     second = FakeLine(FakeUnit(7, status=STANDS))
     desk.connect(second.port, 7)
 
-    told = desk.stop([Node("virtual", 1)])
+    told = desk.stop([Node(line.port, 3), Node("virtual", 1)])
 
     assert told["error"]["cause"] == f"the stop is not confirmed by node 3 of {line.port}"
+    assert desk.worker.state.stop == (Node(line.port, 3),)
+    desk.stop()
     assert desk.worker.state.stop == (Node(line.port, 3),)
     second.close()
 

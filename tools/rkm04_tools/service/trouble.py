@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rkm04_tools.failure import Failure
+from rkm04_tools.line_errors import PortLost
 
 
 class BadRequest(Failure):
@@ -51,6 +52,13 @@ class NotConfirmed(Failure):
 
     def __init__(self, who: str) -> None:
         super().__init__(f"the stop is not confirmed by {who}; use the emergency stop")
+
+
+class Fault(PortLost):
+    """A fault of this program; the port is closed, as nobody knows what was under way."""
+
+    def __init__(self, what: str) -> None:
+        super().__init__(f"{what}; this is a fault of the tool, connect again")
 
 
 class Superseded(Failure):

@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 
 from rkm04_tools.failure import Failure
 from rkm04_tools.line import Line, Unit
-from rkm04_tools.line_errors import LineError, PortError, PortLost
+from rkm04_tools.line_errors import LineError, PortError
 from rkm04_tools.messages import ALL_MOTORS, SET_COMMAND, VERSION
 from rkm04_tools.service import talking, virtual
 from rkm04_tools.service.answers import Answer, answer_of, whose
@@ -35,6 +35,7 @@ from rkm04_tools.service.orders import (
 )
 from rkm04_tools.service.stopping import stop_all
 from rkm04_tools.service.trouble import (
+    Fault,
     Late,
     NotConfirmed,
     NotConnected,
@@ -67,7 +68,7 @@ class State:
     """What all browsers know about the connection.
 
     `busy`: what is being done. `away`: the port was lost, and is opened again when it
-    is there. `nodes`: those that have answered since the service began, on any port. `stop`: those
+    is there. `nodes`: those that have answered on this port since the service began. `stop`: those
     that have not confirmed the last stop; None: all have, or there was none.
     """
 
@@ -213,8 +214,9 @@ class Worker:
         if isinstance(order, Disconnect):
             self._close_line()
             self._change(
-                connected=False, port=None, virtual=False, unit=None, error=None, away=False
-            )
+                connected=False, port=None, virtual=False, unit=None, error=None, away=False,
+                nodes=(),
+            )  # fmt: skip
             return Answer("the port is closed")
         unit = self._unit()
         if isinstance(order, Act):
@@ -252,13 +254,15 @@ class Worker:
         The virtual units of a port that was closed are nobody's machine.
         """
         state = self._state
-        known = dict.fromkeys([*sorted(self._heard, key=self._heard.__getitem__)[::-1], *named])
-        here = state.port or "" if self._line else ""
+        here = state.port or ""
+        heard = sorted(state.nodes, key=self._heard.__getitem__, reverse=True)
+        known = list(dict.fromkeys([*heard, *named, *(state.stop or ())]))
+        if not self._line:
+            return [], [node for node in known if node.port != virtual.NAME]
         there = [node for node in known if node.port == here]
-        if self._line and Node(here, state.node) not in there:
+        if Node(here, state.node) not in there:
             there.append(Node(here, state.node))
-        elsewhere = [node for node in known if node.port not in (here, virtual.NAME)]
-        return there, elsewhere
+        return there, [node for node in known if node.port not in (here, virtual.NAME)]
 
     def _send_stop(self, there: Sequence[Node], elsewhere: Sequence[Node]) -> Answer:
         if not self._line:
@@ -287,6 +291,7 @@ class Worker:
             self._change(
                 connected=False, port=order.port, virtual=order.port == virtual.NAME,
                 node=order.node, unit=None, error=None, away=False,
+                nodes=self._nodes_of(order.port),
             )  # fmt: skip
             self._open(order.port)
         if self._state.node != order.node:
@@ -311,7 +316,10 @@ class Worker:
     def _hear(self, node: Node) -> None:
         self._heard[node] = time.monotonic()
         if node not in self._state.nodes:
-            self._change(nodes=(*self._state.nodes, node))
+            self._change(nodes=self._nodes_of(node.port))
+
+    def _nodes_of(self, port: str) -> tuple[Node, ...]:
+        return tuple(node for node in self._heard if node.port == port)
 
     def _unit(self) -> Unit:
         if not self._line:
@@ -362,7 +370,8 @@ class Worker:
         elif isinstance(got, PortError):
             self._close_line()
             away = comes_back and not self._state.virtual
-            error = as_json(virtual.ended() if self._state.virtual else got)
+            has_ended = self._state.virtual and not isinstance(got, Fault)
+            error = as_json(virtual.ended() if has_ended else got)
             self._change(connected=False, unit=None, error=error, away=away)
         elif isinstance(got, LineError):
             self._change(error=as_json(got))
@@ -395,7 +404,7 @@ def _tried(work: Callable[[], Got]) -> Got | Failure:
     except Exception as error:
         what = f"{type(error).__name__}: {error}"
         print(f"rkm04: {what}; this is a fault of the tool", file=sys.stderr)
-        return PortLost(f"{what}; this is a fault of the tool, connect again")
+        return Fault(what)
 
 
 def _is_for_unit(order: Work) -> bool:

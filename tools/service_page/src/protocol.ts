@@ -53,7 +53,7 @@ export interface UnitState {
     unit?: { version: string; date: string } | null;
     /** The port was lost, and is opened again when it is there. */
     away: boolean;
-    /** Those that have answered since the service began. */
+    /** Those that have answered on this port since the service began. */
     nodes: Node[];
     /** Those that have not confirmed the last stop; null: all have, or there was none. */
     stop: Node[] | null;

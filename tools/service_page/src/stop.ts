@@ -22,7 +22,7 @@ export class Stop {
     readonly #known = new Map<string, Node>();
     readonly #onPress: (() => void)[] = [];
     #state: UnitState | null = null;
-    /** The nodes of a stop from this page that have not confirmed it; null: there is none. */
+    /** The nodes of a stop that the service does not answer for: it has not yet, or has gone; null: there is none. */
     #open: Map<string, Node> | null = null;
     /** Whether a stop from this page has been answered, or will not be. */
     #isOver = true;
@@ -59,7 +59,8 @@ export class Stop {
         this.#pressed_ms = performance.now();
         this.#button.dataset.pressed = "true";
         window.setTimeout(() => delete this.#button.dataset.pressed, PRESS_MS);
-        this.#open = new Map([...(this.#open ?? []), ...this.#known]);
+        const before = (this.#state?.stop ?? []).map((node) => [keyOf(node), node] as const);
+        this.#open = new Map([...(this.#open ?? []), ...before, ...this.#known]);
         this.#confirmed = [];
         this.#isOver = false;
         this.#show();
@@ -78,10 +79,10 @@ export class Stop {
         const listen = (kind: "keydown" | "keyup", action: (event: KeyboardEvent) => void): void =>
             window.addEventListener(kind, (event) => event.key === "Escape" && action(event), { capture: true });
         listen("keydown", (event) => {
-            isDown = true;
-            if (!event.repeat) {
+            if (!event.repeat || !isDown) {
                 this.press();
             }
+            isDown = true;
         });
         listen("keyup", () => {
             if (!isDown) {
@@ -89,6 +90,7 @@ export class Stop {
             }
             isDown = false;
         });
+        window.addEventListener("blur", () => (isDown = false));
     }
 
     #setState(state: UnitState): void {
@@ -106,13 +108,16 @@ export class Stop {
         if (message !== "stop") {
             return;
         }
-        this.#isOver ||= from === this.#link.client;
-        for (const node of values?.confirmed ?? []) {
-            this.#open?.delete(keyOf(node));
-        }
-        if (error === null && this.#outside().length === 0) {
+        const confirmed = values?.confirmed ?? [];
+        confirmed.forEach((node) => this.#open?.delete(keyOf(node)));
+        if (from === this.#link.client) {
+            this.#isOver = true;
+            this.#open = null; // the service knows from now on, also of the nodes that this page has named
+        } else if (this.#isOver && this.#open?.size === 0) {
             this.#open = null;
-            this.#celebrate(values?.confirmed ?? []);
+        }
+        if (error === null) {
+            this.#celebrate(confirmed);
         }
         this.#show();
     }
