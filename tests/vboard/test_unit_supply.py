@@ -189,7 +189,7 @@ def test_a_part_without_the_sectors_says_so_and_does_all_else(unit_of):
 
 def test_a_part_with_the_sectors_says_nothing_of_it(unit_of):
     unit = unit_of(DISCOVERY)
-    modelled = run(unit, "2.9", 0.1, sent=ask(40, GET_STATUS))
+    modelled = run(unit, "2.9", 0.13, sent=ask(40, GET_STATUS))
 
     (status,) = map(parse_status, of(unit, GET_STATUS[0]))
     assert not status.no_store
@@ -252,7 +252,7 @@ def test_an_input_that_is_active_before_power_comes_counts_from_the_start(unit_o
     ]
     content = flash(area(1, programs))
     unit = unit_of(REFERENCE)
-    run(unit, "3.3", 0.12, content=content, inputs=f"0,{number},1\n", sent=ask(60, GET_STATUS))
+    run(unit, "3.3", 0.15, content=content, inputs=f"0,{number},1\n", sent=ask(60, GET_STATUS))
 
     (status,) = map(parse_status, of(unit, GET_STATUS[0]))
     assert status.inputs == tuple(each == number for each in range(1, 9))
