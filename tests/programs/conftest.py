@@ -126,9 +126,9 @@ def run_program(
         monkeypatch.setenv("RKM04_BUILD", str(ROOT / "build" / "host"))
     simulate = host.simulate
 
-    def simulate_then(arguments: Sequence[str]) -> dict[str, Any]:
+    def simulate_then(arguments: Sequence[str], *others: Any) -> dict[str, Any]:
         """Let the unit's time begin anywhere."""
-        return simulate([*arguments, "--epoch", str(epoch() % EPOCH_MAX)])
+        return simulate([*arguments, "--epoch", str(epoch() % EPOCH_MAX)], *others)
 
     monkeypatch.setattr(host, "simulate", simulate_then)
 
