@@ -19,7 +19,7 @@ enum {
     HOLDS_HZ = 20000,
     ALARM_CYCLES_MIN = 100,
     BLINK_MS = 100,
-    ENTRY_TICKS = TICKS_PER_US, /* from an edge to its interrupt, that of a step in between */
+    ENTRY_TICKS = 5 * TICKS_PER_US / 4, /* from an edge to its look at the time, the interrupt of a step in between */
     PRIORITY_SHIFT = 4, /* four bits of priority, at the top of a byte; PM0214 4.3.7 */
 };
 
