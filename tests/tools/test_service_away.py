@@ -161,7 +161,8 @@ def test_a_port_that_the_user_gives_up_is_not_opened_again(desk, line, unit):
     time.sleep(0.5)
 
     assert again.requests == []
-    assert not desk.worker.state.connected
+    state = desk.worker.state
+    assert (state.connected, state.away, state.error) == (False, False, None)
     again.close()
 
 

@@ -105,7 +105,7 @@ def test_a_silent_unit_is_named_and_holds_no_other_one_up(desk, line, other):
     assert desk.worker.state.stop == (Node(line.port, 5),)
     asked = requests_of_stop(line)
     assert asked.index((3, GET_STATUS)) < asked.index((5, K))
-    assert asked.count((5, K)) == stopping.SILENT_ROUNDS
+    assert asked.count((5, K)) == 4  # an answer can be lost
 
     line.units[5] = other
     assert desk.stop()["error"] is None
