@@ -31,7 +31,11 @@ def make_alarm(page: ServicePage, line: FakeLine) -> None:
 
 def test_escape_stops_wherever_the_focus_is_and_once_for_each_press(lines_page):
     page = lines_page
-    page.page.evaluate("document.addEventListener('keydown', (event) => event.stopPropagation())")
+    page.page.evaluate(
+        """for (const kind of ["keydown", "keyup"]) {
+            document.addEventListener(kind, (event) => event.stopPropagation());
+        }"""
+    )
     places = {
         "the editor": lambda: page.page.locator(".cm-content").click(),
         "its search": lambda: page.page.locator("#find").click(),
