@@ -138,7 +138,8 @@ static void leave_move(struct interpreter *interpreter, enum hal_trace_stop caus
     uint8_t go_on = cause == HAL_TRACE_STOP_TOTAL ? INTERPRETER_ENDED : INTERPRETER_RUNNING;
     if (interpreter->state == INTERPRETER_MOVING) {
         interpreter->state = go_on;
-    } else if (interpreter->state == INTERPRETER_STOPPED && cause == HAL_TRACE_STOP_TOTAL) {
+    } else if (interpreter->state == INTERPRETER_STOPPED && cause == HAL_TRACE_STOP_TOTAL &&
+               interpreter->resume_state != INTERPRETER_RESETTING) {
         interpreter->state = INTERPRETER_ENDED;
     } else if (interpreter->state == INTERPRETER_STOPPED) {
         keep_rest(interpreter, cause, now_ticks);

@@ -4,21 +4,24 @@
 static bool is_at_rest(const struct interpreter *interpreter, uint64_t now_ticks)
 {
     bool can_go_on = interpreter->state == INTERPRETER_IDLE || interpreter->state == INTERPRETER_RUNNING ||
-                     interpreter->state == INTERPRETER_WAIT_TIME;
+                     interpreter->state == INTERPRETER_WAIT_TIME || interpreter->state == INTERPRETER_RESETTING;
     return can_go_on && interpreter->clock <= now_ticks && interpreter_has_run_all(interpreter);
 }
 
-/* K: the motor stops, and with it the program. A motor at rest has nothing to stop. */
+/* K: the motor stops, and with it the program, also one that waits for the stand after `\`. A motor at rest has nothing
+ * to stop. */
 static void take_halt(struct interpreter *interpreter, uint64_t now_ticks)
 {
     switch ((enum interpreter_state)interpreter->state) {
     case INTERPRETER_ENDED:
     case INTERPRETER_FAILED:
-    case INTERPRETER_RESETTING:
         return;
     case INTERPRETER_STOPPED:
         interpreter->resuming = false;
         return;
+    case INTERPRETER_RESETTING:
+        interpreter->order.sections = 0; /* `\` has ended that move: only what was stored after it goes on */
+        break;
     case INTERPRETER_RUNNING:
     case INTERPRETER_IDLE:
     case INTERPRETER_HELD:

@@ -72,11 +72,13 @@ class Motor:
 
     def halt(self, tick: int) -> None:
         """Take a `K` that stands alone; a motor at rest has nothing to stop."""
-        if self.phase is Phase.ENDED or self._cause in ("X", "\\") or self._is_at_rest:
+        if self.phase is Phase.ENDED or self._cause == "X" or self._is_at_rest:
+            return
+        if self._cause == "\\" and self._has_run_all:
             return
         if self.phase is Phase.MOVING:
             self._resume_wanted = False
-            if self._cause in ("M", "N"):
+            if self._cause in ("M", "N", "\\"):
                 self._order = None
             if self._cause != "K":
                 self._stop("K", tick)

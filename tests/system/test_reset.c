@@ -78,6 +78,44 @@ void test_commands_sent_while_the_reset_stops_the_motor_wait_too(void)
                               bench_pulse_tick(&bench, 1, 958) - bench_pulse_tick(&bench, 1, 957));
 }
 
+static void expect_new_program_stopped_by_k(void)
+{
+    bench_send(&bench, 1, "\\ C100 T01 S1000 F10 R");
+    bench_run_ms(&bench, 5);
+    bench_do(&bench, 1, "K");
+    TEST_ASSERT_EQUAL_INT(INTERPRETER_STOPPED, bench_state(&bench, 1));
+    TEST_ASSERT_FALSE(bench_output(&bench, 1));
+    bench_do(&bench, 1, "C75");
+    TEST_ASSERT_TRUE(bench_output(&bench, 1));
+    TEST_ASSERT_EQUAL_INT64(10, bench_position(&bench, 1));
+}
+
+void test_k_stops_what_follows_while_the_reset_stops_the_motor(void)
+{
+    bench_send(&bench, 1, "S100 V1000 A2000 F2000 R");
+    bench_run_pulses(&bench, 1, 700);
+    expect_new_program_stopped_by_k();
+}
+
+void test_k_stops_what_follows_a_reset_while_an_earlier_k_stops_the_motor(void)
+{
+    bench_send(&bench, 1, "S100 V1000 A2000 F2000 R");
+    bench_run_pulses(&bench, 1, 700);
+    bench_send(&bench, 1, "K");
+    bench_run_ms(&bench, 5);
+    expect_new_program_stopped_by_k();
+}
+
+void test_k_stops_what_follows_a_reset_while_x_stops_the_motor(void)
+{
+    bench_send(&bench, 1, "X04 S100 V1000 A2000 F2000 R");
+    bench_run_pulses(&bench, 1, 700);
+    bench_set_input(&bench, 4, true);
+    bench_run_ms(&bench, 5);
+    bench_set_input(&bench, 4, false);
+    expect_new_program_stopped_by_k();
+}
+
 void test_a_reset_in_a_wait_does_not_keep_its_clock(void)
 {
     bench_send(&bench, 1, "W16000000");

@@ -336,14 +336,6 @@ void test_k_while_stopped_changes_nothing(void)
     TEST_ASSERT_EQUAL_UINT32(1, bench_count(&bench, 1, HAL_TRACE_STOP));
 }
 
-void test_k_while_a_reset_stops_the_motor_changes_nothing(void)
-{
-    arrange_cruise("W1");
-    bench_send(&bench, 1, "\\ T01");
-    bench_do(&bench, 1, "K");
-    TEST_ASSERT_TRUE(bench_output(&bench, 1));
-}
-
 void test_k_after_the_end_by_x_changes_nothing(void)
 {
     bench_send(&bench, 1, "X03 W1000");

@@ -182,7 +182,7 @@ def test_what_the_unit_refuses_is_typed(motor):
 
 
 def test_a_request_and_its_answer_wait_for_nothing_on_their_way(motor):
-    """Such as the 40 ms for which small packets are held together; the best of many, as others may run."""
+    """Such as the 40 ms for which small packets are held together; the best, as others may run."""
     motor.position()
     times = []
     for _ in range(50):

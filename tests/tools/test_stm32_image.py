@@ -232,8 +232,13 @@ def fake(built, tmp_path, monkeypatch):
     """Tools of this name run such a script; what they write is in `log`. The image is there."""
     monkeypatch.setattr(board, "build", board.image_of)
     monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
-    log = tmp_path / "log"
-    return lambda name, script: fake_tool(tmp_path, name, f"cd {tmp_path}\n{script}") or log
+    log: Path = tmp_path / "log"
+
+    def put(name: str, script: str) -> Path:
+        fake_tool(tmp_path, name, f"cd {tmp_path}\n{script}")
+        return log
+
+    return put
 
 
 @pytest.mark.parametrize(

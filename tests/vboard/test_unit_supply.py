@@ -58,7 +58,8 @@ def store(ms: float, program: bytes = NEW) -> str:
 
 
 def ticks(modelled: Modelled, motor: int) -> np.ndarray:
-    return modelled.steps.tick[modelled.steps.motor == motor]
+    found: np.ndarray = modelled.steps.tick[modelled.steps.motor == motor]
+    return found
 
 
 def assert_locked(modelled: Modelled) -> None:
