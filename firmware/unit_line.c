@@ -10,7 +10,9 @@
 
 /* The longest answer that outlives a broadcast: Get Position of all motors. Longer ones only tell what has been read,
  * so a request that is executed again because its answer is lost does no harm. */
-enum { KEPT_BYTES_MAX = 86 };
+enum {
+    KEPT_BYTES_MAX = 86
+};
 
 static_assert((uint32_t)LINK_REQUEST_BYTES_MAX <= (uint32_t)PROTOCOL_REQUEST_BYTES_MAX, "every request has an answer");
 static_assert((uint32_t)LINK_OPENING == (uint32_t)PROTOCOL_VERSION, "Version opens a session");

@@ -1,6 +1,9 @@
 #include "base_crc32.h"
 
-enum { NIBBLE_BITS = 4, NIBBLES = 16 };
+enum {
+    NIBBLE_BITS = 4,
+    NIBBLES = 16
+};
 
 /* The CRC of each value of four bits: EDB88320, the reflected polynomial, wherever a 1 is shifted out. */
 static const uint32_t nibble_crc[NIBBLES] = {

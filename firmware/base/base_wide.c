@@ -1,6 +1,9 @@
 #include "base_wide.h"
 
-enum { WORD_BITS = 64, HALF_BITS = 32 };
+enum {
+    WORD_BITS = 64,
+    HALF_BITS = 32
+};
 
 struct wide wide_multiply(uint64_t a, uint64_t b)
 {
@@ -124,7 +127,9 @@ struct root {
  * and one less if that rest is negative. */
 static struct root root_of_two_words(uint64_t value)
 {
-    enum { DIGIT = 0x10000 };
+    enum {
+        DIGIT = 0x10000
+    };
     uint32_t high = (uint32_t)(value >> HALF_BITS);
     uint32_t root = root_of_word(high);
     uint64_t left = (uint64_t)(high - root * root) * DIGIT + value / DIGIT % DIGIT;

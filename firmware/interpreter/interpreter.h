@@ -37,7 +37,7 @@ enum {
     X(CALL_DEPTH, "more than 6 nested calls")                                                                          \
     X(RETURN, ". without a call")                                                                                      \
     X(SECTIONS, "more than 10 sections")                                                                               \
-    X(DIRECTION, "change of direction inside a compound move")                                                        \
+    X(DIRECTION, "change of direction inside a compound move")                                                         \
     X(NO_STEPS, "Y without F or B")                                                                                    \
     X(STORED_PROGRAM, "the stored program is damaged")                                                                 \
     X(NO_CRYSTAL, "no motion without the crystal")
@@ -62,9 +62,9 @@ enum interpreter_state {
 };
 
 struct interpreter_loop {
-    uint32_t body;  /* ordinal of the first command of the body */
-    uint16_t left;  /* passes still to run, this one included */
-    uint8_t calls;  /* the depth of calls at which it was begun: the `.` from there closes it */
+    uint32_t body; /* ordinal of the first command of the body */
+    uint16_t left; /* passes still to run, this one included */
+    uint8_t calls; /* the depth of calls at which it was begun: the `.` from there closes it */
 };
 
 struct interpreter {
@@ -101,9 +101,9 @@ struct interpreter {
     uint8_t call_depth;
 
     /* Guards: masks, bit 0 is input 1. */
-    uint8_t guard_high;  /* M */
-    uint8_t guard_low;   /* N */
-    uint8_t total_stop;  /* X */
+    uint8_t guard_high; /* M */
+    uint8_t guard_low;  /* N */
+    uint8_t total_stop; /* X */
 
     /* What WAIT_LEVEL waits for. */
     uint8_t wait_number; /* input 1-8 or variable 80-95 */
@@ -113,8 +113,8 @@ struct interpreter {
     struct motion_order order;
     struct mover_guards order_guards;
     bool order_backward;
-    uint8_t order_outputs;  /* to be set when the last section begins, if still on in mark_outputs; 0 when they have */
-    uint64_t wait_left;     /* ticks */
+    uint8_t order_outputs; /* to be set when the last section begins, if still on in mark_outputs; 0 when they have */
+    uint64_t wait_left;    /* ticks */
 };
 
 /* Start values, empty memory; `mover` and `io` must outlive it. */

@@ -262,8 +262,7 @@ static void run_guards_off(struct interpreter *interpreter)
     interpreter->guard_low = 0;
 }
 
-void interpreter_run(struct interpreter *interpreter, const struct program_instruction *instruction,
-                     uint64_t now_ticks)
+void interpreter_run(struct interpreter *interpreter, const struct program_instruction *instruction, uint64_t now_ticks)
 {
     uint32_t value = (uint32_t)instruction->value;
 

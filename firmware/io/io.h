@@ -13,11 +13,11 @@
 #include "base_limits.h"
 
 struct io {
-    _Atomic uint8_t inputs;  /* as sampled last; bit 0 is BI1 */
-    uint8_t outputs;         /* bit 0 is BO1: what programs see and what the pins show unless simulating */
-    uint16_t variables;      /* bit 0 is number 80 */
-    bool memory_locked;      /* T40: a full program memory refuses commands */
-    bool simulating;         /* T41: BO are disconnected and held at 0; STEP and DIR follow when their motor stands */
+    _Atomic uint8_t inputs; /* as sampled last; bit 0 is BI1 */
+    uint8_t outputs;        /* bit 0 is BO1: what programs see and what the pins show unless simulating */
+    uint16_t variables;     /* bit 0 is number 80 */
+    bool memory_locked;     /* T40: a full program memory refuses commands */
+    bool simulating;        /* T41: BO are disconnected and held at 0; STEP and DIR follow when their motor stands */
 };
 
 /* Everything 0, outputs connected; writes the output pins. */

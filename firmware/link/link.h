@@ -27,15 +27,15 @@ struct link_request {
 struct link {
     struct link_receiver receiver;
     struct link_sender sender;
-    const uint8_t *answer;       /* to the request below */
+    const uint8_t *answer; /* to the request below */
     uint32_t answer_length;
-    uint32_t answered_length;    /* bytes of the request answered last */
-    uint32_t answered_crc;       /* its CRC-32 */
-    uint64_t ready_tick;         /* when link_poll first saw an answer to be sent; TICK_NEVER: not yet */
-    uint8_t answered_number;     /* its number; 0: no request is known again */
-    uint8_t answer_number;       /* the number that the answer carries */
-    bool waiting;                /* the answer is to be sent */
-    bool open;                   /* a session has been opened since the start */
+    uint32_t answered_length; /* bytes of the request answered last */
+    uint32_t answered_crc;    /* its CRC-32 */
+    uint64_t ready_tick;      /* when link_poll first saw an answer to be sent; TICK_NEVER: not yet */
+    uint8_t answered_number;  /* its number; 0: no request is known again */
+    uint8_t answer_number;    /* the number that the answer carries */
+    bool waiting;             /* the answer is to be sent */
+    bool open;                /* a session has been opened since the start */
     uint8_t message[LINK_BUFFER_BYTES];
 };
 

@@ -37,7 +37,9 @@ enum link_count {
 };
 
 /* The room that the receiver needs for a message: the FCS passes through it. */
-enum { LINK_BUFFER_BYTES = LINK_REQUEST_BYTES_MAX + LINK_FCS_BYTES };
+enum {
+    LINK_BUFFER_BYTES = LINK_REQUEST_BYTES_MAX + LINK_FCS_BYTES
+};
 
 struct link_receiver {
     uint8_t *message; /* where the message goes: LINK_BUFFER_BYTES */

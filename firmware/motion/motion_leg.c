@@ -66,8 +66,8 @@ static void segment_from_end(const struct motion_leg *leg, struct step_segment *
  * speed at the first pulse gives the time. */
 static uint32_t first_interval(const struct motion_leg *leg, const struct step_segment *segment)
 {
-    uint64_t way = segment->residual >= STEP_QUANTA && segment->residual <= 2U * STEP_QUANTA
-                       ? 0 : STEP_QUANTA - segment->residual;
+    uint64_t way =
+        segment->residual >= STEP_QUANTA && segment->residual <= 2U * STEP_QUANTA ? 0 : STEP_QUANTA - segment->residual;
     uint64_t ticks = way / segment->slope;
     if (leg->accel == 0 || leg->accel * ticks < segment->slope / 8U) {
         return (uint32_t)ticks;

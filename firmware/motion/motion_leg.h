@@ -18,10 +18,10 @@ struct motion_leg {
     struct motion_time end;
     struct motion_place from; /* its whole steps are the pulses made before the leg */
     struct motion_place to;
-    uint64_t from_slope;      /* quanta a tick (step_scale.h) */
+    uint64_t from_slope; /* quanta a tick (step_scale.h) */
     uint64_t to_slope;
     uint64_t pulse_twice_speed2; /* of a ramp: twice the square of the speed at its first pulse, (steps/s)^2 */
-    uint32_t accel;           /* quanta a tick^2; 0: cruise */
+    uint32_t accel;              /* quanta a tick^2; 0: cruise */
 };
 
 /* The slope of a speed, given twice the speed's square in (steps/s)^2, at most 2^56. */

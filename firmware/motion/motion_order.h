@@ -7,7 +7,9 @@
 
 #include <stdint.h>
 
-enum { MOTION_SECTIONS = 10 };
+enum {
+    MOTION_SECTIONS = 10
+};
 
 /* A run without end ends after 35 years at 16 000 steps/s. */
 #define MOTION_ENDLESS_STEPS (UINT64_C(1) << 44)
@@ -21,9 +23,9 @@ enum { MOTION_SECTIONS = 10 };
 /* A ramp is handed over as one segment, which counts in 32 bits: the steps of one, up to speed^2 / 2*accel, are fewer
  * than 2^32. At 92 681 steps/s and below they are with any acceleration. */
 struct motion_section {
-    uint64_t steps;               /* 1 to MOTION_SECTION_STEPS_MAX, or MOTION_ENDLESS_STEPS as the only section */
-    uint32_t speed_steps_per_s;   /* 1 to STEP_SPEED_MAX: never exceeded */
-    uint32_t accel_steps_per_s2;  /* 1 to STEP_ACCEL_MAX */
+    uint64_t steps;              /* 1 to MOTION_SECTION_STEPS_MAX, or MOTION_ENDLESS_STEPS as the only section */
+    uint32_t speed_steps_per_s;  /* 1 to STEP_SPEED_MAX: never exceeded */
+    uint32_t accel_steps_per_s2; /* 1 to STEP_ACCEL_MAX */
 };
 
 struct motion_order {

@@ -6,7 +6,9 @@
 #include "motion_leg.h"
 #include "step_scale.h"
 
-enum { LEGS = 3 };
+enum {
+    LEGS = 3
+};
 
 /* A cruise is handed over in pieces of so many pulses: a segment counts them in 32 bits. */
 static const uint64_t PIECE_PULSES = UINT64_C(1) << 30;
@@ -107,8 +109,8 @@ static void rewind_to_origin(struct motion_plan *plan)
 
 static void take_order(struct motion_plan *plan, const struct motion_order *order, uint64_t start_tick)
 {
-    uint64_t speed2 = lower(motion_square(order->start_speed_steps_per_s),
-                            motion_square(order->section[0].speed_steps_per_s));
+    uint64_t speed2 =
+        lower(motion_square(order->start_speed_steps_per_s), motion_square(order->section[0].speed_steps_per_s));
     *plan = (struct motion_plan){
         .order = *order,
         .origin = {.time = {.ticks = start_tick}, .speed2 = speed2},
@@ -149,8 +151,8 @@ static void leg_first_ramp(struct motion_progress *progress, struct motion_leg *
     leg->accel = profile->accel_steps_per_s2 * STEP_ACCEL_PER_ACCEL;
     leg->from_slope = slope_of(progress, profile->enter);
     leg->to_slope = slope_of(progress, profile->turn);
-    leg->pulse_twice_speed2 = profile->turn < profile->enter ? profile->enter - lower(change, profile->enter)
-                                                             : profile->enter + change;
+    leg->pulse_twice_speed2 =
+        profile->turn < profile->enter ? profile->enter - lower(change, profile->enter) : profile->enter + change;
 }
 
 static void leg_cruise(struct motion_progress *progress, struct motion_leg *leg)
@@ -370,7 +372,9 @@ bool motion_plan_change_speed(struct motion_plan *plan, const struct motion_poin
 /* The square root of half of `twice_speed2`, to the nearest: 20 bits below the point decide. */
 static uint32_t nearest_speed(uint64_t twice_speed2)
 {
-    enum { POINT_BITS = 20 };
+    enum {
+        POINT_BITS = 20
+    };
     uint64_t root = wide_root_nearest(wide_shift_left((struct wide){.low = twice_speed2}, 2U * POINT_BITS - 1U));
     return (uint32_t)((root + (UINT64_C(1) << (POINT_BITS - 1))) >> POINT_BITS);
 }

@@ -25,29 +25,31 @@ struct motion_corner {
 };
 
 /* The start, the cut, three a section. */
-enum { MOTION_CORNERS_MAX = 2 + 3 * MOTION_SECTIONS };
+enum {
+    MOTION_CORNERS_MAX = 2 + 3 * MOTION_SECTIONS
+};
 
 /* What the plan hands over next. */
 struct motion_progress {
     struct motion_profile profile; /* of `section`, from its first leg on */
     struct motion_time time;
     struct motion_place place;
-    uint64_t twice_speed2;         /* of which `slope` is the slope: each root is wanted at two legs */
+    uint64_t twice_speed2; /* of which `slope` is the slope: each root is wanted at two legs */
     uint64_t slope;
     uint8_t section;
-    uint8_t leg;                   /* 0 to 2 */
+    uint8_t leg; /* 0 to 2 */
 };
 
 struct motion_plan {
     struct motion_order order;
-    struct motion_point origin;               /* where the plan begins */
-    uint64_t exit_speed2[MOTION_SECTIONS];    /* square of the speed at the end of each section, (steps/s)^2 */
+    struct motion_point origin;            /* where the plan begins */
+    uint64_t exit_speed2[MOTION_SECTIONS]; /* square of the speed at the end of each section, (steps/s)^2 */
     struct motion_progress progress;
-    uint64_t begin_speed2;                    /* with which the move started */
-    uint64_t mark_step;                       /* where the order's last section of several begins; 0 for one */
-    uint8_t first;                            /* the section that the origin is in */
-    bool changed;                             /* the speed of the first section was changed: it may jump below S */
-    bool stopping;                            /* brakes down to S and ends there */
+    uint64_t begin_speed2; /* with which the move started */
+    uint64_t mark_step;    /* where the order's last section of several begins; 0 for one */
+    uint8_t first;         /* the section that the origin is in */
+    bool changed;          /* the speed of the first section was changed: it may jump below S */
+    bool stopping;         /* brakes down to S and ends there */
 };
 
 /* What may be done before a stop has been planned. */

@@ -28,11 +28,11 @@ struct motion_profile {
 
 /* What a profile is laid through. */
 struct motion_way {
-    uint64_t begin;                   /* steps from the start of the move */
+    uint64_t begin; /* steps from the start of the move */
     uint64_t steps;
-    uint64_t enter_speed2;            /* (steps/s)^2 */
-    uint64_t exit_speed2;             /* reachable from enter_speed2 within the way */
-    uint32_t speed_steps_per_s;       /* not exceeded, except while braking down to it */
+    uint64_t enter_speed2;      /* (steps/s)^2 */
+    uint64_t exit_speed2;       /* reachable from enter_speed2 within the way */
+    uint32_t speed_steps_per_s; /* not exceeded, except while braking down to it */
     uint32_t accel_steps_per_s2;
     uint32_t start_speed_steps_per_s; /* S, where `jumps`: speeds up to it are taken at once */
     bool jumps;

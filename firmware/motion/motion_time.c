@@ -2,7 +2,9 @@
 
 #include "step_scale.h"
 
-enum { FRACTION_BITS = 32 };
+enum {
+    FRACTION_BITS = 32
+};
 
 struct motion_time motion_time_add(struct motion_time time, struct wide dividend, uint64_t divisor)
 {

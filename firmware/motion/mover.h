@@ -35,11 +35,11 @@ struct mover {
     _Atomic unsigned cause;   /* enum hal_trace_stop: why the move is being stopped or was stopped; NONE: not at all */
     _Atomic uint8_t inputs;   /* as sensed last */
     _Atomic bool moving;
-    _Atomic bool stopping;    /* the stop is to be planned */
+    _Atomic bool stopping; /* the stop is to be planned */
     bool braking;
-    bool connected;           /* STEP and DIR reach their pins */
+    bool connected; /* STEP and DIR reach their pins */
     uint8_t motor;
-    int64_t real_steps;       /* while not connected: the position at which the motor has stayed */
+    int64_t real_steps; /* while not connected: the position at which the motor has stayed */
 };
 
 /* Stands at position 0, connected. */

@@ -2,7 +2,9 @@
 
 #include "base_text.h"
 
-enum { TWO_DIGITS_FROM = 10 };
+enum {
+    TWO_DIGITS_FROM = 10
+};
 
 static void list_io(struct text *text, int32_t number)
 {

@@ -10,7 +10,9 @@
 #include "program_instruction.h"
 
 /* The longest command: "=-2000000000". */
-enum { PROGRAM_COMMAND_BYTES_MAX = 12 };
+enum {
+    PROGRAM_COMMAND_BYTES_MAX = 12
+};
 
 /* Writes the text of an instruction that the parser could have made (no terminator) and returns its length. */
 uint32_t program_list_instruction(const struct program_instruction *instruction,

@@ -165,8 +165,7 @@ static struct value parser_read_number(struct program_parser *parser)
 
 static bool io_has_level(uint32_t io)
 {
-    return (io >= 1 && io <= UNIT_INPUTS) ||
-           (io >= UNIT_VARIABLE_FIRST && io < UNIT_VARIABLE_FIRST + UNIT_VARIABLES);
+    return (io >= 1 && io <= UNIT_INPUTS) || (io >= UNIT_VARIABLE_FIRST && io < UNIT_VARIABLE_FIRST + UNIT_VARIABLES);
 }
 
 static struct value parser_read_condition(struct program_parser *parser)

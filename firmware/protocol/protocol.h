@@ -43,8 +43,8 @@ enum protocol_message {
 struct protocol {
     struct interpreter *interpreters; /* UNIT_MOTORS of them */
     struct store *store;
-    const char *version;              /* "NN.NN,DD.MM.YYYY"; at most 255 bytes */
-    const uint32_t *line_counts;      /* PROTOCOL_LINE_COUNTS of them, for Get Status */
+    const char *version;         /* "NN.NN,DD.MM.YYYY"; at most 255 bytes */
+    const uint32_t *line_counts; /* PROTOCOL_LINE_COUNTS of them, for Get Status */
 };
 
 /* Does what the request asks for and writes the answer. Returns the answer's length; 0 for an empty or over-long

@@ -33,12 +33,12 @@ enum {
 
 /* Bits of `motors`. X(NAME, bit) */
 #define PROTOCOL_STATUS_MOTORS(X)                                                                                      \
-    X(MOVING, 0)  /* a move is in progress */                                                                          \
-    X(RUNNING, 1) /* the program is being run: it moves, waits, or has a command to run */                             \
-    X(WAITING, 2) /* and waits: for a time, a level, or `]` */                                                         \
-    X(STOPPED, 3) /* by K, until C75 */                                                                                \
-    X(FAILED, 4)  /* by the error in `errors`, until `\` */                                                            \
-    X(ENDED, 5)   /* by X, until `\` */                                                                                \
+    X(MOVING, 0)    /* a move is in progress */                                                                        \
+    X(RUNNING, 1)   /* the program is being run: it moves, waits, or has a command to run */                           \
+    X(WAITING, 2)   /* and waits: for a time, a level, or `]` */                                                       \
+    X(STOPPED, 3)   /* by K, until C75 */                                                                              \
+    X(FAILED, 4)    /* by the error in `errors`, until `\` */                                                          \
+    X(ENDED, 5)     /* by X, until `\` */                                                                              \
     X(SIMULATED, 6) /* STEP and DIR are disconnected (T41) */
 
 enum protocol_status_bit {

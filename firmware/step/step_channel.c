@@ -8,7 +8,9 @@
 static_assert((STEP_QUEUE_SEGMENTS & (STEP_QUEUE_SEGMENTS - 1)) == 0, "the ring's counters wrap with its size");
 
 /* No pulse is taken back where they come faster: half of that goes by until the last of four motors has its turn. */
-enum { BACK_INTERVAL_TICKS = 40 * TICKS_PER_US };
+enum {
+    BACK_INTERVAL_TICKS = 40 * TICKS_PER_US
+};
 
 static const struct step_segment *queue_slot(const struct step_channel *channel, uint32_t count)
 {
@@ -220,8 +222,7 @@ static void channel_join(struct step_channel *channel, const struct step_segment
     }
 }
 
-void step_channel_splice(struct step_channel *channel, const struct step_cursor *at,
-                         const struct step_segment *segment)
+void step_channel_splice(struct step_channel *channel, const struct step_cursor *at, const struct step_segment *segment)
 {
     hal_step_hold();
     channel->closed = false;

@@ -19,7 +19,9 @@
 #include "step_segment.h"
 
 /* A compound move of ten sections has at most 30 segments: a whole move fits. A power of two. */
-enum { STEP_QUEUE_SEGMENTS = 32 };
+enum {
+    STEP_QUEUE_SEGMENTS = 32
+};
 
 /* How far the pulses have come: enough to foresee the pulses that follow. */
 struct step_cursor {
@@ -27,10 +29,10 @@ struct step_cursor {
     uint64_t before_residual; /* of the last pulse on the segment before */
     uint64_t before_slope;
     int32_t before_accel;
-    uint64_t end;      /* ordinal in the move of the last pulse on the present segment */
-    uint32_t left;     /* pulses still to come on the present segment */
-    uint32_t first;    /* low half of the ordinal of the present segment's first pulse */
-    uint32_t tail;     /* count of segments taken from the queue */
+    uint64_t end;   /* ordinal in the move of the last pulse on the present segment */
+    uint32_t left;  /* pulses still to come on the present segment */
+    uint32_t first; /* low half of the ordinal of the present segment's first pulse */
+    uint32_t tail;  /* count of segments taken from the queue */
 };
 
 /* The ordinal in the move of the pulse that a cursor stands on; 0 before the first. */
@@ -42,14 +44,14 @@ static inline uint64_t step_cursor_pulse(const struct step_cursor *cursor)
 struct step_channel {
     struct step_cursor cursor; /* stands on the armed pulse while running, else on the last one made */
     struct step_segment queue[STEP_QUEUE_SEGMENTS];
-    _Atomic uint32_t head;     /* count of segments put into the queue; written by main */
-    _Atomic uint32_t taken;    /* count of segments taken; written by the interrupt: what main may overwrite */
-    _Atomic bool running;      /* a pulse is armed */
-    _Atomic bool marked;       /* a marked segment has begun; main clears it */
-    bool closed;               /* the motor brakes or has been halted: what was planned before is not wanted any more */
-    int64_t origin;            /* absolute position at the start of the move, steps */
-    int8_t direction;          /* +1 or -1 */
-    uint8_t motor;             /* 0 to 3 */
+    _Atomic uint32_t head;  /* count of segments put into the queue; written by main */
+    _Atomic uint32_t taken; /* count of segments taken; written by the interrupt: what main may overwrite */
+    _Atomic bool running;   /* a pulse is armed */
+    _Atomic bool marked;    /* a marked segment has begun; main clears it */
+    bool closed;            /* the motor brakes or has been halted: what was planned before is not wanted any more */
+    int64_t origin;         /* absolute position at the start of the move, steps */
+    int8_t direction;       /* +1 or -1 */
+    uint8_t motor;          /* 0 to 3 */
 };
 
 /* Stands at position 0. */
@@ -115,7 +117,10 @@ bool step_channel_take_mark(struct step_channel *channel);
 
 /* What follows a pulse. LOOK: main should look, as the move has ended, or a marked segment has begun, or the queue has
  * got shorter. */
-enum { STEP_CHANNEL_ARM = 1, STEP_CHANNEL_LOOK = 2 };
+enum {
+    STEP_CHANNEL_ARM = 1,
+    STEP_CHANNEL_LOOK = 2
+};
 
 /* step_channel_next_isr where a segment ends. */
 unsigned step_channel_next_segment_isr(struct step_channel *channel);

@@ -18,8 +18,8 @@ void step_generator_join(struct step_generator *generator, const struct step_seg
     uint64_t accel = wide_from_signed(segment->accel);
     uint64_t shift = wide_from_signed(tick_difference(generator->tick, segment->tick));
     step_generator_take_motion(generator, segment);
-    generator->residual = segment->residual + shift * (segment->slope + accel * shift) + STEP_QUANTA -
-                          made * STEP_QUANTA;
+    generator->residual =
+        segment->residual + shift * (segment->slope + accel * shift) + STEP_QUANTA - made * STEP_QUANTA;
     generator->slope = segment->slope + 2U * accel * shift;
 }
 

@@ -42,8 +42,8 @@ static void choose_area(struct store *store, const struct store_record mark[HAL_
 {
     store->area = HAL_FLASH_AREAS - 1;
     for (unsigned area = 0; area < HAL_FLASH_AREAS; area++) {
-        if (mark[area].state == STORE_RECORD_FINISHED
-            && (!store->usable || mark[area].generation > store->generation)) {
+        if (mark[area].state == STORE_RECORD_FINISHED &&
+            (!store->usable || mark[area].generation > store->generation)) {
             store->usable = true;
             store->area = (uint8_t)area;
             store->generation = mark[area].generation;
@@ -186,8 +186,8 @@ static bool move_to_other_area(struct store *store)
  * no time for it. */
 static bool has_room(const struct store *store, uint32_t length)
 {
-    return store->usable && store_record_size_bytes(length) <= HAL_FLASH_AREA_BYTES - store->end
-        && store_flash_is_blank(store->area, store->end, HAL_FLASH_AREA_BYTES);
+    return store->usable && store_record_size_bytes(length) <= HAL_FLASH_AREA_BYTES - store->end &&
+           store_flash_is_blank(store->area, store->end, HAL_FLASH_AREA_BYTES);
 }
 
 static bool make_room(struct store *store, uint32_t length)
@@ -218,8 +218,8 @@ enum store_error store_save(struct store *store, unsigned motor, const uint8_t *
     if (length > STORE_TEXT_BYTES_MAX) {
         return STORE_TOO_LONG;
     }
-    if (find_image(store, motor, &record)
-        && store_record_has_text(store->area, store->image[motor], &record, text, length)) {
+    if (find_image(store, motor, &record) &&
+        store_record_has_text(store->area, store->image[motor], &record, text, length)) {
         return STORE_OK;
     }
     if (make_room(store, length) && append(store, motor, text, length)) {

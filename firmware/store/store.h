@@ -29,7 +29,9 @@
 #include "base_limits.h"
 
 /* The longest text that can be kept: 700 commands of 12 bytes. */
-enum { STORE_TEXT_BYTES_MAX = 8400 };
+enum {
+    STORE_TEXT_BYTES_MAX = 8400
+};
 
 /* The error byte of Store Flash. */
 enum store_error {
@@ -40,12 +42,12 @@ enum store_error {
 };
 
 struct store {
-    uint32_t generation;              /* the highest of all records and areas */
-    uint32_t end;                     /* offset behind the last record of the present area; its size: it is full */
-    uint32_t image[UNIT_MOTORS];      /* offset of the record that counts for each motor; 0: none */
-    uint8_t area;                     /* the present area */
-    bool damaged[UNIT_MOTORS];        /* what was stored for this motor cannot be read; image is 0 */
-    bool usable;                      /* there is a present area; else the next store begins the other one */
+    uint32_t generation;         /* the highest of all records and areas */
+    uint32_t end;                /* offset behind the last record of the present area; its size: it is full */
+    uint32_t image[UNIT_MOTORS]; /* offset of the record that counts for each motor; 0: none */
+    uint8_t area;                /* the present area */
+    bool damaged[UNIT_MOTORS];   /* what was stored for this motor cannot be read; image is 0 */
+    bool usable;                 /* there is a present area; else the next store begins the other one */
 };
 
 /* Finds what is stored. Writes at most one word, where a cut came just before the last step of a change of areas;

@@ -152,10 +152,10 @@ static bool head_read(unsigned area, uint32_t offset, uint32_t head_offset, stru
     record->motor = head[10];
     record->crc = read_number(&head[HEAD_FIELDS_BYTES], 4);
     record->size_bytes = store_record_size_bytes(record->length);
-    return read_number(&head[0], 4) == MAGIC
-        && read_number(&head[HEAD_CHECKED_BYTES], 4) == crc32_append(0, head, HEAD_CHECKED_BYTES)
-        && record->length <= STORE_TEXT_BYTES_MAX && record->motor < UNIT_MOTORS
-        && record->size_bytes <= HAL_FLASH_AREA_BYTES - offset;
+    return read_number(&head[0], 4) == MAGIC &&
+           read_number(&head[HEAD_CHECKED_BYTES], 4) == crc32_append(0, head, HEAD_CHECKED_BYTES) &&
+           record->length <= STORE_TEXT_BYTES_MAX && record->motor < UNIT_MOTORS &&
+           record->size_bytes <= HAL_FLASH_AREA_BYTES - offset;
 }
 
 static struct store_record without_head(unsigned area, uint32_t offset)
@@ -217,10 +217,10 @@ static bool write_record(unsigned area, uint32_t offset, struct store_record *re
     head_begin(record, head);
     record->crc = crc32_append(crc32_append(0, head, HEAD_FIELDS_BYTES), text, record->length) ^ crc_error;
     head_finish(record, head);
-    return put_bytes(area, offset, head, STORE_HEAD_BYTES)
-        && put_bytes(area, offset + STORE_HEAD_BYTES, head, STORE_HEAD_BYTES)
-        && put_bytes(area, text_offset(offset), text, record->length)
-        && mark_write(area, whole_mark_offset(offset, record));
+    return put_bytes(area, offset, head, STORE_HEAD_BYTES) &&
+           put_bytes(area, offset + STORE_HEAD_BYTES, head, STORE_HEAD_BYTES) &&
+           put_bytes(area, text_offset(offset), text, record->length) &&
+           mark_write(area, whole_mark_offset(offset, record));
 }
 
 bool store_record_write(unsigned area, uint32_t offset, unsigned motor, uint32_t generation, const uint8_t *text,

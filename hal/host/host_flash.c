@@ -4,7 +4,9 @@
 
 #include "host_private.h"
 
-enum { ERASED = 0xFF };
+enum {
+    ERASED = 0xFF
+};
 
 /* What one operation does: from `begin` up to `end` of its `length` bytes, and what it reports. */
 struct effect {

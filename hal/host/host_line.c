@@ -4,7 +4,9 @@
 #include "host_private.h"
 
 /* Main is called again when the bytes to be sent have come down to this. */
-enum { TO_SEND_LOW = HOST_LINE_TO_SEND_MAX / 2 };
+enum {
+    TO_SEND_LOW = HOST_LINE_TO_SEND_MAX / 2
+};
 
 static uint64_t script_tick(const struct host_machine *machine)
 {

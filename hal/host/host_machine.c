@@ -5,7 +5,9 @@
 #include "base_tick.h"
 #include "host_private.h"
 
-enum { ERASED = 0xFF };
+enum {
+    ERASED = 0xFF
+};
 
 struct host_machine *host_selected;
 
@@ -180,7 +182,14 @@ static void main_event(struct host_machine *machine, host_main_pass *pass, void 
 }
 
 /* What happens next, of what falls on the same tick in this order. */
-enum event { EVENT_PULSE, EVENT_INPUT, EVENT_SENSE, EVENT_LINE, EVENT_MAIN, EVENT_NONE };
+enum event {
+    EVENT_PULSE,
+    EVENT_INPUT,
+    EVENT_SENSE,
+    EVENT_LINE,
+    EVENT_MAIN,
+    EVENT_NONE
+};
 
 static enum event next_event(const struct host_machine *machine, uint64_t pulse, uint64_t input, uint64_t until)
 {

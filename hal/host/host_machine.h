@@ -38,7 +38,7 @@ enum {
  * may be null. Of levels and directions only changes at the pins are told. */
 struct host_listener {
     void *context;
-    void (*step)(void *context, uint64_t tick, unsigned motor, bool backward); /* rising edge of STEP at the pin */
+    void (*step)(void *context, uint64_t tick, unsigned motor, bool backward);      /* rising edge of STEP at the pin */
     void (*simulated)(void *context, uint64_t tick, unsigned motor, bool backward); /* one that is disconnected */
     void (*connection)(void *context, uint64_t tick, unsigned motor, bool connected); /* of STEP and DIR */
     void (*direction)(void *context, uint64_t tick, unsigned motor, bool backward);
@@ -50,8 +50,8 @@ struct host_listener {
 };
 
 struct host_input {
-    uint64_t tick;   /* from the start of the machine */
-    uint8_t input;   /* 1 to 8 */
+    uint64_t tick; /* from the start of the machine */
+    uint8_t input; /* 1 to 8 */
     bool level;
 };
 
@@ -69,13 +69,13 @@ struct host_line {
     struct hal_line_byte heard[HOST_LINE_HEARD_MAX]; /* a ring */
     uint32_t heard_first;
     uint32_t heard_count;
-    uint8_t to_send[HOST_LINE_TO_SEND_MAX];    /* a ring; the first is on the bus */
+    uint8_t to_send[HOST_LINE_TO_SEND_MAX]; /* a ring; the first is on the bus */
     uint32_t to_send_first;
     uint32_t to_send_count;
-    bool refused;                              /* main wants to give more than there was room for */
-    uint32_t byte_ticks;                       /* what a byte that is sent takes */
-    uint64_t sent_tick;                        /* the end of the byte on the bus; TICK_NEVER: the bus is free */
-    uint64_t next_tick;                        /* the next event of script or bus; TICK_NEVER: none */
+    bool refused;        /* main wants to give more than there was room for */
+    uint32_t byte_ticks; /* what a byte that is sent takes */
+    uint64_t sent_tick;  /* the end of the byte on the bus; TICK_NEVER: the bus is free */
+    uint64_t next_tick;  /* the next event of script or bus; TICK_NEVER: none */
     uint8_t node;
 };
 
@@ -93,39 +93,39 @@ struct host_faults {
                                  it is left half done, and all later ones do nothing; all report success; 0: never */
     uint32_t flash_fail_at;   /* this flash operation reports an error; 0: never */
     uint32_t flash_silent_at; /* this flash operation goes wrong and reports success; 0: never */
-    enum host_flash_done flash_done; /* of the operation that goes wrong */
-    uint32_t late_step_ticks; /* every step interrupt comes this much after the edge */
-    uint32_t late_tick_ticks; /* every tick interrupt comes this much after the change of an input */
-    bool no_crystal;          /* the board allows no motion */
-    bool no_flash;            /* the part is too small for the areas */
+    enum host_flash_done flash_done;  /* of the operation that goes wrong */
+    uint32_t late_step_ticks;         /* every step interrupt comes this much after the edge */
+    uint32_t late_tick_ticks;         /* every tick interrupt comes this much after the change of an input */
+    bool no_crystal;                  /* the board allows no motion */
+    bool no_flash;                    /* the part is too small for the areas */
     enum hal_board_cause start_cause; /* why the board has started */
 };
 
 struct host_machine {
-    uint64_t epoch;                    /* hal_time_now at the start */
-    uint64_t now;                      /* ticks from the start */
-    uint64_t wake;                     /* the next pass of main, ticks from the start; TICK_NEVER: none */
-    uint64_t sense;                    /* the tick interrupt that is due, likewise */
+    uint64_t epoch; /* hal_time_now at the start */
+    uint64_t now;   /* ticks from the start */
+    uint64_t wake;  /* the next pass of main, ticks from the start; TICK_NEVER: none */
+    uint64_t sense; /* the tick interrupt that is due, likewise */
     struct hal_client client;
     struct host_listener listener;
     struct host_faults faults;
-    const struct host_input *script;   /* sorted by tick */
+    const struct host_input *script; /* sorted by tick */
     uint32_t script_length;
     uint32_t script_next;
-    uint64_t armed[UNIT_MOTORS];       /* ticks from the start; TICK_NEVER: none */
-    bool edge_made[UNIT_MOTORS];       /* `armed` is no more the edge but its interrupt, which is late */
-    bool backward[UNIT_MOTORS];        /* DIR as set; the pin shows it while connected */
+    uint64_t armed[UNIT_MOTORS]; /* ticks from the start; TICK_NEVER: none */
+    bool edge_made[UNIT_MOTORS]; /* `armed` is no more the edge but its interrupt, which is late */
+    bool backward[UNIT_MOTORS];  /* DIR as set; the pin shows it while connected */
     bool led[UNIT_MOTORS];
-    bool connected[UNIT_MOTORS];       /* STEP and DIR reach their pins; so they do at the start */
+    bool connected[UNIT_MOTORS]; /* STEP and DIR reach their pins; so they do at the start */
     bool step_held;
     bool plan_held;
     uint8_t inputs;
     uint8_t outputs;
     struct host_line line;
-    uint64_t late_steps;               /* pulses armed for a tick that had gone by; 0 in every good run */
-    uint64_t pulses;                   /* armed pulses made, connected or not */
-    uint32_t flash_operations;         /* words and erases since the start or restart */
-    uint32_t flash_rewrites;           /* words that were written when not erased; 0 in every good run */
+    uint64_t late_steps;       /* pulses armed for a tick that had gone by; 0 in every good run */
+    uint64_t pulses;           /* armed pulses made, connected or not */
+    uint32_t flash_operations; /* words and erases since the start or restart */
+    uint32_t flash_rewrites;   /* words that were written when not erased; 0 in every good run */
     uint8_t flash[HAL_FLASH_AREAS][HAL_FLASH_AREA_BYTES];
 };
 

@@ -11,9 +11,9 @@
 #include <stdint.h>
 
 struct hal_line_byte {
-    uint64_t tick;  /* the unit's time at which the byte was complete */
+    uint64_t tick; /* the unit's time at which the byte was complete */
     uint8_t value;
-    bool broken;    /* a framing or noise error in this byte, or bytes after it were lost in an overrun */
+    bool broken; /* a framing or noise error in this byte, or bytes after it were lost in an overrun */
 };
 
 /* Takes the oldest received byte; false if there is none. */

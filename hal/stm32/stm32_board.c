@@ -8,7 +8,11 @@
 #include "stm32_private.h"
 #include "stm32f4.h"
 
-enum { IRQS_A_WORD = 32, PRIORITIES_A_WORD = 4, PRIORITY_SHIFT = 4 };
+enum {
+    IRQS_A_WORD = 32,
+    PRIORITIES_A_WORD = 4,
+    PRIORITY_SHIFT = 4
+};
 
 struct stm32_clock stm32_board_clock;
 static enum hal_board_cause start_cause;

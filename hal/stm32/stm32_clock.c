@@ -115,6 +115,5 @@ struct stm32_clock stm32_clock_start(void)
     if (crystal) {
         RCC_CR |= RCC_CR_CSSON;
     }
-    return (struct stm32_clock){
-        .core_hz = CORE_HZ, .apb1_hz = CORE_HZ / 4, .apb2_hz = CORE_HZ / 2, .crystal = crystal};
+    return (struct stm32_clock){.core_hz = CORE_HZ, .apb1_hz = CORE_HZ / 4, .apb2_hz = CORE_HZ / 2, .crystal = crystal};
 }

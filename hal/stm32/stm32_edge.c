@@ -4,7 +4,10 @@
 #include "stm32f4.h"
 
 /* The line of a pin has its number, whatever the port: tools/checks/board_pins.py refuses inputs that share one. */
-enum { INPUT_PORT = STM32_PIN_BI_1 / 16, INPUT_FIRST = STM32_PIN_BI_1 % 16 };
+enum {
+    INPUT_PORT = STM32_PIN_BI_1 / 16,
+    INPUT_FIRST = STM32_PIN_BI_1 % 16
+};
 
 #define INPUT_LINES (((UINT32_C(1) << UNIT_INPUTS) - 1U) << INPUT_FIRST)
 

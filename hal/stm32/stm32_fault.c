@@ -4,7 +4,11 @@
 #include "stm32_private.h"
 #include "stm32f4.h"
 
-enum { FRAME_PC = 6, FRAME_WORDS = 8, EXCEPTION_MASK = 0x1FF };
+enum {
+    FRAME_PC = 6,
+    FRAME_WORDS = 8,
+    EXCEPTION_MASK = 0x1FF
+};
 
 extern uint32_t stm32_stack_bottom[];
 extern uint32_t stm32_stack_top[];

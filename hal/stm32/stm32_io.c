@@ -8,10 +8,10 @@
 
 /* Eight pins in a row of one port: one look shows all inputs at the same moment. */
 static_assert(STM32_PIN_BI_2 == STM32_PIN_BI_1 + 1 && STM32_PIN_BI_3 == STM32_PIN_BI_1 + 2 &&
-                   STM32_PIN_BI_4 == STM32_PIN_BI_1 + 3 && STM32_PIN_BI_5 == STM32_PIN_BI_1 + 4 &&
-                   STM32_PIN_BI_6 == STM32_PIN_BI_1 + 5 && STM32_PIN_BI_7 == STM32_PIN_BI_1 + 6 &&
-                   STM32_PIN_BI_8 == STM32_PIN_BI_1 + 7 && STM32_PIN_BI_1 / 16 == STM32_PIN_BI_8 / 16,
-               "the inputs must be pins in a row of one port");
+                  STM32_PIN_BI_4 == STM32_PIN_BI_1 + 3 && STM32_PIN_BI_5 == STM32_PIN_BI_1 + 4 &&
+                  STM32_PIN_BI_6 == STM32_PIN_BI_1 + 5 && STM32_PIN_BI_7 == STM32_PIN_BI_1 + 6 &&
+                  STM32_PIN_BI_8 == STM32_PIN_BI_1 + 7 && STM32_PIN_BI_1 / 16 == STM32_PIN_BI_8 / 16,
+              "the inputs must be pins in a row of one port");
 
 static const uint8_t output_pins[UNIT_OUTPUTS] = {
     STM32_PIN_BO_1, STM32_PIN_BO_2, STM32_PIN_BO_3, STM32_PIN_BO_4,

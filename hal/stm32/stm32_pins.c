@@ -33,11 +33,13 @@ static const struct use uses[] = {
     BOARD_PINS(X)
 #undef X
 #define X(port, pin, what) {(uint8_t)(16 * STM32_PORT_##port + (pin)), (uint8_t)USE_IN_UP},
-    BOARD_PULLED_UP(X)
+        BOARD_PULLED_UP(X)
 #undef X
 };
 
-enum { USES = sizeof uses / sizeof uses[0] };
+enum {
+    USES = sizeof uses / sizeof uses[0]
+};
 
 static void set_field(volatile uint32_t *word, uint32_t place, uint32_t width, uint32_t value)
 {

@@ -10,7 +10,13 @@
 #include "board.h"
 #include "stm32f4.h"
 
-enum { STM32_PORT_A, STM32_PORT_B, STM32_PORT_C, STM32_PORT_D, STM32_PORT_E };
+enum {
+    STM32_PORT_A,
+    STM32_PORT_B,
+    STM32_PORT_C,
+    STM32_PORT_D,
+    STM32_PORT_E
+};
 
 enum stm32_pin {
 #define X(signal, port, pin, use) STM32_PIN_##signal = 16 * STM32_PORT_##port + (pin),

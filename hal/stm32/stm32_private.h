@@ -18,7 +18,12 @@
 
 #include "hal_run.h"
 
-enum { STM32_PRIORITY_STEP = 0, STM32_PRIORITY_LINE = 1, STM32_PRIORITY_TICK = 2, STM32_PRIORITY_PLAN = 3 };
+enum {
+    STM32_PRIORITY_STEP = 0,
+    STM32_PRIORITY_LINE = 1,
+    STM32_PRIORITY_TICK = 2,
+    STM32_PRIORITY_PLAN = 3
+};
 
 /* Masks all interrupts; returns what stm32_unmask restores. */
 static inline uint32_t stm32_mask(void)
@@ -128,7 +133,9 @@ struct stm32_fault {
     uint32_t pc;        /* of the instruction that was interrupted; 0 if the stack could not be read */
     uint32_t count;     /* faults since power-on */
 };
-enum { STM32_FAULT_MAGIC = 0x46415554 };
+enum {
+    STM32_FAULT_MAGIC = 0x46415554
+};
 extern struct stm32_fault stm32_fault_record;
 void stm32_fault_entry(void);
 _Noreturn void stm32_fault_stop(const uint32_t *frame, uint32_t exception);

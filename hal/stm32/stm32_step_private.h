@@ -32,7 +32,10 @@
 /* The bus of the timer runs at a quarter of the core's clock, the timer at half. An access takes two clocks of that
  * bus, and one of the core each for the matrix and to get into step with the bus (AN4031, table 4): a write acts that
  * much behind its instruction, and the next access waits for it. `cycles` are those of the code. */
-enum { CYCLES_PER_TICK = 2, BUS_ACCESS_CYCLES = 2 * 4 + 2 };
+enum {
+    CYCLES_PER_TICK = 2,
+    BUS_ACCESS_CYCLES = 2 * 4 + 2
+};
 #define TICKS_OF_WRITES(writes, cycles) (((writes) * BUS_ACCESS_CYCLES + (cycles)) / CYCLES_PER_TICK)
 
 #define TICKS_OF_NS(ns) (((ns) * TICKS_PER_US + 999U) / 1000U)
@@ -64,28 +67,28 @@ static_assert(ROOM_TICKS >= ARM_TICKS, "no edge comes before its channel is arme
 
 /* What a channel does with its pin, RM0090 18.4.7. */
 enum {
-    MODE_RISE = 1, /* active on match */
-    MODE_FALL = 2, /* inactive on match */
-    MODE_LOW = 4,  /* forced inactive; matches are flagged all the same, RM0090 18.3.7 */
+    MODE_RISE = 1,  /* active on match */
+    MODE_FALL = 2,  /* inactive on match */
+    MODE_LOW = 4,   /* forced inactive; matches are flagged all the same, RM0090 18.3.7 */
     MODE_AFTER = 7, /* PWM mode 2: active from the compare value on */
     MODE_MASK = 7,
 };
 
 struct stm32_channel {
-    uint32_t *modes;           /* what the register holds; two channels share it */
-    volatile uint32_t *mode;   /* CCMR1 or CCMR2 */
+    uint32_t *modes;         /* what the register holds; two channels share it */
+    volatile uint32_t *mode; /* CCMR1 or CCMR2 */
     volatile uint32_t *compare;
-    uint32_t one;              /* mode 1 of this channel in the register */
+    uint32_t one; /* mode 1 of this channel in the register */
     bool backward;
     bool connected;
 };
 
 struct stm32_step {
-    uint32_t plain;   /* flags of the channels that have an edge to come, in MODE_AFTER */
+    uint32_t plain; /* flags of the channels that have an edge to come, in MODE_AFTER */
     struct step_channel *client[UNIT_MOTORS];
-    uint32_t special; /* of those that have one in another mode */
-    uint32_t falling; /* of those whose pulse is being ended by the channel */
-    uint32_t waiting; /* of those falling that have a pulse to be armed behind it */
+    uint32_t special;           /* of those that have one in another mode */
+    uint32_t falling;           /* of those whose pulse is being ended by the channel */
+    uint32_t waiting;           /* of those falling that have a pulse to be armed behind it */
     uint32_t edge[UNIT_MOTORS]; /* of a plain channel, the client knows it; else the armed edge, or the last one */
     bool may_move;
     uint32_t modes[2];

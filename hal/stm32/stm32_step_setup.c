@@ -63,8 +63,8 @@ void stm32_step_start(bool may_move)
         };
         set_mode(&stm32_step.channel[motor], MODE_LOW);
     }
-    TIM2_CCER = TIM2_CCER_CC1E | TIM2_CCER_CC2E | TIM2_CCER_CC3E | TIM2_CCER_CC4E |
-                (BOARD_STEP_LEVEL == 1U ? 0U : levels);
+    TIM2_CCER =
+        TIM2_CCER_CC1E | TIM2_CCER_CC2E | TIM2_CCER_CC3E | TIM2_CCER_CC4E | (BOARD_STEP_LEVEL == 1U ? 0U : levels);
     set_enabled(0, 0);
     TIM2_SR = 0;
     TIM2_CR1 = TIM2_CR1_CEN;

@@ -19,7 +19,9 @@ static_assert(STM32_BROWN_OUT_FALLING_MIN_MV(BOARD_BROWN_OUT_LEVEL) >= 2100U,
 /* How long the detector takes to begin is in no data sheet of this part; those of its family say 100 us at most. A turn
  * reads the timer by a slow bus: so many take longer, whatever the clock, if it stands still. */
 #define SETTLE_TICKS (250U * TICKS_PER_US)
-enum { TURNS_MAX = 20000 };
+enum {
+    TURNS_MAX = 20000
+};
 
 void stm32_supply_start(void)
 {

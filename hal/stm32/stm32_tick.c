@@ -20,7 +20,7 @@ enum {
     ALARM_CYCLES_MIN = 100,
     BLINK_MS = 100,
     ENTRY_TICKS = 5 * TICKS_PER_US / 4, /* from an edge to its look at the time, the interrupt of a step in between */
-    PRIORITY_SHIFT = 4, /* four bits of priority, at the top of a byte; PM0214 4.3.7 */
+    PRIORITY_SHIFT = 4,                 /* four bits of priority, at the top of a byte; PM0214 4.3.7 */
 };
 
 static struct {
@@ -34,7 +34,7 @@ static struct {
     uint32_t period; /* cycles */
     uint32_t hold;
     uint32_t tick_cycles; /* of a tick */
-    uint32_t rest;   /* cycles of the millisecond that are left when the clock comes next */
+    uint32_t rest;        /* cycles of the millisecond that are left when the clock comes next */
 } tick;
 
 volatile bool stm32_event;
@@ -144,8 +144,8 @@ void stm32_tick_start(const struct hal_client *client, uint32_t core_hz, bool cr
     tick.period = core_hz / PERIODS_HZ;
     tick.hold = core_hz / HOLDS_HZ;
     tick.tick_cycles = core_hz > TICK_HZ ? core_hz / TICK_HZ : 1U;
-    SCB_SHPR3 = (uint32_t)STM32_PRIORITY_TICK << (24U + PRIORITY_SHIFT) |
-                (uint32_t)STM32_PRIORITY_PLAN << (16U + PRIORITY_SHIFT);
+    SCB_SHPR3 = (uint32_t)STM32_PRIORITY_TICK << (24U + PRIORITY_SHIFT) | (uint32_t)STM32_PRIORITY_PLAN
+                                                                              << (16U + PRIORITY_SHIFT);
     restart_clock(tick.period);
     STK_CTRL = STK_CTRL_CLKSOURCE | STK_CTRL_TICKINT | STK_CTRL_ENABLE;
 }

@@ -5,7 +5,9 @@
 
 #include "program_listing.h"
 
-enum { SMALL_NUMBERS = 20 };
+enum {
+    SMALL_NUMBERS = 20
+};
 
 /* The seed's digits, one after the other. */
 static unsigned draw(unsigned *seed, unsigned count)
@@ -19,9 +21,12 @@ static int32_t draw_value(const struct program_row *row, unsigned *seed)
 {
     int64_t range = (int64_t)row->max - row->min + 1;
     switch (draw(seed, 4)) {
-    case 0: return row->min;
-    case 1: return row->max;
-    default: return (int32_t)(row->min + (int64_t)draw(seed, SMALL_NUMBERS) % range);
+    case 0:
+        return row->min;
+    case 1:
+        return row->max;
+    default:
+        return (int32_t)(row->min + (int64_t)draw(seed, SMALL_NUMBERS) % range);
     }
 }
 

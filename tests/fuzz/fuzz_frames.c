@@ -133,10 +133,10 @@ static size_t mend(uint8_t *data, size_t size, size_t max_size, size_t begin, si
         return size;
     }
     uint32_t message = length > LINK_HEAD_BYTES + 1U + LINK_FCS_BYTES ? length - LINK_HEAD_BYTES - LINK_FCS_BYTES
-                                                                    : length - LINK_HEAD_BYTES;
+                                                                      : length - LINK_HEAD_BYTES;
     uint8_t address = plain[0] % 4U == 0 ? 0 : (uint8_t)(1U + data[0] % LINK_NODE_MAX);
-    uint32_t made = frame_write(frame, plain[0] % 16U == 1 ? plain[0] : address, plain[1], plain + LINK_HEAD_BYTES,
-                                message);
+    uint32_t made =
+        frame_write(frame, plain[0] % 16U == 1 ? plain[0] : address, plain[1], plain + LINK_HEAD_BYTES, message);
     if (size - (end - begin) + made > max_size) {
         return size;
     }

@@ -37,12 +37,12 @@ struct bench {
     uint64_t now;
     uint8_t inputs;
     bool mark;
-    bool filled;      /* memory has been, in this run */
-    unsigned events;  /* in this pass */
-    unsigned orders;  /* in this pass */
+    bool filled;     /* memory has been, in this run */
+    unsigned events; /* in this pass */
+    unsigned orders; /* in this pass */
     int64_t position;
     uint64_t made;
-    uint64_t steps;   /* of the move in progress */
+    uint64_t steps; /* of the move in progress */
     uint64_t end_tick;
     uint8_t text[MESSAGE_COMMANDS_MAX * PROGRAM_COMMAND_BYTES_MAX];
     uint32_t text_length;
@@ -317,13 +317,27 @@ static void do_operation(struct fuzz_stream *stream)
     unsigned operand = operation / 8U;
     switch (operation % 8U) {
     case 0:
-    case 1: do_message(stream, 1U + operand % MESSAGE_COMMANDS_MAX); break;
-    case 2: do_store(stream, 1U + operand); break;
-    case 3: do_pass(); break;
-    case 4: bench.now += (uint64_t)fuzz_take_pair(stream) * 10U * TICKS_PER_US; break;
-    case 5: bench.inputs = fuzz_take_byte(stream); break;
-    case 6: do_motion(stream); break;
-    default: do_fill(operand); break;
+    case 1:
+        do_message(stream, 1U + operand % MESSAGE_COMMANDS_MAX);
+        break;
+    case 2:
+        do_store(stream, 1U + operand);
+        break;
+    case 3:
+        do_pass();
+        break;
+    case 4:
+        bench.now += (uint64_t)fuzz_take_pair(stream) * 10U * TICKS_PER_US;
+        break;
+    case 5:
+        bench.inputs = fuzz_take_byte(stream);
+        break;
+    case 6:
+        do_motion(stream);
+        break;
+    default:
+        do_fill(operand);
+        break;
     }
     if (operation % 8U != 3U) {
         do_pass();

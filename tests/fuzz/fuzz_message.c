@@ -15,8 +15,17 @@
 #include "program_parser.h"
 #include "protocol_status.h"
 
-enum { MESSAGES_MAX = 24, FLAG_NONE = 0, FLAG_VALUE = 1, FLAG_UNKNOWN = 2, FLAG_OVERFLOW = 3 };
-enum { VERSION_BYTES = 16, STATUS_BYTES = 102 };
+enum {
+    MESSAGES_MAX = 24,
+    FLAG_NONE = 0,
+    FLAG_VALUE = 1,
+    FLAG_UNKNOWN = 2,
+    FLAG_OVERFLOW = 3
+};
+enum {
+    VERSION_BYTES = 16,
+    STATUS_BYTES = 102
+};
 
 struct reply {
     const uint8_t *request;

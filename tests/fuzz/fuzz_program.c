@@ -12,7 +12,10 @@
 #include "program_memory.h"
 #include "program_parser.h"
 
-enum { TEXT_MAX = 8190, LIST_MAX = TEXT_MAX * 2 };
+enum {
+    TEXT_MAX = 8190,
+    LIST_MAX = TEXT_MAX * 2
+};
 
 struct bench {
     struct program_memory memory;

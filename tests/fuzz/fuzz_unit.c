@@ -34,10 +34,10 @@ struct talk {
     uint8_t frame[FRAME_MAX];
     uint32_t frame_length;
     uint8_t number;
-    bool broadcast;              /* the last frame was one */
-    bool opens;                  /* its message was Version */
-    bool open;                   /* a session is */
-    bool answered;               /* the last frame was a request and has been answered, and nothing came since */
+    bool broadcast; /* the last frame was one */
+    bool opens;     /* its message was Version */
+    bool open;      /* a session is */
+    bool answered;  /* the last frame was a request and has been answered, and nothing came since */
     struct host_line_byte script[FRAME_MAX];
     uint8_t content[FUZZ_SENT_MAX];
 };
@@ -175,9 +175,15 @@ static void do_trouble(struct talk *t, unsigned operand)
     struct host_faults *faults = &t->fuzz->machine.faults;
     uint32_t at = t->fuzz->machine.flash_operations + 1U + operand / 4U;
     switch (operand % 4U) {
-    case 0: faults->flash_fail_at = at; break;
-    case 1: faults->flash_silent_at = at; break;
-    case 2: faults->flash_cut_after = at; break;
+    case 0:
+        faults->flash_fail_at = at;
+        break;
+    case 1:
+        faults->flash_silent_at = at;
+        break;
+    case 2:
+        faults->flash_cut_after = at;
+        break;
     default:
         fuzz_unit_restart(t->fuzz);
         t->open = false;
@@ -192,17 +198,29 @@ static void do_operation(struct talk *t, struct fuzz_stream *stream)
     unsigned operand = operation / 8U;
     switch (operation % 8U) {
     case 0:
-    case 1: do_message(t, stream, false); break;
-    case 2: do_message(t, stream, true); break;
-    case 3: do_again(t, operand); break;
-    case 4: take_noise(t, stream); break;
-    case 5: host_machine_set_input(&t->fuzz->machine, 1U + operand % 8U, operand / 8U % 2U != 0); break;
+    case 1:
+        do_message(t, stream, false);
+        break;
+    case 2:
+        do_message(t, stream, true);
+        break;
+    case 3:
+        do_again(t, operand);
+        break;
+    case 4:
+        take_noise(t, stream);
+        break;
+    case 5:
+        host_machine_set_input(&t->fuzz->machine, 1U + operand % 8U, operand / 8U % 2U != 0);
+        break;
     case 6: {
         uint64_t time = fuzz_take_byte(stream);
         fuzz_unit_run(t->fuzz, time * time * TIME_UNIT_US * TICKS_PER_US);
         break;
     }
-    default: do_trouble(t, operand); break;
+    default:
+        do_trouble(t, operand);
+        break;
     }
 }
 

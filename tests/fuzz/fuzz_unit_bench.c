@@ -10,7 +10,7 @@
 enum {
     COPIED_BYTES = offsetof(struct fuzz_unit, machine) + offsetof(struct host_machine, flash),
     ERASED = 0xFF,
-    LINE_BYTE_TICKS = 800, /* the line is quicker than it should be, so that long answers take no time */
+    LINE_BYTE_TICKS = 800,         /* the line is quicker than it should be, so that long answers take no time */
     LATE_TICKS = 5 * TICKS_PER_US, /* the tick interrupt behind an edge, as on a board */
 };
 

@@ -6,7 +6,9 @@
 
 #include "soak_master.h"
 
-enum { SOAK_NODE = 1 };
+enum {
+    SOAK_NODE = 1
+};
 
 /* A promise is broken unless the condition holds. */
 void soak_require(struct soak_master *master, bool good, const char *promise);

@@ -203,8 +203,8 @@ static void do_noise(struct soak_master *master)
     for (uint32_t i = 0; i < length; i++) {
         bytes[i] = (uint8_t)chance_next(&master->chance);
     }
-    soak_hear(master, bytes, length, chance_next(&master->chance) & chance_next(&master->chance) &
-                                         chance_next(&master->chance));
+    soak_hear(master, bytes, length,
+              chance_next(&master->chance) & chance_next(&master->chance) & chance_next(&master->chance));
     master->tally.noise++;
     soak_require(master, master->soak->sent_count == 0, "noise has no answer");
 }
@@ -222,9 +222,9 @@ static const struct {
     uint32_t share;
     void (*act)(struct soak_master *master);
 } acts[] = {
-    {210, do_question}, {270, do_edge},   {90, do_stream},     {90, do_damaged},   {60, do_noise},
-    {60, do_look},      {50, do_repeat},  {50, do_order},      {40, do_foreign},   {30, do_wrong_text},
-    {30, do_broadcast}, {15, do_listing}, {4, do_programs},    {1, do_store},
+    {210, do_question}, {270, do_edge},   {90, do_stream},  {90, do_damaged}, {60, do_noise},
+    {60, do_look},      {50, do_repeat},  {50, do_order},   {40, do_foreign}, {30, do_wrong_text},
+    {30, do_broadcast}, {15, do_listing}, {4, do_programs}, {1, do_store},
 };
 
 static void do_version(struct soak_master *master)

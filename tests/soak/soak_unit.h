@@ -32,8 +32,8 @@ struct soak_unit {
     uint64_t sent_digest;        /* of all bytes that the unit has sent, and when */
     uint8_t sent[SOAK_SENT_MAX]; /* since the master has read it */
     uint32_t sent_count;
-    uint32_t sent_lost;          /* there was no room for them */
-    uint64_t constants;          /* digest of what must never change */
+    uint32_t sent_lost; /* there was no room for them */
+    uint64_t constants; /* digest of what must never change */
 };
 
 /* A unit that has just been switched on, at an epoch of the timer. One at a time. */

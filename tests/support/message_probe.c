@@ -15,7 +15,10 @@
 #include "judge_unit.h"
 #include "unit.h"
 
-enum { LINE_BYTES_MAX = 2 * PROTOCOL_REQUEST_BYTES_MAX + 2, RUN_MS_MAX = 3600000 };
+enum {
+    LINE_BYTES_MAX = 2 * PROTOCOL_REQUEST_BYTES_MAX + 2,
+    RUN_MS_MAX = 3600000
+};
 
 static _Noreturn void complain(const char *what)
 {

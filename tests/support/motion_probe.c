@@ -20,7 +20,10 @@
 #include "host_machine.h"
 #include "mover.h"
 
-enum { CHANGES_MAX = 64, WANTED_MAX = 65536 };
+enum {
+    CHANGES_MAX = 64,
+    WANTED_MAX = 65536
+};
 
 struct change {
     uint64_t pulse;

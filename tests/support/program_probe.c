@@ -26,7 +26,11 @@
 #include "mover.h"
 #include "unit.h"
 
-enum { PULSES_MAX = 400000, INPUTS_MAX = 1000, LINE_BYTES_MAX = 2 * PROTOCOL_REQUEST_BYTES_MAX + 64 };
+enum {
+    PULSES_MAX = 400000,
+    INPUTS_MAX = 1000,
+    LINE_BYTES_MAX = 2 * PROTOCOL_REQUEST_BYTES_MAX + 64
+};
 
 struct probe {
     struct judged_unit judged;
@@ -116,8 +120,8 @@ static void add_input(struct probe *probe, const char *text)
     uint64_t tick;
     unsigned input;
     unsigned level;
-    if (probe->running || probe->input_count == INPUTS_MAX
-        || sscanf(text, "%" SCNu64 " %u %u", &tick, &input, &level) != 3) {
+    if (probe->running || probe->input_count == INPUTS_MAX ||
+        sscanf(text, "%" SCNu64 " %u %u", &tick, &input, &level) != 3) {
         complain("no such input");
     }
     probe->input[probe->input_count++] =

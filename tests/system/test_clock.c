@@ -67,7 +67,10 @@ void test_the_longest_wait_is_kept_to_the_tick(void)
 /* Pulse k of pass j stands j * (T + W) after pulse k of the first pass; T is a ramp and no whole number of ticks. */
 void test_a_loop_does_not_drift(void)
 {
-    enum { STEPS = 30, PASSES = 200 };
+    enum {
+        STEPS = 30,
+        PASSES = 200
+    };
     bench_send(&bench, 1, "S100 V800 A3000 F30 L200 R W7 E");
     bench_run_pulses(&bench, 1, STEPS * PASSES);
     uint64_t period = bench_pulse_tick(&bench, 1, STEPS + 1) - bench_pulse_tick(&bench, 1, 1);
@@ -81,7 +84,9 @@ void test_a_loop_does_not_drift(void)
 
 void test_four_busy_motors_do_not_drift(void)
 {
-    enum { PASSES = 50 };
+    enum {
+        PASSES = 50
+    };
     bench_do(&bench, 0, "[ S1000 F3 @1 R W5 T80 C80 D J1");
     bench_send(&bench, 0, "]");
     bench_run_pulses(&bench, 4, 3 * PASSES);

@@ -50,10 +50,8 @@ void test_a_compound_move_is_one_move(void)
 void test_steps_and_v_are_those_of_each_y(void)
 {
     bench_do(&bench, 1, "S1000 A60000 V500 F5 Y V250 F6 Y V800 R");
-    TEST_ASSERT_UINT64_WITHIN(1, TICK_HZ / 500U,
-                              bench_pulse_tick(&bench, 1, 3) - bench_pulse_tick(&bench, 1, 2));
-    TEST_ASSERT_UINT64_WITHIN(1, TICK_HZ / 250U,
-                              bench_pulse_tick(&bench, 1, 8) - bench_pulse_tick(&bench, 1, 7));
+    TEST_ASSERT_UINT64_WITHIN(1, TICK_HZ / 500U, bench_pulse_tick(&bench, 1, 3) - bench_pulse_tick(&bench, 1, 2));
+    TEST_ASSERT_UINT64_WITHIN(1, TICK_HZ / 250U, bench_pulse_tick(&bench, 1, 8) - bench_pulse_tick(&bench, 1, 7));
 }
 
 void test_s_is_the_one_in_force_at_r(void)
@@ -66,8 +64,7 @@ void test_s_is_the_one_in_force_at_r(void)
 void test_a_is_the_one_of_each_y(void)
 {
     bench_do(&bench, 1, "S100 V500 A60000 F100 Y A100 Y R");
-    TEST_ASSERT_UINT64_WITHIN(2, TICK_HZ / 500U,
-                              bench_pulse_tick(&bench, 1, 50) - bench_pulse_tick(&bench, 1, 49));
+    TEST_ASSERT_UINT64_WITHIN(2, TICK_HZ / 500U, bench_pulse_tick(&bench, 1, 50) - bench_pulse_tick(&bench, 1, 49));
 }
 
 void test_ten_sections_are_allowed(void)

@@ -8,7 +8,11 @@
 #include "bench.h"
 #include "unity.h"
 
-enum { PATH_BYTES = 512, LINE_BYTES = 256, RUN_MS = 30000 };
+enum {
+    PATH_BYTES = 512,
+    LINE_BYTES = 256,
+    RUN_MS = 30000
+};
 
 static struct bench bench;
 

@@ -7,7 +7,10 @@ static struct bench bench;
 static struct bench still; /* the same move, with nobody who stops it */
 
 /* What a board may need, and all that is left of 16 000 steps/s for planning. */
-enum { LATE_TICKS = 5 * TICKS_PER_US, LATER_TICKS = 20 * TICKS_PER_US };
+enum {
+    LATE_TICKS = 5 * TICKS_PER_US,
+    LATER_TICKS = 20 * TICKS_PER_US
+};
 
 void setUp(void)
 {

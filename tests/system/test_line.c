@@ -4,7 +4,9 @@
 #include "line_bench.h"
 #include "unity.h"
 
-enum { NODE = LINE_BENCH_NODE };
+enum {
+    NODE = LINE_BENCH_NODE
+};
 
 static struct bench bench;
 static struct line_bench line;
@@ -106,9 +108,18 @@ void test_a_program_starts_at_the_end_of_its_frame(void)
 void test_requests_that_come_at_the_same_time_count_from_then_or_from_the_pass_before(void)
 {
     uint64_t tick = bench_now(&bench) + 12345;
-    uint32_t length = frame_write(line.frame, NODE, 1, "\002" "1S1000F1R", 10);
-    length += frame_write(line.frame + length, NODE, 2, "\002" "2S1000F1R", 10);
-    length += frame_write(line.frame + length, NODE, 3, "\002" "3S1000F1R", 10);
+    uint32_t length = frame_write(line.frame, NODE, 1,
+                                  "\002"
+                                  "1S1000F1R",
+                                  10);
+    length += frame_write(line.frame + length, NODE, 2,
+                          "\002"
+                          "2S1000F1R",
+                          10);
+    length += frame_write(line.frame + length, NODE, 3,
+                          "\002"
+                          "3S1000F1R",
+                          10);
     for (uint32_t i = 0; i < length; i++) {
         line.script[i] = (struct host_line_byte){.tick = tick, .value = line.frame[i]};
     }
@@ -184,7 +195,10 @@ void test_store_flash_is_answered_and_kept(void)
 void test_requests_without_a_pause_are_all_executed_and_the_last_is_answered(void)
 {
     for (uint8_t number = 1; number <= 20; number++) {
-        line_plan_frame(&line, NODE, number, "\002" "1S1000F1R", 10);
+        line_plan_frame(&line, NODE, number,
+                        "\002"
+                        "1S1000F1R",
+                        10);
     }
     line_run(&line);
     TEST_ASSERT_EQUAL_UINT32(0, line.sent_count);

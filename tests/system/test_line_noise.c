@@ -6,7 +6,9 @@
 #include "line_bench.h"
 #include "unity.h"
 
-enum { NODE = LINE_BENCH_NODE };
+enum {
+    NODE = LINE_BENCH_NODE
+};
 
 static struct bench bench;
 static struct line_bench line;
@@ -28,7 +30,10 @@ void tearDown(void)
 /* A request, each byte `apart` from the one before, and the one at `late` (0: none) longer. */
 static void run_slow_request(uint64_t apart, uint32_t late, uint64_t late_ticks)
 {
-    uint32_t length = frame_write(line.frame, NODE, 1, "\002" "1T01", 5);
+    uint32_t length = frame_write(line.frame, NODE, 1,
+                                  "\002"
+                                  "1T01",
+                                  5);
     uint64_t tick = bench_now(&bench);
     for (uint32_t i = 0; i < length; i++) {
         tick += late != 0 && i == late ? late_ticks : apart;
@@ -49,7 +54,11 @@ void test_a_request_with_50_ms_between_its_bytes_is_executed(void)
 
 void test_a_longer_pause_at_any_place_drops_the_request(void)
 {
-    for (uint32_t late = 1; late < frame_write(line.frame, NODE, 1, "\002" "1T01", 5); late++) {
+    for (uint32_t late = 1; late < frame_write(line.frame, NODE, 1,
+                                               "\002"
+                                               "1T01",
+                                               5);
+         late++) {
         run_slow_request(LINE_BENCH_BYTE_TICKS, late, GAP_TICKS + 1);
         TEST_ASSERT_NULL(line_answer(&line, 1));
         TEST_ASSERT_FALSE(bench_output(&bench, 1));
@@ -77,7 +86,10 @@ static void print_counts(const char *what)
 
 void test_a_million_bytes_of_noise_do_nothing_and_the_next_request_is_answered(void)
 {
-    enum { NOISE_BYTES = 1000000, CHUNK_BYTES = 10000 };
+    enum {
+        NOISE_BYTES = 1000000,
+        CHUNK_BYTES = 10000
+    };
     for (unsigned i = 0; i < NOISE_BYTES / CHUNK_BYTES; i++) {
         plan_noise(CHUNK_BYTES);
         line_run(&line);
@@ -172,8 +184,17 @@ static bool is_still_good(const uint8_t *damaged, uint32_t damaged_length, const
 /* A request to this unit or to all that would set an output, damaged somewhere. */
 static void plan_damaged(void)
 {
-    static const char *const texts[] = {"\002" "0T01", "\002" "1T02W5", "\002" "4F100R", "\002" "2[T03F5R]"};
-    enum { FRAME_MAX = 64 };
+    static const char *const texts[] = {"\002"
+                                        "0T01",
+                                        "\002"
+                                        "1T02W5",
+                                        "\002"
+                                        "4F100R",
+                                        "\002"
+                                        "2[T03F5R]"};
+    enum {
+        FRAME_MAX = 64
+    };
     uint8_t good[FRAME_MAX];
     uint8_t bad[FRAME_MAX];
     const char *text = texts[random_below(sizeof texts / sizeof texts[0])];
@@ -198,7 +219,10 @@ static uint32_t dropped_count(void)
 
 void test_ten_thousand_damaged_frames_do_nothing_and_the_next_request_is_answered(void)
 {
-    enum { FRAMES = 10000, CHUNK_FRAMES = 100 };
+    enum {
+        FRAMES = 10000,
+        CHUNK_FRAMES = 100
+    };
     for (unsigned i = 0; i < FRAMES / CHUNK_FRAMES; i++) {
         for (unsigned k = 0; k < CHUNK_FRAMES; k++) {
             plan_damaged();
@@ -220,11 +244,23 @@ static void plan_flood(uint32_t bytes)
 {
     while (line.script_length < bytes) {
         line_plan_frame(&line, NODE, 1, "\001", 1);
-        line_plan_frame(&line, 0, 0, "\004" "0", 2);
-        line_plan_frame(&line, NODE + 1, 5, "\002" "0F100R", 7);
-        line_plan_frame(&line, NODE, 2, "\006" "1", 2);
+        line_plan_frame(&line, 0, 0,
+                        "\004"
+                        "0",
+                        2);
+        line_plan_frame(&line, NODE + 1, 5,
+                        "\002"
+                        "0F100R",
+                        7);
+        line_plan_frame(&line, NODE, 2,
+                        "\006"
+                        "1",
+                        2);
         plan_noise(40);
-        line_plan_frame(&line, NODE, 0, "\005" "2", 2);
+        line_plan_frame(&line, NODE, 0,
+                        "\005"
+                        "2",
+                        2);
     }
 }
 
@@ -238,7 +274,9 @@ static void send_programs(void)
 
 void test_a_flood_at_full_load_of_the_line_moves_no_pulse(void)
 {
-    enum { FLOOD_BYTES = 8000 };
+    enum {
+        FLOOD_BYTES = 8000
+    };
     static struct bench_pulse quiet[BENCH_PULSES_MAX];
     send_programs();
     bench_run_idle(&bench);

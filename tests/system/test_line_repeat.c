@@ -5,7 +5,9 @@
 #include "line_bench.h"
 #include "unity.h"
 
-enum { NODE = LINE_BENCH_NODE };
+enum {
+    NODE = LINE_BENCH_NODE
+};
 
 static struct bench bench;
 static struct line_bench line;
@@ -113,10 +115,16 @@ void test_requests_of_a_new_session_are_executed_after_a_reset(void)
 /* A damaged repeat and two broadcasts, one of which uses the buffer of the answers, come in between. */
 void test_a_repeat_is_known_after_damaged_frames_and_broadcasts(void)
 {
-    uint32_t length = frame_write(line.frame, NODE, 7, "\002" "1S1000F3R", 10);
+    uint32_t length = frame_write(line.frame, NODE, 7,
+                                  "\002"
+                                  "1S1000F3R",
+                                  10);
     line_request(&line, NODE, 7, PROTOCOL_SET_COMMAND, "1S1000F3R");
     assert_done(line_answer(&line, 7));
-    (void)frame_write(line.frame, NODE, 7, "\002" "1S1000F3R", 10);
+    (void)frame_write(line.frame, NODE, 7,
+                      "\002"
+                      "1S1000F3R",
+                      10);
     line.frame[5] ^= 4U;
     line_plan(&line, line.frame, length);
     line_request(&line, 0, 0, PROTOCOL_SET_COMMAND, "2T02?");

@@ -11,7 +11,12 @@
 #include "line_bench.h"
 #include "unity.h"
 
-enum { NODE = LINE_BENCH_NODE, STREAM_BYTES_MAX = 200, NEAR_BYTES = 3, NO_PLACE = STREAM_BYTES_MAX };
+enum {
+    NODE = LINE_BENCH_NODE,
+    STREAM_BYTES_MAX = 200,
+    NEAR_BYTES = 3,
+    NO_PLACE = STREAM_BYTES_MAX
+};
 
 #define PAUSE_TICKS (50 * (uint64_t)TICKS_PER_MS)
 
@@ -99,10 +104,13 @@ void test_a_stream_split_at_any_two_bytes_is_executed_the_same(void)
 /* The text of a program, too: as two messages, parted between any two commands. */
 void test_a_program_in_two_messages_is_the_same_program(void)
 {
-    static const char *const commands[] = {"S100", "V500", "A9000", "@1", "F20", "R",  "L3", "D",   "R", "E",
-                                           "'7",   "W5",   "J8",    "@7", "M03", "B5", "R",  "U",   ".", "@8",
-                                           "F5",   "Y",    "V900",  "Y",  "T81", "R",  "C81", "H",  "[", "]"};
-    enum { COMMANDS = sizeof commands / sizeof commands[0], PULSES = 100 };
+    static const char *const commands[] = {"S100", "V500", "A9000", "@1", "F20", "R",  "L3",  "D", "R", "E",
+                                           "'7",   "W5",   "J8",    "@7", "M03", "B5", "R",   "U", ".", "@8",
+                                           "F5",   "Y",    "V900",  "Y",  "T81", "R",  "C81", "H", "[", "]"};
+    enum {
+        COMMANDS = sizeof commands / sizeof commands[0],
+        PULSES = 100
+    };
     static struct bench_pulse whole[BENCH_PULSES_MAX];
     uint32_t count = 0;
     for (uint32_t parted = 0; parted <= COMMANDS; parted++) {

@@ -28,11 +28,11 @@ enum {
 struct master {
     uint8_t frame[FRAME_BYTES_MAX(16)];
     uint32_t length;
-    uint32_t next;      /* the byte that is on the line or will be; `length`: all are out */
-    uint32_t phase;     /* steps that it has been on the line */
-    uint32_t wait;      /* steps until it sends, or sends again */
-    uint32_t made;      /* requests that have been answered */
-    uint32_t attempts;  /* of the request in progress */
+    uint32_t next;     /* the byte that is on the line or will be; `length`: all are out */
+    uint32_t phase;    /* steps that it has been on the line */
+    uint32_t wait;     /* steps until it sends, or sends again */
+    uint32_t made;     /* requests that have been answered */
+    uint32_t attempts; /* of the request in progress */
     uint32_t repeats;
     uint8_t number;
     uint8_t heard[FRAME_MAX];

@@ -76,9 +76,9 @@ TEST_CASE("S90 V900 A4000 F20 Y V16000 A1 F1 Y V250 A12000 F15 Y V1200 A9000 F24
 TEST_CASE("S500 V300 A8000 B20 Y V900 B30 Y V40 B2 Y R", 52, 0)
 TEST_CASE("S100 V800 A9000 G-", 80, 0)
 TEST_CASE("S400 )08", 80, 0)
-TEST_CASE("M07 S100 V1000 A9000 F200 R", 40, 20)  /* stopped on its ramp up, */
-TEST_CASE("M07 S100 V500 A9000 B70 R", 54, 40)    /* in its cruise, */
-TEST_CASE("M07 S100 V2000 A9000 F60 R", 60, 40)   /* and on its ramp down */
+TEST_CASE("M07 S100 V1000 A9000 F200 R", 40, 20) /* stopped on its ramp up, */
+TEST_CASE("M07 S100 V500 A9000 B70 R", 54, 40)   /* in its cruise, */
+TEST_CASE("M07 S100 V2000 A9000 F60 R", 60, 40)  /* and on its ramp down */
 void test_power_that_goes_at_any_pulse_leaves_nothing_behind(const char *text, uint32_t pulses, uint32_t stop_behind)
 {
     static const uint64_t behind[] = {0, TICKS_PER_MS};

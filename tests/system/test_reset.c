@@ -74,8 +74,7 @@ void test_commands_sent_while_the_reset_stops_the_motor_wait_too(void)
     bench_send(&bench, 1, "V500");
     bench_do(&bench, 1, "F10 R");
     TEST_ASSERT_EQUAL_INT64(958, bench_position(&bench, 1));
-    TEST_ASSERT_UINT64_WITHIN(1, TICK_HZ / 500U,
-                              bench_pulse_tick(&bench, 1, 958) - bench_pulse_tick(&bench, 1, 957));
+    TEST_ASSERT_UINT64_WITHIN(1, TICK_HZ / 500U, bench_pulse_tick(&bench, 1, 958) - bench_pulse_tick(&bench, 1, 957));
 }
 
 static void expect_new_program_stopped_by_k(void)

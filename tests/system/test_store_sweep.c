@@ -11,7 +11,12 @@
 #include "bench.h"
 #include "unity.h"
 
-enum { BITS = 8, ERASED = 0xFF, DONE_KINDS = HOST_FLASH_ALL + 1, RUN_MS = 5 };
+enum {
+    BITS = 8,
+    ERASED = 0xFF,
+    DONE_KINDS = HOST_FLASH_ALL + 1,
+    RUN_MS = 5
+};
 
 static struct bench bench;
 static uint8_t flash[HAL_FLASH_AREAS][HAL_FLASH_AREA_BYTES];
@@ -22,7 +27,11 @@ static bool area_is_full; /* the next store changes areas */
 static const char *const old_texts[UNIT_MOTORS + 1] = {"", "T01", "T02", "T03W1", "T04S200F1"};
 static const char new_text[] = "T08W2";
 
-enum { OLD_OUTPUT = 1U << 1U, NEW_OUTPUT = 1U << 7U, OTHERS = 0x0D };
+enum {
+    OLD_OUTPUT = 1U << 1U,
+    NEW_OUTPUT = 1U << 7U,
+    OTHERS = 0x0D
+};
 
 void setUp(void)
 {

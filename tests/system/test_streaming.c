@@ -114,7 +114,9 @@ TEST_CASE("@1 '2 J1 @2 .")
 TEST_CASE("L255 L255 L255 L255 L255 L255 L255 L255 E E E E E E E E")
 void test_a_loop_without_a_wait_does_not_move_the_pulses_of_another_motor(const char *text)
 {
-    enum { PULSES = 400 };
+    enum {
+        PULSES = 400
+    };
     static uint64_t alone[PULSES];
     for (unsigned busy = 0; busy < 2; busy++) {
         bench_init(&bench);

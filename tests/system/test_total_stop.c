@@ -102,8 +102,8 @@ void test_a_short_x_while_the_motor_rests_does_nothing(const char *text)
     bench_set_input(&bench, 3, false);
     bench_do(&bench, 1, "T01 S1000 F7 B7 R");
     TEST_ASSERT_TRUE(bench_output(&bench, 1));
-    TEST_ASSERT_EQUAL_INT64(-7, bench_event(&bench, 1, HAL_TRACE_DONE,
-                                            bench_count(&bench, 1, HAL_TRACE_DONE) - 1U)->value);
+    TEST_ASSERT_EQUAL_INT64(-7,
+                            bench_event(&bench, 1, HAL_TRACE_DONE, bench_count(&bench, 1, HAL_TRACE_DONE) - 1U)->value);
     TEST_ASSERT_EQUAL_UINT32(0, bench_count(&bench, 1, HAL_TRACE_STOP));
 }
 

@@ -18,6 +18,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 
+from checks.house import project_files
+
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
 FUZZ_SECONDS = 15  # of exploration, each fuzzer
@@ -181,6 +183,13 @@ def soak(minutes: int) -> Count:
     return Count(passed=1) if succeeds(*command, show=True) else Count(failed=1)
 
 
+def c_layout() -> Count:
+    """All C as .clang-format has it; the annotations of proofs are laid out by hand."""
+    sources = [path for path in project_files() if path.suffix in (".c", ".h")]
+    formatter = Path(sys.executable).with_name("clang-format")
+    return check(formatter, "--dry-run", "--Werror", "--style=file", *sources)
+
+
 def python_style() -> Count:
     folders = ["tools", "tests"]
     return (
@@ -227,6 +236,7 @@ def steps(quick: bool, fuzz_seconds: int = FUZZ_SECONDS) -> dict[str, Callable[[
     every = ["--all"] if fuzz_seconds > FUZZ_SECONDS else []
     contracts, models = begin_proofs("prove.py", *every), begin_proofs("line_model.py")
     chosen["House limits"] = lambda: check(sys.executable, "tools/checks/house.py")
+    chosen["Layout of C (clang-format)"] = c_layout
     chosen["Python style and types"] = python_style
     chosen["Static analysis (clang-tidy, complexity, MISRA)"] = lambda: (
         check(*PYTHON, "checks.static") + check(*PYTHON, "checks.misra")

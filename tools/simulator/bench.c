@@ -17,7 +17,7 @@ enum {
     MEASURE_NS = 500000000, /* a measurement takes at least this long */
     SIMULATED_SECONDS = 20,
     MOVES_MAX = 100,
-    SEGMENTS_MAX = 32,      /* of one move; a plan has a few more only where a leg lasts for hours */
+    SEGMENTS_MAX = 32, /* of one move; a plan has a few more only where a leg lasts for hours */
 };
 
 /* Whole moves, one after the other: of first_steps, first_steps + 1 and so on to last_steps. */
@@ -140,7 +140,8 @@ static void print_generator(struct laid_mix *laid)
 
 static void print_simulation(struct run *run)
 {
-    static const char request[] = "\x02" "0S2000 V16000 A60000 G+";
+    static const char request[] = "\x02"
+                                  "0S2000 V16000 A60000 G+";
     uint8_t answer[PROTOCOL_ANSWER_BYTES_MAX];
     run_begin(run, 0);
     (void)unit_message(&run->unit, (const uint8_t *)request, (uint32_t)strlen(request), answer);

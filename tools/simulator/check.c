@@ -9,7 +9,9 @@
 #include "program_listing.h"
 #include "program_parser.h"
 
-enum { LISTED_MAX = 1000 };
+enum {
+    LISTED_MAX = 1000
+};
 
 static void print_command(const struct program_parser *parser, const struct program_instruction *instruction)
 {

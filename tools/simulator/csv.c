@@ -4,7 +4,9 @@
 #include "interpreter.h"
 #include "line.h"
 
-enum { LINE_BYTES_MAX = 256 };
+enum {
+    LINE_BYTES_MAX = 256
+};
 
 static const char *const event_texts[] = {
 #define X(name, text) text,

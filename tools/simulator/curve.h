@@ -48,12 +48,12 @@ struct curve_motor {
     int64_t steps_before;     /* the position at the beginning of the part */
     struct thin_point before; /* the last point before the part */
     bool has_before;
-    bool is_over;             /* a point behind the part has been taken */
+    bool is_over; /* a point behind the part has been taken */
     bool moving;
-    bool fresh;               /* a move has begun and made no step yet */
-    uint64_t tick;            /* of the last point; of events that come too late as well */
+    bool fresh;    /* a move has begun and made no step yet */
+    uint64_t tick; /* of the last point; of events that come too late as well */
     uint64_t move_tick;
-    int64_t milli_speed;      /* of the last interval */
+    int64_t milli_speed; /* of the last interval */
     int64_t position;
 };
 

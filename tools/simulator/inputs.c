@@ -9,7 +9,9 @@
 #include "line.h"
 #include "units.h"
 
-enum { MS_DECIMALS = 6 };
+enum {
+    MS_DECIMALS = 6
+};
 
 /* Nanoseconds: 31 years. */
 #define NS_MAX UINT64_C(1000000000000000000)

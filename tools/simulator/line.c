@@ -3,7 +3,9 @@
 #include <limits.h>
 #include <string.h>
 
-enum { DIGITS_MAX = 20 };
+enum {
+    DIGITS_MAX = 20
+};
 
 static const char digit_pairs[] = "0001020304050607080910111213141516171819"
                                   "2021222324252627282930313233343536373839"

@@ -9,7 +9,9 @@
 #include <stdint.h>
 
 /* The longest number written here: 20 digits, a sign, a point. */
-enum { LINE_NUMBER_BYTES_MAX = 24 };
+enum {
+    LINE_NUMBER_BYTES_MAX = 24
+};
 
 /* Each writes a number at `at`, without a terminator, and returns where it ends. */
 char *line_put_unsigned(char *at, uint64_t value);

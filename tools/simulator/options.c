@@ -7,7 +7,9 @@
 #include "line.h"
 #include "units.h"
 
-enum { SECONDS_DECIMALS = 9 };
+enum {
+    SECONDS_DECIMALS = 9
+};
 
 /* 31 years. */
 #define DURATION_NS_MAX UINT64_C(1000000000000000000)
@@ -152,9 +154,8 @@ static read_option *find_reader(const char *name)
         const char *name;
         read_option *read;
     } readers[] = {
-        {"--motor", read_motor},   {"--for", read_duration}, {"--epoch", read_epoch}, {"--real", read_real},
-        {"--progress", read_progress},
-        {"--points", read_points}, {"--from", read_from},    {"--to", read_to},
+        {"--motor", read_motor},       {"--for", read_duration},  {"--epoch", read_epoch}, {"--real", read_real},
+        {"--progress", read_progress}, {"--points", read_points}, {"--from", read_from},   {"--to", read_to},
     };
     for (size_t i = 0; i < sizeof readers / sizeof readers[0]; i++) {
         if (strcmp(name, readers[i].name) == 0) {

@@ -18,9 +18,9 @@ struct options {
     const char *inputs;                /* null: none */
     struct recorder_paths paths;
     uint64_t duration_ns;
-    uint64_t progress_ns;              /* so often it tells how far it is; 0: never */
-    uint64_t real_ns;                  /* ends after so much real time too; 0: does not */
-    uint64_t epoch;                    /* the unit's time at the start, ticks */
+    uint64_t progress_ns; /* so often it tells how far it is; 0: never */
+    uint64_t real_ns;     /* ends after so much real time too; 0: does not */
+    uint64_t epoch;       /* the unit's time at the start, ticks */
 };
 
 /* The usage of the whole program. */

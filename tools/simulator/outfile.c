@@ -10,7 +10,9 @@
 
 #include "complain.h"
 
-enum { BUFFER_BYTES = 1 << 18 };
+enum {
+    BUFFER_BYTES = 1 << 18
+};
 
 static bool is_special(const char *path)
 {
@@ -32,8 +34,8 @@ static char *name_part(const char *path)
 
 static void complain_of(const struct outfile *file, int error)
 {
-    complain("%s: cannot be written (%s); name a file in a folder that exists, may be written and has room",
-             file->path, strerror(error));
+    complain("%s: cannot be written (%s); name a file in a folder that exists, may be written and has room", file->path,
+             strerror(error));
 }
 
 bool outfile_open(struct outfile *file, const char *path)

@@ -13,7 +13,9 @@
 #include <stdio.h>
 
 /* The most that may be reserved at a time. */
-enum { OUTFILE_RESERVE_BYTES_MAX = 4096 };
+enum {
+    OUTFILE_RESERVE_BYTES_MAX = 4096
+};
 
 struct outfile {
     const char *path; /* null: not opened */
@@ -21,7 +23,7 @@ struct outfile {
     FILE *stream;
     char *buffer;
     size_t used;
-    int error;        /* errno of the first write that failed; 0: none */
+    int error; /* errno of the first write that failed; 0: none */
 };
 
 /* Opens a file; a null path leaves it not opened, which is no error. False after a complaint. */

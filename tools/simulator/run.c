@@ -9,7 +9,11 @@
 #include "summary.h"
 #include "units.h"
 
-enum { PASSES_PER_LOOK = 256, STEPS_PER_LOOK = 4096, SECONDS_PER_LOOK = 10 };
+enum {
+    PASSES_PER_LOOK = 256,
+    STEPS_PER_LOOK = 4096,
+    SECONDS_PER_LOOK = 10
+};
 
 static void record(struct run *run, const struct timeline_event *event)
 {
@@ -51,8 +55,8 @@ static void hear_direction(void *context, uint64_t tick, unsigned motor, bool ba
 
 static void hear_led(void *context, uint64_t tick, unsigned motor, bool on)
 {
-    record(context, &(struct timeline_event){
-                        .tick = tick, .kind = TIMELINE_LED, .motor = (uint8_t)(motor + 1U), .value = on});
+    record(context,
+           &(struct timeline_event){.tick = tick, .kind = TIMELINE_LED, .motor = (uint8_t)(motor + 1U), .value = on});
 }
 
 static void hear_input(void *context, uint64_t tick, uint8_t levels)
@@ -85,11 +89,10 @@ static void hear_trace(void *context, uint64_t tick, unsigned motor, enum hal_tr
     } else if (event == HAL_TRACE_DONE) {
         tally_end_move(&run->tally[motor - 1U], tick);
     }
-    record(run, &(struct timeline_event){.tick = tick,
-                                         .kind = TIMELINE_TRACE,
-                                         .motor = (uint8_t)motor,
-                                         .detail = (uint8_t)event,
-                                         .value = value});
+    record(
+        run,
+        &(struct timeline_event){
+            .tick = tick, .kind = TIMELINE_TRACE, .motor = (uint8_t)motor, .detail = (uint8_t)event, .value = value});
 }
 
 static void record_positions(struct run *run)

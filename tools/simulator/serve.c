@@ -53,10 +53,10 @@ struct serve {
     struct serve_port control_port;
     struct serve_talk talk;
     struct serve_clock clock;
-    uint64_t rested_ns;         /* real time at which the units caught up last */
+    uint64_t rested_ns; /* real time at which the units caught up last */
     struct pollfd slots[SLOTS];
-    bool touched;               /* bytes or inputs have come that the units have not seen yet */
-    bool over;                  /* standard input has ended, and this is to end with it */
+    bool touched; /* bytes or inputs have come that the units have not seen yet */
+    bool over;    /* standard input has ended, and this is to end with it */
 };
 
 const char serve_usage[] =
@@ -84,9 +84,9 @@ const char serve_usage[] =
 static enum exit_status open_ports(struct serve *serve)
 {
     const struct serve_options *options = serve->options;
-    enum exit_status status =
-        options->pty != NULL ? serve_port_open_pty(&serve->line_port, options->pty)
-                             : serve_port_listen(&serve->line_port, "--tcp", options->address, options->tcp_port);
+    enum exit_status status = options->pty != NULL
+                                  ? serve_port_open_pty(&serve->line_port, options->pty)
+                                  : serve_port_listen(&serve->line_port, "--tcp", options->address, options->tcp_port);
     if (status == EXIT_DONE && options->control) {
         status = serve_port_listen(&serve->control_port, "--control", options->address, options->control_port);
     }

@@ -5,7 +5,9 @@
 #include "base_tick.h"
 #include "units.h"
 
-enum { MILLI = 1000 };
+enum {
+    MILLI = 1000
+};
 
 /* Ticks that serve_clock_ns looks ahead: 16 hours at speed 1, a minute at the highest. */
 #define AHEAD_TICKS_MAX UINT64_C(5000000000000)

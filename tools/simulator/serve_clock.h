@@ -8,7 +8,9 @@
 #include <stdint.h>
 
 /* Thousandths of real time: up to 1000 times as fast. */
-enum { SERVE_MILLI_SPEED_MAX = 1000000 };
+enum {
+    SERVE_MILLI_SPEED_MAX = 1000000
+};
 
 struct serve_clock {
     uint64_t base_ns;     /* real time, and ... */

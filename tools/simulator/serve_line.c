@@ -4,7 +4,9 @@
 #include <string.h>
 
 /* Main has a pass behind each byte: else bytes that come on the same tick overrun it. */
-enum { UNPACED_TICKS = 1 };
+enum {
+    UNPACED_TICKS = 1
+};
 
 void serve_line_init(struct serve_line *line, struct serve_port *port, bool paced)
 {

@@ -19,9 +19,9 @@ enum {
 struct serve_line {
     struct host_line_byte heard[SERVE_HEARD_MAX]; /* sorted by tick */
     uint32_t heard_count;
-    uint32_t byte_ticks;                          /* from one byte to the next */
-    uint64_t last_tick;                           /* of the last byte that was put on the line */
-    uint8_t said[SERVE_SAID_MAX];                 /* by units, not yet given to clients */
+    uint32_t byte_ticks;          /* from one byte to the next */
+    uint64_t last_tick;           /* of the last byte that was put on the line */
+    uint8_t said[SERVE_SAID_MAX]; /* by units, not yet given to clients */
     uint32_t said_count;
     struct serve_port *port;
 };

@@ -22,11 +22,11 @@ struct serve_options {
     uint32_t milli_speed; /* thousandths of real time; 0: as fast as possible */
     uint16_t tcp_port;    /* 0: any free one */
     uint16_t control_port;
-    bool control;         /* whether control_port was asked for */
+    bool control; /* whether control_port was asked for */
     bool tcp;
     bool unpaced;
     bool json;
-    bool until_eof;       /* ends when standard input does */
+    bool until_eof; /* ends when standard input does */
     uint8_t units;
     uint8_t nodes[SERVE_UNITS_MAX];
 };

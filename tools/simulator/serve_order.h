@@ -13,7 +13,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { SERVE_ORDER_BYTES_MAX = 64 };
+enum {
+    SERVE_ORDER_BYTES_MAX = 64
+};
 
 /* A line on its way in. */
 struct serve_text {

@@ -7,7 +7,9 @@
 #include "line.h"
 #include "units.h"
 
-enum { SECONDS_DECIMALS = 3 };
+enum {
+    SECONDS_DECIMALS = 3
+};
 
 enum exit_status serve_unit_begin(struct serve_unit *unit, uint8_t node, const char *flash_path)
 {

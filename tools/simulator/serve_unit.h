@@ -14,7 +14,9 @@
 #include "serve_line.h"
 #include "unit.h"
 
-enum { SERVE_STATUS_BYTES_MAX = 768 };
+enum {
+    SERVE_STATUS_BYTES_MAX = 768
+};
 
 struct serve_unit {
     struct host_machine machine;

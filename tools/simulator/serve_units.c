@@ -6,7 +6,9 @@
 
 #include "base_tick.h"
 
-enum { SUFFIX_BYTES = 16 };
+enum {
+    SUFFIX_BYTES = 16
+};
 
 /* A unit that does not complain is in the list. */
 static enum exit_status add_unit(struct serve_units *units, uint8_t node, const char *flash_path)

@@ -15,11 +15,11 @@ enum {
 const char *summary_state_text(unsigned state)
 {
     static const char *const texts[SUMMARY_STATES] = {
-        [INTERPRETER_RUNNING] = "running",       [INTERPRETER_IDLE] = "idle",
-        [INTERPRETER_HELD] = "held",             [INTERPRETER_MOVING] = "moving",
-        [INTERPRETER_WAIT_TIME] = "wait_time",   [INTERPRETER_WAIT_LEVEL] = "wait_level",
-        [INTERPRETER_STOPPED] = "stopped",       [INTERPRETER_RESETTING] = "resetting",
-        [INTERPRETER_ENDED] = "ended",           [INTERPRETER_FAILED] = "failed",
+        [INTERPRETER_RUNNING] = "running",     [INTERPRETER_IDLE] = "idle",
+        [INTERPRETER_HELD] = "held",           [INTERPRETER_MOVING] = "moving",
+        [INTERPRETER_WAIT_TIME] = "wait_time", [INTERPRETER_WAIT_LEVEL] = "wait_level",
+        [INTERPRETER_STOPPED] = "stopped",     [INTERPRETER_RESETTING] = "resetting",
+        [INTERPRETER_ENDED] = "ended",         [INTERPRETER_FAILED] = "failed",
     };
     return texts[state];
 }

@@ -14,6 +14,8 @@ uint64_t summary_milli_ratio(const struct run *run);
 
 /* The name of an enum interpreter_state. */
 const char *summary_state_text(unsigned state);
-enum { SUMMARY_STATES = INTERPRETER_FAILED + 1 };
+enum {
+    SUMMARY_STATES = INTERPRETER_FAILED + 1
+};
 
 #endif

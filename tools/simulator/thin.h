@@ -11,7 +11,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { THIN_POINTS_PER_COLUMN = 6 };
+enum {
+    THIN_POINTS_PER_COLUMN = 6
+};
 
 struct thin_point {
     uint64_t tick;
@@ -33,8 +35,8 @@ struct thin_column {
 
 struct thin {
     struct thin_column *columns;
-    uint32_t count;      /* of columns, at most points_max */
-    uint32_t points;     /* at least as many as stay */
+    uint32_t count;  /* of columns, at most points_max */
+    uint32_t points; /* at least as many as stay */
     uint32_t points_max;
     unsigned shift;    /* the width of a column is 2^shift ticks */
     uint64_t ordinals; /* points taken */

@@ -13,7 +13,9 @@
 
 #include "base_tick.h"
 
-enum { TIMELINE_EVENTS_MAX = 4096 };
+enum {
+    TIMELINE_EVENTS_MAX = 4096
+};
 
 /* No event is told later than this, as long as the main loop is called every 20 us: 2 ms. */
 #define TIMELINE_WINDOW_TICKS (UINT64_C(2) * TICKS_PER_MS)
@@ -33,9 +35,9 @@ struct timeline_event {
     uint64_t tick;
     int64_t value;
     uint64_t interval_ticks; /* of a step: as tally_count_pulse tells it; else 0 */
-    uint8_t kind;   /* enum timeline_kind */
-    uint8_t motor;  /* 1 to 4; 0: the unit */
-    uint8_t detail; /* see above, else 0 */
+    uint8_t kind;            /* enum timeline_kind */
+    uint8_t motor;           /* 1 to 4; 0: the unit */
+    uint8_t detail;          /* see above, else 0 */
 };
 
 typedef void timeline_deliver(void *context, const struct timeline_event *event);

@@ -6,7 +6,9 @@
 #include "line.h"
 #include "units.h"
 
-enum { LINE_BYTES_MAX = 128 };
+enum {
+    LINE_BYTES_MAX = 128
+};
 
 /* Signals by number; the code of a signal in the file is one printable character from '!' on. */
 enum signal {

@@ -2,7 +2,9 @@
 
 #include "board.h"
 
-enum { LINE_BYTES = 16 };
+enum {
+    LINE_BYTES = 16
+};
 
 static bool take_line(struct art *art, unsigned first, unsigned lines, uint32_t address)
 {

@@ -113,7 +113,11 @@ void board_reset(struct board *board, enum reset_cause cause)
 
 static void reset_peripheral(struct board *board, uint32_t offset, unsigned bit)
 {
-    enum { AHB1 = 0x10, APB1 = 0x20, APB2 = 0x24 };
+    enum {
+        AHB1 = 0x10,
+        APB1 = 0x20,
+        APB2 = 0x24
+    };
     if (offset == AHB1 && bit < GPIO_PORTS) {
         gpio_reset_port(board, bit);
     } else if (offset == APB1 && bit < TIMERS) {
@@ -146,7 +150,7 @@ void board_lock_up(struct board *board)
 
 void board_stop_clock(struct board *board)
 {
-    static const enum event clocked[] = {EVENT_TIM2, EVENT_TIM3, EVENT_TIM4, EVENT_TIM5, EVENT_SYSTICK,
+    static const enum event clocked[] = {EVENT_TIM2,   EVENT_TIM3,   EVENT_TIM4,   EVENT_TIM5, EVENT_SYSTICK,
                                          EVENT_USART1, EVENT_USART2, EVENT_USART3, EVENT_BUS};
     for (unsigned i = 0; i < sizeof clocked / sizeof *clocked; i++) {
         events_set(board, clocked[i], VTIME_NEVER);
@@ -222,8 +226,7 @@ static bool open_files(struct board *board)
 {
     const struct options *options = board->options;
     return pins_read(&board->pins, options->pins) && recorder_open(board) && inputs_open(board) && rs485_open(board) &&
-           tty_open(board) && profile_open(board, options->profile) && faults_open(board) &&
-           supply_open(board);
+           tty_open(board) && profile_open(board, options->profile) && faults_open(board) && supply_open(board);
 }
 
 /* What is wired to the part, before power comes. */

@@ -40,29 +40,32 @@
 
 enum board_end {
     BOARD_RUNS,
-    BOARD_TIME,      /* --for is over */
-    BOARD_REACHED,   /* --end-at was reached */
+    BOARD_TIME,    /* --for is over */
+    BOARD_REACHED, /* --end-at was reached */
     BOARD_POWER_CUT,
-    BOARD_FAILED,    /* the program did what the part does not do, or the model not */
+    BOARD_FAILED, /* the program did what the part does not do, or the model not */
 };
 
-enum { BOARD_TEXT_BYTES_MAX = 512, BOARD_WARNINGS_SHOWN = 20 };
+enum {
+    BOARD_TEXT_BYTES_MAX = 512,
+    BOARD_WARNINGS_SHOWN = 20
+};
 
 struct board {
     const struct options *options;
     struct vtime time;
     struct events events;
-    uint64_t event_cycle;       /* of the event that runs, or of the last access to a peripheral */
+    uint64_t event_cycle; /* of the event that runs, or of the last access to a peripheral */
     enum board_end end;
     char text[BOARD_TEXT_BYTES_MAX]; /* of BOARD_FAILED */
     enum reset_cause wanted_reset;
     unsigned resets[RESET_CAUSES];
-    uint64_t reset_ps;          /* of the last one; 0: power-on */
-    unsigned reset_steps;       /* the STEP pins that were active just before it, one bit a motor */
-    unsigned reset_outputs;     /* and the outputs */
+    uint64_t reset_ps;      /* of the last one; 0: power-on */
+    unsigned reset_steps;   /* the STEP pins that were active just before it, one bit a motor */
+    unsigned reset_outputs; /* and the outputs */
     unsigned lockups;
     unsigned warnings;
-    uint64_t real_ns;           /* that the run took */
+    uint64_t real_ns; /* that the run took */
 
     struct image image;
     struct pins pins;
@@ -126,8 +129,7 @@ void board_sleep(struct board *board);
 static inline bool board_wants_stop(const struct board *board)
 {
     return board->end != BOARD_RUNS || board->wanted_reset != RESET_NONE || board->faults.due > 0 ||
-           board->flash.code_changed ||
-           flash_is_busy(&board->flash) != board->flash.read_protected;
+           board->flash.code_changed || flash_is_busy(&board->flash) != board->flash.read_protected;
 }
 
 void board_measure_event(struct board *board, uint64_t cycle);

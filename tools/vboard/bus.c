@@ -29,7 +29,7 @@ struct block {
     bus_writer *write;
     uint32_t base;
     uint8_t instance;
-    bool takes_bytes; /* whether single bytes may be accessed */
+    bool takes_bytes;     /* whether single bytes may be accessed */
     uint8_t clock_offset; /* of its clock enable register in RCC; 0: always on */
     uint8_t clock_bit;
 };
@@ -127,7 +127,10 @@ static const char *refuse_system(uint32_t address, unsigned bytes)
 
 /* AN4031 table 4: an access to APB takes two clocks of that bus, and before them one of HCLK each for the matrix and to
  * get into step with the bus. An instruction that finds it idle has the latter two in its own cycles. */
-enum { MATRIX_CYCLES = 2, QUARTER = 4 };
+enum {
+    MATRIX_CYCLES = 2,
+    QUARTER = 4
+};
 
 static uint32_t apb_wait(const struct board *board, uint32_t address)
 {

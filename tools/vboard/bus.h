@@ -22,9 +22,9 @@ struct bus_write {
 };
 
 struct bus {
-    uint32_t apb_wait;         /* cycles by which an access to an APB at a quarter of HCLK takes longer */
-    uint64_t apb_busy_until;   /* the write that is on its way has arrived */
-    struct bus_write write;    /* there is one at most: the next access to APB waits for it */
+    uint32_t apb_wait;       /* cycles by which an access to an APB at a quarter of HCLK takes longer */
+    uint64_t apb_busy_until; /* the write that is on its way has arrived */
+    struct bus_write write;  /* there is one at most: the next access to APB waits for it */
 };
 
 /* Maps the peripherals into the processor's addresses. */

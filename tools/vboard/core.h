@@ -16,7 +16,7 @@ struct systick {
     bool undivided; /* CLKSOURCE: HCLK, else HCLK / 8 */
     bool counted;   /* COUNTFLAG */
     uint32_t load;
-    uint32_t value;        /* at `anchor` */
+    uint32_t value; /* at `anchor` */
     uint64_t anchor_cycle;
 };
 

@@ -211,8 +211,8 @@ static void price_other(struct cost *cost, const cs_insn *instruction)
     static const struct {
         const char *name;
         enum cost_kind kind;
-    } kinds[] = {{"cps", COST_MASKS}, {"msr", COST_MASKS}, {"wfi", COST_SLEEP}, {"wfe", COST_SLEEP_EVENT},
-                 {"sev", COST_EVENT},   {"dsb", COST_BARRIER}};
+    } kinds[] = {{"cps", COST_MASKS},       {"msr", COST_MASKS}, {"wfi", COST_SLEEP},
+                 {"wfe", COST_SLEEP_EVENT}, {"sev", COST_EVENT}, {"dsb", COST_BARRIER}};
     if (starts_with_any(instruction, divisions)) {
         price_division(cost, instruction);
     } else if (starts_with_any(instruction, multiplies)) {

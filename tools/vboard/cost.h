@@ -17,32 +17,34 @@ enum {
 };
 
 enum cost_flag {
-    COST_PIPELINED = 1 << 0, /* a load, or a store with a register offset: one cycle less right behind a load */
-    COST_LOAD = 1 << 1,      /* a load: what follows may be pipelined with it */
+    COST_PIPELINED = 1 << 0,  /* a load, or a store with a register offset: one cycle less right behind a load */
+    COST_LOAD = 1 << 1,       /* a load: what follows may be pipelined with it */
     COST_FLASH_DATA = 1 << 2, /* reads a literal from flash: costs its wait states as well */
-    COST_IN_IT = 1 << 3,     /* inside an IT block: emulation must not stop here */
-    COST_SLOW = 1 << 4,      /* has a kind that must be looked at each time */
-    COST_OPENS_IT = 1 << 5,  /* is IT */
-    COST_IN_LINE = 1 << 8,   /* only of the instruction before: what follows it has not been jumped to */
+    COST_IN_IT = 1 << 3,      /* inside an IT block: emulation must not stop here */
+    COST_SLOW = 1 << 4,       /* has a kind that must be looked at each time */
+    COST_OPENS_IT = 1 << 5,   /* is IT */
+    COST_IN_LINE = 1 << 8,    /* only of the instruction before: what follows it has not been jumped to */
 };
 
 /* What must be looked at before such an instruction is executed. */
 /* The number of the link register in an instruction. */
-enum { COST_REGISTER_LR = 14 };
+enum {
+    COST_REGISTER_LR = 14
+};
 
 enum cost_kind {
     COST_PLAIN,
-    COST_UNKNOWN, /* not decoded yet */
-    COST_IT,      /* opens an IT block */
-    COST_DIVIDE,  /* UDIV, SDIV: the cost depends on the operands */
-    COST_BARRIER, /* DSB: waits for a write that is on its way */
-    COST_MASKS,   /* CPS, MSR: an interrupt may become possible */
-    COST_SLEEP,   /* WFI */
+    COST_UNKNOWN,     /* not decoded yet */
+    COST_IT,          /* opens an IT block */
+    COST_DIVIDE,      /* UDIV, SDIV: the cost depends on the operands */
+    COST_BARRIER,     /* DSB: waits for a write that is on its way */
+    COST_MASKS,       /* CPS, MSR: an interrupt may become possible */
+    COST_SLEEP,       /* WFI */
     COST_SLEEP_EVENT, /* WFE */
-    COST_EVENT,   /* SEV */
-    COST_FLOAT,   /* needs the coprocessor enabled */
-    COST_END,     /* the run ends here */
-    COST_HOLD,    /* a fault: it does not get past this */
+    COST_EVENT,       /* SEV */
+    COST_FLOAT,       /* needs the coprocessor enabled */
+    COST_END,         /* the run ends here */
+    COST_HOLD,        /* a fault: it does not get past this */
 };
 
 struct cost {

@@ -19,7 +19,7 @@ enum cpu_stop {
     CPU_STOP_BOUNDARY, /* an exception can be taken, or the board wants something */
     CPU_STOP_SLEEP,
     CPU_STOP_SLEEP_EVENT,
-    CPU_STOP_HOLD, /* a fault: the instruction is never done */
+    CPU_STOP_HOLD,  /* a fault: the instruction is never done */
     CPU_STOP_TRAP,  /* Unicorn saw an exception: `trap` */
     CPU_STOP_FAULT, /* a memory access failed: `fault_bits`, `fault_address` */
 };
@@ -36,7 +36,7 @@ enum {
 };
 
 enum {
-    CPU_ART_LINES = 64,      /* of 128 bits, for instructions (RM0090 section 3.5.2) */
+    CPU_ART_LINES = 64, /* of 128 bits, for instructions (RM0090 section 3.5.2) */
     CPU_ART_DATA_LINES = 8,
 };
 
@@ -47,20 +47,20 @@ struct art {
 };
 
 struct cpu {
-    uint64_t now;      /* cycles; inside an instruction: at its end */
-    uint64_t deadline; /* from this cycle on the next boundary is looked at; 0: at once */
-    uint32_t at;       /* the instruction that runs */
-    uint32_t next;     /* the one behind it */
-    uint32_t it_end;   /* end of the IT block entered last */
-    uint32_t last;     /* enum cost_flag of the instruction before */
-    uint32_t line_mask;  /* of the line of the flash that is executed; 0 outside the flash */
+    uint64_t now;       /* cycles; inside an instruction: at its end */
+    uint64_t deadline;  /* from this cycle on the next boundary is looked at; 0: at once */
+    uint32_t at;        /* the instruction that runs */
+    uint32_t next;      /* the one behind it */
+    uint32_t it_end;    /* end of the IT block entered last */
+    uint32_t last;      /* enum cost_flag of the instruction before */
+    uint32_t line_mask; /* of the line of the flash that is executed; 0 outside the flash */
     uint32_t line;
     uint64_t line_cycle; /* when it was there */
-    uint32_t refill;   /* P: cycles to refill the pipeline at a taken branch */
+    uint32_t refill;     /* P: cycles to refill the pipeline at a taken branch */
     uint32_t wait_states;
     bool wait_states_fixed; /* by option; else they follow FLASH_ACR */
     bool art_modelled;
-    bool counted_all;  /* emulation has been told to stop: the hook does nothing any more */
+    bool counted_all; /* emulation has been told to stop: the hook does nothing any more */
     struct cost_table cost;
     struct art art;
 
@@ -71,7 +71,7 @@ struct cpu {
     uint32_t fault_address; /* that it accessed */
     uint32_t fault_bits;    /* of CFSR */
     bool event_register;
-    bool stalled_forever;   /* lockup, or the clock has stopped: only a reset helps */
+    bool stalled_forever; /* lockup, or the clock has stopped: only a reset helps */
     uint64_t instructions;
     uint64_t asleep_cycles;
     uint64_t stalled_cycles; /* waiting for the flash */

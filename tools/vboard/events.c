@@ -5,14 +5,26 @@
 typedef void event_handler(struct board *board, uint64_t cycle);
 
 static event_handler *const handlers[EVENTS] = {
-    [EVENT_TIM2] = tim2_event,         [EVENT_TIM3] = tim3_event,     [EVENT_TIM4] = tim4_event,
-    [EVENT_TIM5] = tim5_event,         [EVENT_SYSTICK] = systick_event, [EVENT_USART1] = usart1_event,
-    [EVENT_USART2] = usart2_event,     [EVENT_USART3] = usart3_event, [EVENT_BUS] = bus_event,
+    [EVENT_TIM2] = tim2_event,
+    [EVENT_TIM3] = tim3_event,
+    [EVENT_TIM4] = tim4_event,
+    [EVENT_TIM5] = tim5_event,
+    [EVENT_SYSTICK] = systick_event,
+    [EVENT_USART1] = usart1_event,
+    [EVENT_USART2] = usart2_event,
+    [EVENT_USART3] = usart3_event,
+    [EVENT_BUS] = bus_event,
     [EVENT_FLASH] = flash_event,
-    [EVENT_RCC] = rcc_event,           [EVENT_CRYSTAL] = rcc_crystal_event, [EVENT_IWDG] = iwdg_event,
-    [EVENT_LINE] = rs485_event,         [EVENT_INPUTS] = inputs_event,   [EVENT_FAULT] = faults_event,
-    [EVENT_SUPPLY] = supply_event,     [EVENT_THROTTLE] = tty_event,
-    [EVENT_MEASURE] = board_measure_event, [EVENT_END] = board_end_event,
+    [EVENT_RCC] = rcc_event,
+    [EVENT_CRYSTAL] = rcc_crystal_event,
+    [EVENT_IWDG] = iwdg_event,
+    [EVENT_LINE] = rs485_event,
+    [EVENT_INPUTS] = inputs_event,
+    [EVENT_FAULT] = faults_event,
+    [EVENT_SUPPLY] = supply_event,
+    [EVENT_THROTTLE] = tty_event,
+    [EVENT_MEASURE] = board_measure_event,
+    [EVENT_END] = board_end_event,
 };
 
 void events_init(struct events *events)

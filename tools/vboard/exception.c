@@ -38,10 +38,12 @@ static uint32_t get_word(const uint8_t *frame, uint32_t number)
 }
 
 /* R0 to R3, R12, LR as the frame holds them. */
-static const int frame_registers[] = {UC_ARM_REG_R0, UC_ARM_REG_R1, UC_ARM_REG_R2,
+static const int frame_registers[] = {UC_ARM_REG_R0, UC_ARM_REG_R1,  UC_ARM_REG_R2,
                                       UC_ARM_REG_R3, UC_ARM_REG_R12, UC_ARM_REG_LR};
 
-enum { FRAME_REGISTERS = sizeof frame_registers / sizeof *frame_registers };
+enum {
+    FRAME_REGISTERS = sizeof frame_registers / sizeof *frame_registers
+};
 
 static void save_floats(struct cpu *cpu, uint8_t *frame)
 {
@@ -239,7 +241,10 @@ static uint32_t refuse_return(struct board *board, unsigned exception, uint32_t 
  * whose load comes behind the store. */
 static void look_for_store(struct board *board)
 {
-    enum { BX_MASK = 0xFF87, BX = 0x4700 };
+    enum {
+        BX_MASK = 0xFF87,
+        BX = 0x4700
+    };
     const uint8_t *code = memory_find(&board->memory, board->cpu.at, 2);
     bool is_bx = code != NULL && ((code[0] | (unsigned)code[1] << 8) & BX_MASK) == BX;
     if (is_bx && bus_idle_cycle(board) > board->cpu.now) {

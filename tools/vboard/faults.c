@@ -6,7 +6,11 @@
 #include "complain.h"
 #include "line.h"
 
-enum { MS_DECIMALS = 9, NAME_BYTES_MAX = 64, NO_ADDRESS = 1 };
+enum {
+    MS_DECIMALS = 9,
+    NAME_BYTES_MAX = 64,
+    NO_ADDRESS = 1
+};
 
 #define MS_MAX UINT64_C(1000000000)
 #define LOSE_MS_MAX UINT64_C(1000000)
@@ -107,8 +111,8 @@ static bool read_fault(struct board *board, const char *at)
         enum fault_kind kind;
         bool (*read)(struct board *board, const char *at, const char *end, struct fault fault);
     } kinds[] = {
-        {"jump=", FAULT_JUMP, read_place}, {"sp=", FAULT_STACK, read_place},  {"word=", FAULT_WORD, read_word},
-        {"hold=", FAULT_HOLD, read_place}, {"lose=", FAULT_LOSE, read_loss}, {"power", FAULT_POWER, read_place},
+        {"jump=", FAULT_JUMP, read_place},  {"sp=", FAULT_STACK, read_place}, {"word=", FAULT_WORD, read_word},
+        {"hold=", FAULT_HOLD, read_place},  {"lose=", FAULT_LOSE, read_loss}, {"power", FAULT_POWER, read_place},
         {"reset", FAULT_RESET, read_place},
     };
     const char *end = at + strlen(at);

@@ -9,7 +9,9 @@
 
 struct board;
 
-enum { FAULTS_MAX = 16 };
+enum {
+    FAULTS_MAX = 16
+};
 
 enum fault_kind {
     FAULT_JUMP,  /* the program goes on at an address */

@@ -178,8 +178,10 @@ static void begin(struct board *board, enum flash_operation operation, uint64_t 
         flash->cut = board->options->cut[i].operation == flash->operations ? &board->options->cut[i] : flash->cut;
     }
     if (board->supply.mv < least_mv(flash)) {
-        board_fail(board, "an operation of the flash begins at %u mV, PSIZE %u needs %u; it may not last (RM0090 "
-                   "3.6.2)", (unsigned)board->supply.mv, (unsigned)(flash->cr >> 8 & 3U), (unsigned)least_mv(flash));
+        board_fail(board,
+                   "an operation of the flash begins at %u mV, PSIZE %u needs %u; it may not last (RM0090 "
+                   "3.6.2)",
+                   (unsigned)board->supply.mv, (unsigned)(flash->cr >> 8 & 3U), (unsigned)least_mv(flash));
     }
     flash->needs_mv = least_mv(flash);
     flash->weak = false;

@@ -26,15 +26,15 @@ struct flash {
     uint32_t sr;
     uint32_t cr;
     uint32_t optcr;
-    uint32_t options;  /* what is kept of OPTCR; a reset brings it back */
+    uint32_t options; /* what is kept of OPTCR; a reset brings it back */
     unsigned option_keys;
     uint64_t option_writes;
-    unsigned keys;     /* how many of the two keys have come */
-    bool locked_out;   /* a wrong key: locked until the next reset */
+    unsigned keys;   /* how many of the two keys have come */
+    bool locked_out; /* a wrong key: locked until the next reset */
     enum flash_operation operation;
-    uint32_t address;  /* of the operation in progress, offset in the memory */
+    uint32_t address; /* of the operation in progress, offset in the memory */
     uint32_t bytes;
-    uint32_t value;    /* to be programmed */
+    uint32_t value; /* to be programmed */
     uint64_t done_cycle;
     bool read_protected; /* reads are watched, as the bus has to wait */
     bool code_changed;   /* what was executed before has been rewritten */
@@ -46,7 +46,7 @@ struct flash {
     uint64_t operations;
     uint64_t programs;
     uint64_t erases;
-    uint64_t stalls;     /* how often the processor had to wait */
+    uint64_t stalls; /* how often the processor had to wait */
 };
 
 void flash_reset(struct board *board);

@@ -20,7 +20,7 @@ enum {
 };
 
 struct pin {
-    uint8_t port;   /* GPIO_PORTS: no pin */
+    uint8_t port; /* GPIO_PORTS: no pin */
     uint8_t number;
 };
 
@@ -31,16 +31,16 @@ struct port {
     uint32_t pupdr;
     uint16_t odr;
     uint64_t afr;
-    uint16_t level;       /* of the pins, as anybody can measure them */
-    uint16_t driven;      /* pins that something outside drives */
-    uint16_t outside;     /* and to which level */
-    uint16_t stuck;       /* pins that are stuck, whatever drives them */
+    uint16_t level;   /* of the pins, as anybody can measure them */
+    uint16_t driven;  /* pins that something outside drives */
+    uint16_t outside; /* and to which level */
+    uint16_t stuck;   /* pins that are stuck, whatever drives them */
     uint16_t stuck_level;
-    uint16_t output;      /* from MODER: general purpose outputs, alternate functions, analog */
+    uint16_t output; /* from MODER: general purpose outputs, alternate functions, analog */
     uint16_t alternate;
     uint16_t analog;
-    uint16_t function[GPIO_FUNCTIONS];       /* pins that have this alternate function selected and are in its mode */
-    uint16_t function_level[GPIO_FUNCTIONS]; /* what the peripherals drive there */
+    uint16_t function[GPIO_FUNCTIONS];        /* pins that have this alternate function selected and are in its mode */
+    uint16_t function_level[GPIO_FUNCTIONS];  /* what the peripherals drive there */
     uint16_t function_drives[GPIO_FUNCTIONS]; /* and which pins they drive at all */
 };
 

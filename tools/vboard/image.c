@@ -119,8 +119,8 @@ bool image_find_symbol(const struct image *image, const char *name, uint32_t *va
     }
     for (uint32_t at = 0; at + sizeof(Elf32_Sym) <= symbols.sh_size; at += (uint32_t)sizeof(Elf32_Sym)) {
         Elf32_Sym symbol;
-        if (copy_out(image, (uint64_t)symbols.sh_offset + at, &symbol, sizeof symbol) &&
-            symbol.st_shndx != SHN_UNDEF && strcmp(symbol_name(image, &strings, &symbol), name) == 0) {
+        if (copy_out(image, (uint64_t)symbols.sh_offset + at, &symbol, sizeof symbol) && symbol.st_shndx != SHN_UNDEF &&
+            strcmp(symbol_name(image, &strings, &symbol), name) == 0) {
             *value = symbol.st_value;
             *bytes = symbol.st_size;
             return true;
@@ -155,7 +155,9 @@ static bool put_hex(uint8_t *to, size_t bytes, const char *text)
 
 bool image_set(struct board *board, const char *text)
 {
-    enum { NAME_BYTES_MAX = 64 };
+    enum {
+        NAME_BYTES_MAX = 64
+    };
     char name[NAME_BYTES_MAX] = "";
     const char *equals = strchr(text, '=');
     size_t length = equals == NULL ? 0 : (size_t)(equals - text);

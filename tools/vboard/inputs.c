@@ -8,7 +8,9 @@
 #include "infile.h"
 #include "line.h"
 
-enum { MS_DECIMALS = 9 };
+enum {
+    MS_DECIMALS = 9
+};
 
 #define MS_MAX (UINT64_C(1000000000) * VTIME_PS_PER_MS)
 

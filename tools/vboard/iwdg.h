@@ -12,13 +12,13 @@ struct board;
 struct iwdg {
     bool started;
     bool unlocked;
-    uint32_t prescaler;     /* PR */
-    uint32_t reload;        /* RLR */
+    uint32_t prescaler;        /* PR */
+    uint32_t reload;           /* RLR */
     uint64_t prescaler_end_ps; /* PVU is set until then */
     uint64_t reload_end_ps;    /* and RVU */
     uint64_t refreshes;
     uint64_t refreshed_ps;
-    uint64_t longest_ps;    /* between two refreshes */
+    uint64_t longest_ps; /* between two refreshes */
 };
 
 void iwdg_reset(struct board *board);

@@ -18,7 +18,7 @@ static uint8_t *allocate(uint32_t bytes, uint8_t filling)
 static void fill_system_area(struct memory *memory, uint32_t flash_kb)
 {
     static const uint8_t id[12] = "VBOARD-0001";
-    memcpy(memory->system + 0xA10, id, sizeof id); /* RM0090 section 39.1: unique device id */
+    memcpy(memory->system + 0xA10, id, sizeof id);       /* RM0090 section 39.1: unique device id */
     memory->system[0xA22] = (uint8_t)(flash_kb & 0xFFU); /* section 39.2 */
     memory->system[0xA23] = (uint8_t)(flash_kb >> 8);
 }

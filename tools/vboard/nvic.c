@@ -188,8 +188,8 @@ bool nvic_can_take(struct board *board)
 bool nvic_can_wake(struct board *board)
 {
     unsigned next = nvic_next_pending(&board->nvic);
-    return next != NVIC_NONE && nvic_group_priority(&board->nvic, next) <
-                                    lower(nvic_active_priority(&board->nvic), base_priority(board));
+    return next != NVIC_NONE &&
+           nvic_group_priority(&board->nvic, next) < lower(nvic_active_priority(&board->nvic), base_priority(board));
 }
 
 static uint32_t get_word(const uint64_t *words, unsigned word)

@@ -58,9 +58,9 @@ struct nvic {
     uint64_t enabled[NVIC_WORDS]; /* a bit an exception */
     uint64_t pending[NVIC_WORDS];
     uint64_t active[NVIC_WORDS];
-    uint64_t level[NVIC_WORDS];              /* the line of the peripheral */
-    uint64_t lost[NVIC_WORDS];               /* a fault: it is never taken */
-    uint64_t pended_cycle[NVIC_EXCEPTIONS];  /* since when it is pending, for the latency */
+    uint64_t level[NVIC_WORDS];             /* the line of the peripheral */
+    uint64_t lost[NVIC_WORDS];              /* a fault: it is never taken */
+    uint64_t pended_cycle[NVIC_EXCEPTIONS]; /* since when it is pending, for the latency */
     uint8_t priority[NVIC_EXCEPTIONS];
     unsigned group_bits; /* AIRCR.PRIGROUP */
 };

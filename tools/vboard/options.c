@@ -19,7 +19,7 @@ enum kind {
 
 struct row {
     const char *name;
-    size_t offset;     /* of the member: const char *, bool or uint64_t */
+    size_t offset; /* of the member: const char *, bool or uint64_t */
     enum kind kind;
     unsigned decimals; /* KIND_NUMBER */
     uint64_t unit;     /* what one of the last decimals is worth */
@@ -260,10 +260,17 @@ static reader *find_reader(const char *name)
         const char *name;
         reader *read;
     } readers[] = {
-        {"--watch", read_watch},   {"--set", read_set}, {"--stuck", read_stuck},
-        {"--flash-fail", read_flash_failure}, {"--power-cut", read_cut}, {"--fault", read_fault},
-        {"--ticks", read_ticks},   {"--flash-kb", read_flash_kb}, {"--revision", read_revision},
-        {"--thresholds", read_thresholds}, {"--option-bytes", read_option_bytes},
+        {"--watch", read_watch},
+        {"--set", read_set},
+        {"--stuck", read_stuck},
+        {"--flash-fail", read_flash_failure},
+        {"--power-cut", read_cut},
+        {"--fault", read_fault},
+        {"--ticks", read_ticks},
+        {"--flash-kb", read_flash_kb},
+        {"--revision", read_revision},
+        {"--thresholds", read_thresholds},
+        {"--option-bytes", read_option_bytes},
     };
     for (unsigned i = 0; i < sizeof readers / sizeof *readers; i++) {
         if (strcmp(readers[i].name, name) == 0) {

@@ -7,19 +7,21 @@
 #include "infile.h"
 #include "line.h"
 
-enum { WORD_BYTES_MAX = 32 };
+enum {
+    WORD_BYTES_MAX = 32
+};
 
 struct group {
     const char *before; /* of the names, in front of and behind the number from 1 */
     const char *after;
-    unsigned first;     /* enum signal */
-    unsigned length;    /* 0: one without a number */
+    unsigned first;  /* enum signal */
+    unsigned length; /* 0: one without a number */
 };
 
 static const struct group groups[] = {
-    {"m", "_step", SIGNAL_STEP, PINS_MOTORS}, {"m", "_dir", SIGNAL_DIRECTION, PINS_MOTORS},
-    {"m", "_led", SIGNAL_LED, PINS_MOTORS},   {"bi", "", SIGNAL_INPUT, PINS_INPUTS},
-    {"bo", "", SIGNAL_OUTPUT, PINS_OUTPUTS},  {"de", "", SIGNAL_DRIVER, 0},
+    {"m", "_step", SIGNAL_STEP, PINS_MOTORS},  {"m", "_dir", SIGNAL_DIRECTION, PINS_MOTORS},
+    {"m", "_led", SIGNAL_LED, PINS_MOTORS},    {"bi", "", SIGNAL_INPUT, PINS_INPUTS},
+    {"bo", "", SIGNAL_OUTPUT, PINS_OUTPUTS},   {"de", "", SIGNAL_DRIVER, 0},
     {"s1_", "", SIGNAL_SWITCH, PINS_SWITCHES},
 };
 

@@ -10,7 +10,9 @@
 
 struct board;
 
-enum { PLAIN_EXTICRS = 4 };
+enum {
+    PLAIN_EXTICRS = 4
+};
 
 struct plain {
     uint32_t syscfg_pmc;

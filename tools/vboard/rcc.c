@@ -35,7 +35,7 @@ enum {
 #define CSR_LSION (UINT32_C(1) << 0)
 #define CSR_LSIRDY (UINT32_C(1) << 1)
 #define CSR_RMVF (UINT32_C(1) << 24)
-#define CSR_FLAGS_POWER UINT32_C(0x0E000000)    /* POR, PIN, BOR */
+#define CSR_FLAGS_POWER UINT32_C(0x0E000000)     /* POR, PIN, BOR */
 #define CSR_FLAGS_BROWN_OUT UINT32_C(0x06000000) /* BOR, PIN */
 #define CSR_FLAGS_PIN UINT32_C(0x04000000)
 #define CSR_FLAGS_SOFTWARE UINT32_C(0x14000000) /* SFT, and PIN, as the part pulls NRST itself */
@@ -54,7 +54,11 @@ enum {
 /* Errata ES0182, "delay after an RCC peripheral clock enabling": an access too short behind the enable is lost: 2
  * cycles of AHB, or 1 + the divider of APB. The write itself is on its way for 2 more: with a store, a read-back and a
  * store at once the second one was lost on a part. */
-enum { ENABLE_CYCLES_AHB = 2, ENABLE_CYCLES_APB = 1, ENABLE_WAY_CYCLES = 2 };
+enum {
+    ENABLE_CYCLES_AHB = 2,
+    ENABLE_CYCLES_APB = 1,
+    ENABLE_WAY_CYCLES = 2
+};
 
 static uint32_t *word(struct rcc *rcc, uint32_t offset)
 {
@@ -278,10 +282,10 @@ void rcc_reset(struct board *board, enum reset_cause cause)
 
 static bool is_known(uint32_t offset)
 {
-    static const uint8_t offsets[] = {RCC_CR,      RCC_PLLCFGR, RCC_CFGR,    RCC_CIR,       0x10, 0x14, 0x18,
-                                      0x20,        0x24,        RCC_AHB1ENR, RCC_AHB2ENR,   RCC_AHB3ENR,
-                                      RCC_APB1ENR, RCC_APB2ENR, 0x50,        0x54,          0x58, 0x60, 0x64,
-                                      RCC_BDCR,    RCC_CSR,     RCC_SSCGR,   RCC_PLLI2SCFGR};
+    static const uint8_t offsets[] = {RCC_CR,      RCC_PLLCFGR, RCC_CFGR, RCC_CIR,     0x10,          0x14,
+                                      0x18,        0x20,        0x24,     RCC_AHB1ENR, RCC_AHB2ENR,   RCC_AHB3ENR,
+                                      RCC_APB1ENR, RCC_APB2ENR, 0x50,     0x54,        0x58,          0x60,
+                                      0x64,        RCC_BDCR,    RCC_CSR,  RCC_SSCGR,   RCC_PLLI2SCFGR};
     for (unsigned i = 0; i < sizeof offsets; i++) {
         if (offsets[i] == offset) {
             return true;

@@ -41,7 +41,9 @@ enum reset_cause {
 };
 
 /* The clock enables: AHB1, APB1, APB2. */
-enum { RCC_ENABLES = 3 };
+enum {
+    RCC_ENABLES = 3
+};
 
 struct rcc {
     uint32_t word[RCC_WORDS]; /* the registers as written, without the ready and status bits */
@@ -49,18 +51,18 @@ struct rcc {
     uint64_t hsi_ready_ps;
     uint64_t pll_ready_ps;
     uint64_t lsi_ready_ps;
-    uint64_t hse_gone_ps;     /* when what was switched off is seen to be off */
+    uint64_t hse_gone_ps; /* when what was switched off is seen to be off */
     uint64_t pll_gone_ps;
     struct {
-        uint32_t bits;        /* that were set last */
-        uint64_t cycle;       /* from then on what they stand for can be accessed */
+        uint32_t bits;  /* that were set last */
+        uint64_t cycle; /* from then on what they stand for can be accessed */
     } enabled[RCC_ENABLES];
-    unsigned source;          /* enum rcc_source */
+    unsigned source; /* enum rcc_source */
     bool crystal_failed;
     bool css_flag;
-    uint32_t pclk1_divider;   /* cycles of HCLK in one of APB1, APB2 */
+    uint32_t pclk1_divider; /* cycles of HCLK in one of APB1, APB2 */
     uint32_t pclk2_divider;
-    uint32_t timer1_divider;  /* cycles of HCLK in one of the timers' clock on APB1 */
+    uint32_t timer1_divider; /* cycles of HCLK in one of the timers' clock on APB1 */
     uint32_t reset_flags;
 };
 

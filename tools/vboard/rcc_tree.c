@@ -20,8 +20,10 @@ static uint64_t pll_hz(struct board *board)
     uint64_t compared = input / m;
     uint64_t oscillator = compared * n;
     if (compared < 950000 || compared > 2100000 || oscillator < 100000000 || oscillator > 432000000) {
-        board_fail(board, "the PLL compares at %u Hz and oscillates at %u Hz; limits are 0.95 to 2.1 MHz and 100 to "
-                   "432 MHz", (unsigned)compared, (unsigned)oscillator);
+        board_fail(board,
+                   "the PLL compares at %u Hz and oscillates at %u Hz; limits are 0.95 to 2.1 MHz and 100 to "
+                   "432 MHz",
+                   (unsigned)compared, (unsigned)oscillator);
     }
     return oscillator / p;
 }

@@ -5,7 +5,9 @@
 
 #define TICK_HZ UINT64_C(84000000) /* of the unit, where TIM2 does not run */
 
-enum { LINE_BYTES_MAX = 128 };
+enum {
+    LINE_BYTES_MAX = 128
+};
 
 static uint64_t tick_hz(const struct board *board)
 {
@@ -151,8 +153,7 @@ void recorder_note_edge(struct board *board, struct pin pin, bool level, uint64_
     recorder->level[signal] = logical;
     recorder->edge_cycle[signal] = cycle;
     if (outfile_is_open(&recorder->vcd.file)) {
-        vcd_put_wire(&recorder->vcd, signal, logical,
-                     vtime_ps_of_cycle(&board->time, cycle) / VTIME_PS_PER_NS);
+        vcd_put_wire(&recorder->vcd, signal, logical, vtime_ps_of_cycle(&board->time, cycle) / VTIME_PS_PER_NS);
     }
     if (signal < SIGNAL_DIRECTION) {
         note_step_level(board, signal - SIGNAL_STEP, logical, cycle);

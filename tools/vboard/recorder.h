@@ -17,24 +17,24 @@ struct board;
 struct recorder_motor {
     int64_t position;
     uint64_t pulses;
-    uint64_t rise_cycle;   /* of the last pulse */
+    uint64_t rise_cycle; /* of the last pulse */
     uint64_t fall_cycle;
-    uint64_t turn_cycle;   /* of the last change of DIR */
-    uint64_t width_least_ps;  /* NEVER: none yet */
-    uint64_t gap_least_ps;    /* from the end of a pulse to the next one */
+    uint64_t turn_cycle;     /* of the last change of DIR */
+    uint64_t width_least_ps; /* NEVER: none yet */
+    uint64_t gap_least_ps;   /* from the end of a pulse to the next one */
     uint64_t period_least_ps;
-    uint64_t setup_least_ps;  /* from a change of DIR to the next pulse */
-    uint64_t hold_least_ps;   /* from a pulse to the next change of DIR */
-    bool direction_fresh;     /* it has changed since the last pulse */
+    uint64_t setup_least_ps; /* from a change of DIR to the next pulse */
+    uint64_t hold_least_ps;  /* from a pulse to the next change of DIR */
+    bool direction_fresh;    /* it has changed since the last pulse */
 };
 
 struct recorder {
-    bool level[SIGNALS];       /* logical */
+    bool level[SIGNALS]; /* logical */
     uint64_t edge_cycle[SIGNALS];
     struct recorder_motor motor[PINS_MOTORS];
     struct outfile steps;
     struct vcd vcd;
-    uint64_t tick_hz;          /* that the table says; 0: it has not been begun */
+    uint64_t tick_hz;       /* that the table says; 0: it has not been begun */
     uint64_t first_step_ps; /* NEVER: none yet */
 };
 

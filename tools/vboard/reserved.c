@@ -23,7 +23,7 @@ struct row {
 #define CORE_BASE UINT32_C(0xE000E000)
 
 #define USART(base, instances)                                                                                         \
-    {base, 0x400, instances, 0x04, 0x04, 0x1FF},   /* DR */                                                            \
+    {base, 0x400, instances, 0x04, 0x04, 0x1FF},      /* DR */                                                         \
         {base, 0x400, instances, 0x08, 0x08, 0xFFFF}, /* BRR */                                                        \
         {base, 0x400, instances, 0x0C, 0x0C, 0xBFFF}, /* CR1 */                                                        \
         {base, 0x400, instances, 0x10, 0x10, 0x7F6F}, /* CR2 */                                                        \

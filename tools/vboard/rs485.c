@@ -12,7 +12,7 @@ enum {
     FRAME_BITS = 10,
     HALF_BITS_TO_STOP = 19, /* half bits from the start to the middle of the stop bit */
     LOG_BYTES_MAX = 64,
-    PS_DECIMALS = 9,        /* of milliseconds */
+    PS_DECIMALS = 9, /* of milliseconds */
     LOG_DECIMALS = 6,
     TOLERANCE_PERCENT = 3,
 };
@@ -76,8 +76,8 @@ static bool read_bytes(struct rs485 *line, uint64_t start_ps, const char **at, c
         }
         *at += 2;
         uint8_t damage = read_damage(at, end);
-        if (!append(line, (struct rs485_byte){.start_ps = start_ps, .value = (uint8_t)(high << 4 | low),
-                                              .damage = damage})) {
+        if (!append(line,
+                    (struct rs485_byte){.start_ps = start_ps, .value = (uint8_t)(high << 4 | low), .damage = damage})) {
             return false;
         }
     }
@@ -92,8 +92,8 @@ static bool read_line(struct rs485 *line, const char **at, const char *end)
         (*at)++;
     }
     bool empty = *at == end || **at == '#' || **at == '\n';
-    return empty || (line_read_fixed(at, end, PS_DECIMALS, MS_MAX * VTIME_PS_PER_MS, &ps) &&
-                     read_bytes(line, ps, at, end));
+    return empty ||
+           (line_read_fixed(at, end, PS_DECIMALS, MS_MAX * VTIME_PS_PER_MS, &ps) && read_bytes(line, ps, at, end));
 }
 
 static bool read_script(struct rs485 *line, const struct infile *file)

@@ -20,7 +20,7 @@ struct board;
 struct rs485_byte {
     uint64_t start_ps; /* not before */
     uint8_t value;
-    uint8_t damage;    /* set of enum usart_damage */
+    uint8_t damage; /* set of enum usart_damage */
 };
 
 struct rs485 {
@@ -28,16 +28,16 @@ struct rs485 {
     size_t bytes;
     size_t room;
     size_t next;
-    bool arriving;      /* byte[next] is on the bus */
-    bool disturbed;     /* while the unit's driver was on */
+    bool arriving;  /* byte[next] is on the bus */
+    bool disturbed; /* while the unit's driver was on */
     uint64_t arrival_ps;
-    uint64_t free_ps;   /* the bus is free for the next byte */
-    bool sending;       /* the unit sends a byte */
+    uint64_t free_ps; /* the bus is free for the next byte */
+    bool sending;     /* the unit sends a byte */
     bool driven_throughout;
     uint64_t sent_end_cycle; /* of the last byte that the unit sent */
-    uint64_t sent;      /* bytes that reached the bus */
-    uint64_t unheard;   /* that the unit sent with its driver off, cut short, or not connected */
-    uint64_t heard;     /* bytes of others that arrived at the USART */
+    uint64_t sent;           /* bytes that reached the bus */
+    uint64_t unheard;        /* that the unit sent with its driver off, cut short, or not connected */
+    uint64_t heard;          /* bytes of others that arrived at the USART */
     uint64_t collisions;
     uint64_t release_most_ps; /* from the end of a byte to the driver being off */
     struct outfile log;

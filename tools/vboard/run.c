@@ -3,14 +3,17 @@
  */
 #include "board.h"
 
-enum { WIDE_BYTES = 4, NARROW_BYTES = 2 };
+enum {
+    WIDE_BYTES = 4,
+    NARROW_BYTES = 2
+};
 
 #define XPSR_THUMB (UINT32_C(1) << 24)
 #define LR_RESET UINT32_C(0xFFFFFFFF)
 #define PERIPHERALS_BASE UINT32_C(0x40000000)
 #define PERIPHERALS_BYTES UINT32_C(0x20000000)
 #define DEVICES_BASE UINT32_C(0xA0000000)
-#define RETURNS_BASE UINT32_C(0xF0000000) /* in a handler: EXC_RETURN */
+#define RETURNS_BASE UINT32_C(0xF0000000)  /* in a handler: EXC_RETURN */
 #define FLUSH_ADDRESS UINT32_C(0xB0000000) /* nothing is there */
 
 void cpu_reset(struct board *board)

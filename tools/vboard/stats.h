@@ -36,8 +36,8 @@ struct stats {
     uint64_t begin;
     uint64_t tail_chains;
     uint64_t faults;
-    uint32_t fault_bits; /* of CFSR, of the first fault */
-    uint32_t fault_at;   /* its instruction or stack pointer */
+    uint32_t fault_bits;  /* of CFSR, of the first fault */
+    uint32_t fault_at;    /* its instruction or stack pointer */
     uint64_t since_cycle; /* what is counted began here */
     uint64_t since_asleep;
     uint64_t since_stalled;

@@ -168,9 +168,8 @@ static void print_motors(const struct board *board)
         put_us("period_min", motor->period_least_ps);
         put_us("dir_setup_min", motor->setup_least_ps);
         put_us("dir_hold_min", motor->hold_least_ps);
-        (void)printf("\"step\":%d,\"dir\":%d,\"led\":%d,\"position\":%" PRId64 "}",
-                     recorder->level[SIGNAL_STEP + i], recorder->level[SIGNAL_DIRECTION + i],
-                     recorder->level[SIGNAL_LED + i], motor->position);
+        (void)printf("\"step\":%d,\"dir\":%d,\"led\":%d,\"position\":%" PRId64 "}", recorder->level[SIGNAL_STEP + i],
+                     recorder->level[SIGNAL_DIRECTION + i], recorder->level[SIGNAL_LED + i], motor->position);
     }
     (void)printf("],\n\"outputs\":%u,", recorder_active(board, SIGNAL_OUTPUT, PINS_OUTPUTS));
 }

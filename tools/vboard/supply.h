@@ -11,7 +11,9 @@
 
 struct board;
 
-enum { SUPPLY_POINTS_MAX = 16 };
+enum {
+    SUPPLY_POINTS_MAX = 16
+};
 
 /* Where in its range of the data sheet every threshold of the part lies. */
 enum supply_corner {
@@ -27,15 +29,15 @@ struct supply {
     } point[SUPPLY_POINTS_MAX]; /* sorted by time; straight lines between them */
     unsigned points;
     enum supply_corner corner;
-    uint32_t mv;          /* now */
-    uint32_t least_mv;    /* of the whole run */
-    bool held;            /* in reset: the supply is too low, or was a moment ago */
-    bool forgotten;       /* it has been so low that the RAM forgets */
-    uint64_t release_ps;  /* NEVER: not yet good again */
+    uint32_t mv;         /* now */
+    uint32_t least_mv;   /* of the whole run */
+    bool held;           /* in reset: the supply is too low, or was a moment ago */
+    bool forgotten;      /* it has been so low that the RAM forgets */
+    uint64_t release_ps; /* NEVER: not yet good again */
     uint32_t pwr_cr;
-    bool low;             /* what the voltage detector says */
-    uint64_t settled_ps;  /* it can be believed from then on */
-    unsigned brown_outs;  /* resets by it */
+    bool low;            /* what the voltage detector says */
+    uint64_t settled_ps; /* it can be believed from then on */
+    unsigned brown_outs; /* resets by it */
 };
 
 /* Reads what the options ask for. False after a complaint. */

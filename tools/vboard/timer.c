@@ -2,7 +2,9 @@
 
 #include "board.h"
 
-enum { SR_UIF = 1 << 0 };
+enum {
+    SR_UIF = 1 << 0
+};
 
 static const enum nvic_irq irqs[TIMERS] = {NVIC_IRQ_TIM2, NVIC_IRQ_TIM3, NVIC_IRQ_TIM4, NVIC_IRQ_TIM5};
 
@@ -217,4 +219,3 @@ void timers_reset(struct board *board)
         timer_reset(board, i);
     }
 }
-

@@ -16,13 +16,13 @@ enum {
 };
 
 struct timer_channel {
-    uint32_t compare;  /* what the counter is compared with */
-    uint32_t preload;  /* what CCR reads */
-    uint64_t due;      /* cycle of the next match; NEVER: none before the counter turns over */
-    uint8_t mode;      /* OCxM, as it was when the output was looked at last */
-    bool below;        /* and whether the counter was below the value */
-    bool reference;    /* OCxREF */
-    bool pin_level;    /* what the pins were told last */
+    uint32_t compare; /* what the counter is compared with */
+    uint32_t preload; /* what CCR reads */
+    uint64_t due;     /* cycle of the next match; NEVER: none before the counter turns over */
+    uint8_t mode;     /* OCxM, as it was when the output was looked at last */
+    bool below;       /* and whether the counter was below the value */
+    bool reference;   /* OCxREF */
+    bool pin_level;   /* what the pins were told last */
     bool pin_driven;
 };
 
@@ -33,15 +33,15 @@ struct timer {
     uint32_t sr;
     uint32_t ccmr[2];
     uint32_t ccer;
-    uint32_t psc;       /* as written; comes into force with an update */
+    uint32_t psc; /* as written; comes into force with an update */
     uint32_t psc_used;
-    uint32_t arr;       /* as written */
+    uint32_t arr; /* as written */
     uint32_t arr_used;
-    uint32_t remap;     /* OR */
-    uint32_t count;     /* at the anchor */
+    uint32_t remap; /* OR */
+    uint32_t count; /* at the anchor */
     uint64_t anchor_cycle;
-    uint64_t start_cycle;   /* the first time it was started since reset; NEVER: not yet */
-    uint64_t turn_due;      /* cycle of the turn-over */
+    uint64_t start_cycle; /* the first time it was started since reset; NEVER: not yet */
+    uint64_t turn_due;    /* cycle of the turn-over */
     struct timer_channel channel[TIMER_CHANNELS];
     uint64_t matches;
 };

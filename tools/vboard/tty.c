@@ -16,7 +16,10 @@
 #include "board.h"
 #include "complain.h"
 
-enum { NAME_BYTES_MAX = 128, CHUNK_BYTES = 256 };
+enum {
+    NAME_BYTES_MAX = 128,
+    CHUNK_BYTES = 256
+};
 
 #define NS_PER_SECOND UINT64_C(1000000000)
 #define PERIOD_PS VTIME_PS_PER_MS

@@ -11,10 +11,10 @@ struct board;
 
 struct tty {
     bool open;
-    int listener;       /* of TCP; -1: none */
-    int stream;         /* the pseudo-terminal or the connection; -1: none yet */
-    int peer;           /* the other end of the pseudo-terminal, held open */
-    const char *link;   /* that names it */
+    int listener;     /* of TCP; -1: none */
+    int stream;       /* the pseudo-terminal or the connection; -1: none yet */
+    int peer;         /* the other end of the pseudo-terminal, held open */
+    const char *link; /* that names it */
     uint64_t real_start_ns;
 };
 

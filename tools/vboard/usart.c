@@ -30,14 +30,17 @@ enum {
     CR1_OVER8 = 1 << 15,
     CR1_MODELLED = 0xA1FC, /* no parity, 9 bits, mute mode or break; PEIE does nothing then */
     CR3_EIE = 1 << 0,
-    CR3_MODELLED = 0x801,  /* error interrupt, one sample a bit */
+    CR3_MODELLED = 0x801, /* error interrupt, one sample a bit */
     FRAME_BITS = 10,
     TOLERANCE_PERCENT = 3, /* table 141: 3.33 % for 8 bits with a fraction in BRR */
 };
 
 static const enum nvic_irq irqs[USARTS] = {NVIC_IRQ_USART1, NVIC_IRQ_USART2, NVIC_IRQ_USART3};
 
-enum { PINS = 3, NO_PORT = 0xFF };
+enum {
+    PINS = 3,
+    NO_PORT = 0xFF
+};
 
 #define NO_PIN {.port = NO_PORT}
 #define PIN(letter, bit) {.port = (letter) - 'A', .number = (bit)}
@@ -203,8 +206,13 @@ void usart_receive(struct board *board, unsigned instance, uint8_t value, unsign
 void usart_reset(struct board *board, unsigned instance)
 {
     struct usart *usart = &board->usart[instance];
-    *usart = (struct usart){.sr = SR_RESET, .shift_due = VTIME_NEVER, .idle_due = VTIME_NEVER, .sent = usart->sent,
-                            .taken = usart->taken, .overruns = usart->overruns, .deaf = usart->deaf};
+    *usart = (struct usart){.sr = SR_RESET,
+                            .shift_due = VTIME_NEVER,
+                            .idle_due = VTIME_NEVER,
+                            .sent = usart->sent,
+                            .taken = usart->taken,
+                            .overruns = usart->overruns,
+                            .deaf = usart->deaf};
     set_event(board, instance);
     update_interrupt(board, instance);
 }

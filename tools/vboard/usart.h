@@ -12,7 +12,9 @@
 
 struct board;
 
-enum { USARTS = 3 };
+enum {
+    USARTS = 3
+};
 
 enum usart_damage {
     USART_FRAMING = 1 << 1, /* bits of SR */
@@ -25,9 +27,9 @@ struct usart {
     uint32_t cr2;
     uint32_t cr3;
     uint32_t brr;
-    uint8_t received;     /* RDR */
-    uint8_t to_send;      /* TDR */
-    bool shifting;        /* a byte, or the idle frame after TE, is on its way */
+    uint8_t received; /* RDR */
+    uint8_t to_send;  /* TDR */
+    bool shifting;    /* a byte, or the idle frame after TE, is on its way */
     bool idle_frame;
     uint8_t shifted;
     uint64_t shift_begin; /* cycle */
@@ -37,7 +39,7 @@ struct usart {
     uint64_t sent;
     uint64_t taken;
     uint64_t overruns;
-    uint64_t deaf;        /* bytes that came while the receiver was off or its pin not connected */
+    uint64_t deaf; /* bytes that came while the receiver was off or its pin not connected */
 };
 
 void usarts_reset(struct board *board);

@@ -240,8 +240,8 @@ void judge_connect(struct judge *judge, uint64_t tick, unsigned number, bool con
 {
     struct judge_motor *motor = &judge->motor[number];
     if (motor->moving) {
-        judge_complain_move(judge, number, JUDGE_RULE_CONNECTION,
-                            connected ? "is connected at" : "is disconnected at", tick);
+        judge_complain_move(judge, number, JUDGE_RULE_CONNECTION, connected ? "is connected at" : "is disconnected at",
+                            tick);
     }
     motor->disconnected = !connected;
 }

@@ -54,7 +54,7 @@ enum {
 /* The greatest values that a run may use, for what is not known from orders. */
 struct judge_limits {
     uint32_t tick_hz;
-    uint32_t slowest;         /* steps/s */
+    uint32_t slowest; /* steps/s */
     uint32_t start_speed;
     uint32_t speed;
     uint32_t accel;           /* steps/s^2 */
@@ -73,29 +73,29 @@ struct judge_complaint {
 
 /* What is known of one motor. */
 struct judge_motor {
-    struct judge_curve curve;  /* while `planned` */
-    uint64_t moves;            /* begun so far */
-    uint64_t start_tick;       /* of the move */
-    int64_t steps;             /* asked for, signed; 0: no end */
+    struct judge_curve curve; /* while `planned` */
+    uint64_t moves;           /* begun so far */
+    uint64_t start_tick;      /* of the move */
+    int64_t steps;            /* asked for, signed; 0: no end */
     uint64_t made;
     int64_t position;
-    uint64_t last_tick;        /* of the last pulse */
-    uint64_t interval;         /* before the last pulse, if it lies in the move; else 0 */
+    uint64_t last_tick;          /* of the last pulse */
+    uint64_t interval;           /* before the last pulse, if it lies in the move; else 0 */
     const struct judge_leg *leg; /* of the last pulse but one; null: not known */
     uint64_t dir_tick;
-    long double start_excess;  /* of the ends of a move: the greatest w - 2*A*i */
+    long double start_excess; /* of the ends of a move: the greatest w - 2*A*i */
     uint64_t start_excess_tick;
-    int8_t way;                /* +1, -1; 0: not known yet */
-    int8_t dir;                /* of the pin, likewise */
+    int8_t way; /* +1, -1; 0: not known yet */
+    int8_t dir; /* of the pin, likewise */
     bool has_pulse;
     bool has_dir_edge;
     bool has_position;
     bool moving;
-    bool planned;              /* the order of the move is known */
-    bool disconnected;         /* its pulses do not reach the pins (T41) */
-    bool cut;                  /* a stop or an error fell into the move */
-    bool nothing;              /* a guard had its level at the start: no pulse may come */
-    bool unexplained;          /* a move without end has ended, and no cause has come yet */
+    bool planned;      /* the order of the move is known */
+    bool disconnected; /* its pulses do not reach the pins (T41) */
+    bool cut;          /* a stop or an error fell into the move */
+    bool nothing;      /* a guard had its level at the start: no pulse may come */
+    bool unexplained;  /* a move without end has ended, and no cause has come yet */
 };
 
 struct judge {
@@ -105,9 +105,9 @@ struct judge {
     uint32_t complaints;
     uint32_t lost_complaints; /* there was no room for them */
     uint32_t events_of_pass;
-    uint64_t tick;            /* of the last pulse of any motor */
+    uint64_t tick; /* of the last pulse of any motor */
     uint64_t digest;
-    bool without_moves;       /* there is no trace: pulses belong to no move that is known */
+    bool without_moves; /* there is no trace: pulses belong to no move that is known */
 };
 
 /* The limits of the language and of the host machine. */

@@ -7,7 +7,7 @@
 /* What is left of a section: up to position `end`. */
 struct stretch {
     int64_t end;
-    int64_t top; /* w */
+    int64_t top;   /* w */
     int64_t bound; /* the greatest w at its end from which all behind it can be kept */
     int64_t accel;
 };
@@ -101,11 +101,9 @@ static int64_t add_trapezoid(struct judge_curve *curve, long double at, long dou
     long double down = end - (peak - (long double)end_w) / (2.0L * accel);
     add_leg(curve, (struct judge_leg){.from = at, .to = up, .anchor = at, .anchor_w = w, .accel = accel});
     add_leg(curve, (struct judge_leg){.from = up, .to = down, .anchor = up, .anchor_w = peak});
-    add_leg(curve, (struct judge_leg){.from = fmaxl(up, down),
-                                      .to = end,
-                                      .anchor = end,
-                                      .anchor_w = (long double)end_w,
-                                      .accel = -accel});
+    add_leg(curve,
+            (struct judge_leg){
+                .from = fmaxl(up, down), .to = end, .anchor = end, .anchor_w = (long double)end_w, .accel = -accel});
     return end_w;
 }
 

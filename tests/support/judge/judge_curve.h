@@ -15,11 +15,13 @@
 #include "motion_order.h"
 
 /* Braking and a trapezoid for each section. */
-enum { JUDGE_LEGS_MAX = 4 * MOTION_SECTIONS };
+enum {
+    JUDGE_LEGS_MAX = 4 * MOTION_SECTIONS
+};
 
 /* Constant acceleration from one position to another; anchored at its slow end, which is the exact one. */
 struct judge_leg {
-    long double from;  /* steps */
+    long double from; /* steps */
     long double to;
     long double anchor;
     long double anchor_w;
@@ -31,11 +33,11 @@ struct judge_curve {
     struct motion_order order; /* with the speeds in force */
     struct judge_leg legs[JUDGE_LEGS_MAX];
     unsigned count;
-    unsigned present;          /* the leg asked for last; pulses are asked for in rising order */
-    uint64_t last;             /* ordinal of the last pulse; UINT64_MAX: none */
-    long double most_w;        /* the greatest and the least w of all legs */
+    unsigned present;   /* the leg asked for last; pulses are asked for in rising order */
+    uint64_t last;      /* ordinal of the last pulse; UINT64_MAX: none */
+    long double most_w; /* the greatest and the least w of all legs */
     long double least_w;
-    bool fixed;                /* it is being stopped: nothing changes it any more */
+    bool fixed; /* it is being stopped: nothing changes it any more */
 };
 
 /* The curve of a whole move. */

@@ -3,7 +3,10 @@
 #include "judge_private.h"
 
 /* Ticks. Two neighbouring intervals share three pulses, each rounded by half a tick. */
-enum { CRUISE_SLACK = 1, RAMP_SLACK = 2 };
+enum {
+    CRUISE_SLACK = 1,
+    RAMP_SLACK = 2
+};
 
 /* Ticks from one pulse to the next at w. */
 static long double interval_at(const struct judge *judge, long double w)

@@ -14,7 +14,13 @@
 
 #include "judge.h"
 
-enum { LINE_BYTES = 256, COLUMNS = 4, STATUS_GOOD = 0, STATUS_BAD = 1, STATUS_WRONG = 2 };
+enum {
+    LINE_BYTES = 256,
+    COLUMNS = 4,
+    STATUS_GOOD = 0,
+    STATUS_BAD = 1,
+    STATUS_WRONG = 2
+};
 
 static const char *const event_texts[] = {
 #define X(name, text) text,
@@ -118,8 +124,8 @@ static int find_text(const struct input *input, const char *const *texts, size_t
 
 static void judge_line(struct judge *judge, const struct input *trace)
 {
-    enum hal_trace_event event = (enum hal_trace_event)find_text(
-        trace, event_texts, sizeof event_texts / sizeof event_texts[0], trace->cell[2]);
+    enum hal_trace_event event =
+        (enum hal_trace_event)find_text(trace, event_texts, sizeof event_texts / sizeof event_texts[0], trace->cell[2]);
     int64_t value = 0;
     if (event == HAL_TRACE_STOP) {
         value = find_text(trace, stop_texts, sizeof stop_texts / sizeof stop_texts[0], trace->cell[3]);

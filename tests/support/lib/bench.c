@@ -72,8 +72,8 @@ static void start_unit(struct bench *bench)
 {
     unit_init(&bench->unit);
     unit_start(&bench->unit);
-    bench->machine.client = (struct hal_client){
-        .context = bench, .step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+    bench->machine.client =
+        (struct hal_client){.context = bench, .step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
 }
 
 void bench_init_at(struct bench *bench, uint64_t epoch)

@@ -13,7 +13,11 @@
 #include "step_scale.h"
 #include "unity.h"
 
-enum { MOTOR = 2, INTERVAL = 84000, START = 1000 };
+enum {
+    MOTOR = 2,
+    INTERVAL = 84000,
+    START = 1000
+};
 
 static struct step_channel channel;
 static uint32_t armed_tick;

@@ -1,6 +1,12 @@
 #include "frames.h"
 
-enum { FLAG = 0x7E, ESCAPE = 0x7D, ESCAPED = 0x20, FCS_BYTES = 2, CONTENT_BYTES_MIN = 3 };
+enum {
+    FLAG = 0x7E,
+    ESCAPE = 0x7D,
+    ESCAPED = 0x20,
+    FCS_BYTES = 2,
+    CONTENT_BYTES_MIN = 3
+};
 
 /* RFC 1662, bit by bit. */
 static uint16_t fcs_after(uint16_t fcs, uint8_t byte)

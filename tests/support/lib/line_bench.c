@@ -8,7 +8,9 @@
 #include "unity.h"
 
 /* The longest answer, all of it escaped. */
-enum { ANSWER_MS_MAX = 10000 };
+enum {
+    ANSWER_MS_MAX = 10000
+};
 
 #define DEFAULT_SEED UINT64_C(20261121)
 

@@ -9,7 +9,10 @@
 #include "host_machine.h"
 #include "mover.h"
 
-enum { MOVER_BENCH_MOTOR = 3, MOVER_BENCH_EVENTS_MAX = 16 };
+enum {
+    MOVER_BENCH_MOTOR = 3,
+    MOVER_BENCH_EVENTS_MAX = 16
+};
 
 struct mover_bench_event {
     enum hal_trace_event event;
@@ -21,9 +24,9 @@ struct mover_bench {
     struct mover mover;
     struct mover_bench_event events[MOVER_BENCH_EVENTS_MAX];
     unsigned event_count;
-    unsigned stops_sensed;   /* how often mover_sense_isr said that it stopped the move */
+    unsigned stops_sensed; /* how often mover_sense_isr said that it stopped the move */
     uint64_t last_edge_tick;
-    unsigned edges;          /* pulses at the pin */
+    unsigned edges; /* pulses at the pin */
     struct host_input input;
 };
 

@@ -9,7 +9,11 @@
 #include "motion_plan.h"
 #include "unity.h"
 
-enum { SEGMENTS_MAX = 64, PLAN_START = 1000, PLAN_CUT = 500000 };
+enum {
+    SEGMENTS_MAX = 64,
+    PLAN_START = 1000,
+    PLAN_CUT = 500000
+};
 
 static struct motion_plan plan;
 static struct step_segment segments[SEGMENTS_MAX];

@@ -3,7 +3,10 @@
 
 #include <string.h>
 
-enum { CAPACITY = 32, GUARD = 0x5A };
+enum {
+    CAPACITY = 32,
+    GUARD = 0x5A
+};
 
 static uint8_t buffer[CAPACITY + 1];
 static struct text text;

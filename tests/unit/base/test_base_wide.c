@@ -220,8 +220,7 @@ void test_the_largest_divisors_divide(void)
 void test_a_digit_that_is_first_taken_2_too_large_is_put_right(void)
 {
     struct wide value = wide(UINT64_C(0x7ED4D57B1E2FEB89), UINT64_C(0xC2CE6F4400000000));
-    assert_division(value, UINT64_C(0x80000002FFFFFFFF), UINT64_C(18278328511676929395),
-                    UINT64_C(7009459037173831027));
+    assert_division(value, UINT64_C(0x80000002FFFFFFFF), UINT64_C(18278328511676929395), UINT64_C(7009459037173831027));
 }
 
 void test_the_largest_quotient_fits(void)

@@ -5,7 +5,10 @@
 #include "hal_flash.h"
 #include "host_machine.h"
 
-enum { HALF = HAL_FLASH_AREA_BYTES / 2, LAST_WORD = HAL_FLASH_AREA_BYTES - HAL_FLASH_WORD_BYTES };
+enum {
+    HALF = HAL_FLASH_AREA_BYTES / 2,
+    LAST_WORD = HAL_FLASH_AREA_BYTES - HAL_FLASH_WORD_BYTES
+};
 
 static struct host_machine machine;
 static const uint8_t word[HAL_FLASH_WORD_BYTES] = {1, 2, 3, 4};

@@ -4,7 +4,10 @@
 #include "hal_line.h"
 #include "host_machine.h"
 
-enum { SENT_MAX = 400, SCRIPT_MAX = HOST_LINE_HEARD_MAX + 10 };
+enum {
+    SENT_MAX = 400,
+    SCRIPT_MAX = HOST_LINE_HEARD_MAX + 10
+};
 
 #define EPOCH UINT64_C(5000000000)
 
@@ -148,7 +151,9 @@ void test_a_byte_takes_ten_bits_at_19200_bd(void)
 
 void test_bytes_can_be_sent_in_no_time(void)
 {
-    enum { BYTES = 250 };
+    enum {
+        BYTES = 250
+    };
     host_machine_set_byte_ticks(&machine, 0);
     to_give = BYTES;
     run_until(1);
@@ -171,7 +176,9 @@ void test_the_next_tick_is_that_of_the_next_byte(void)
 
 void test_bytes_beyond_the_room_are_refused_and_main_is_called_again(void)
 {
-    enum { BYTES = 250 };
+    enum {
+        BYTES = 250
+    };
     to_give = BYTES;
     run_until((BYTES + 1) * (uint64_t)HOST_LINE_BYTE_TICKS);
     TEST_ASSERT_EQUAL_UINT(BYTES, sent_count);

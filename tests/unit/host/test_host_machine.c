@@ -11,8 +11,8 @@
 #include "hal_time.h"
 #include "host_machine.h"
 
-enum { LOG_BYTES = 1000, ANSWERS_MAX = 10 };
-
+#define LOG_BYTES 1000U
+#define ANSWERS_MAX 10U
 #define EPOCH UINT64_C(1000000)
 
 static struct host_machine machine;

@@ -85,8 +85,8 @@ static void begin_at(uint64_t epoch)
 {
     static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&machine, epoch);
-    machine.listener = (struct host_listener){
-        .step = step_seen, .simulated = simulated_seen, .direction = direction_seen};
+    machine.listener =
+        (struct host_listener){.step = step_seen, .simulated = simulated_seen, .direction = direction_seen};
     host_machine_select(&machine);
     hal_run_start(&client);
 }

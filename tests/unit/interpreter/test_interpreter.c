@@ -309,8 +309,7 @@ void test_every_error_has_a_text(void)
 {
     TEST_ASSERT_EQUAL_STRING("", interpreter_error_text(INTERPRETER_ERROR_NONE));
     TEST_ASSERT_EQUAL_STRING("label not found", interpreter_error_text(INTERPRETER_ERROR_NO_LABEL));
-    TEST_ASSERT_EQUAL_STRING("the stored program is damaged",
-                             interpreter_error_text(INTERPRETER_ERROR_STORED_PROGRAM));
+    TEST_ASSERT_EQUAL_STRING("the stored program is damaged", interpreter_error_text(INTERPRETER_ERROR_STORED_PROGRAM));
 }
 
 void test_a_program_that_is_loaded_runs(void)

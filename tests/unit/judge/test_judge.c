@@ -8,7 +8,12 @@
 #include "judge.h"
 #include "unity.h"
 
-enum { STEPS = 600, START = 1000, CRUISE_PULSE = 300, RAMP_PULSE = 100 };
+enum {
+    STEPS = 600,
+    START = 1000,
+    CRUISE_PULSE = 300,
+    RAMP_PULSE = 100
+};
 
 static struct judge judge;
 static uint64_t ticks[STEPS + 1]; /* from 1 */

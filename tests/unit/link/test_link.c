@@ -5,7 +5,10 @@
 #include "frames.h"
 #include "link.h"
 
-enum { NODE = 5, OTHER = 6 };
+enum {
+    NODE = 5,
+    OTHER = 6
+};
 
 #define BYTE_TICKS ((uint64_t)43750)
 

@@ -71,7 +71,9 @@ static const struct frame_vector *request_at(unsigned i)
     return is_request(&frame_vectors[i]) ? &frame_vectors[i] : NULL;
 }
 
-enum { FRAMES = sizeof frame_vectors / sizeof frame_vectors[0] };
+enum {
+    FRAMES = sizeof frame_vectors / sizeof frame_vectors[0]
+};
 
 static void flip(uint32_t bit)
 {

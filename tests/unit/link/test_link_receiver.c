@@ -7,7 +7,11 @@
 #include "link_receiver.h"
 
 /* What the test puts into the buffer, and behind it; nothing may write there. */
-enum { FILL = 0xA5, GUARD_BYTES = 8, NODE = VECTOR_NODE };
+enum {
+    FILL = 0xA5,
+    GUARD_BYTES = 8,
+    NODE = VECTOR_NODE
+};
 
 #define BYTE_TICKS ((uint64_t)43750)
 

@@ -12,8 +12,12 @@ static const struct motion_order single = {
 
 /* The ninth example of the manual. */
 static const struct motion_order manual = {
-    .section = {{2000, 500, 2000}, {2000, 2000, 2000}, {5000, 500, 2000},
-                {5000, 3000, 1000}, {2000, 1500, 1000}, {2000, 500, 1000}},
+    .section = {{2000, 500, 2000},
+                {2000, 2000, 2000},
+                {5000, 500, 2000},
+                {5000, 3000, 1000},
+                {2000, 1500, 1000},
+                {2000, 500, 1000}},
     .start_speed_steps_per_s = 100,
     .sections = 6,
 };
@@ -117,7 +121,7 @@ void test_high_speeds_are_rounded_to_the_nearest(void)
 void test_the_borders_of_the_manuals_example(void)
 {
     const struct motion_corner expected[] = {
-        {1, 100},      {60, 500},     {2000, 500},   {2938, 2000},  {3063, 2000},  {4000, 500}, {9000, 500},
+        {1, 100},      {60, 500},     {2000, 500},   {2938, 2000}, {3063, 2000}, {4000, 500}, {9000, 500},
         {12000, 2500}, {14000, 1500}, {15000, 1500}, {16000, 500}, {17880, 500}, {18000, 0},
     };
     motion_plan_begin(&plan, &manual, 0);

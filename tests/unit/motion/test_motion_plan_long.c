@@ -14,7 +14,9 @@ void tearDown(void)
 {
 }
 
-enum { PIECE = 1 << 30 };
+enum {
+    PIECE = 1 << 30
+};
 
 void test_a_run_without_end_comes_in_pieces(void)
 {

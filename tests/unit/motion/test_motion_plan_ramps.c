@@ -7,7 +7,11 @@
 
 /* What tests/proofs leaves open: that the first pulse of a ramp is on its ramp (is_on_ramp of search_pulses.h); from it
  * follow the next ones. Here it is seen of all pulses of random moves with stops and changes of speed. */
-enum { MOVES = 20000, SECTIONS_MAX = 4, STEPS_MAX = 5000 };
+enum {
+    MOVES = 20000,
+    SECTIONS_MAX = 4,
+    STEPS_MAX = 5000
+};
 
 /* The slope of 0.98 steps/s. */
 #define LEAST_SLOPE UINT64_C(21000000000)
@@ -99,8 +103,8 @@ static bool is_foretold_well(const struct step_generator *generator, uint64_t ac
 {
     uint64_t ticks = generator->interval;
     struct wide way = wide_multiply(4U * ticks, generator->slope);
-    bool like_next = wide_is_at_least(wide_multiply(5, STEP_QUANTA), way) &&
-                     4U * accel * ticks <= generator->slope + 10U * accel;
+    bool like_next =
+        wide_is_at_least(wide_multiply(5, STEP_QUANTA), way) && 4U * accel * ticks <= generator->slope + 10U * accel;
     struct wide missing = {.low = STEP_QUANTA - generator->residual};
     way = wide_multiply(ticks - 2U, generator->slope - accel * (ticks - 2U));
     return like_next || (2U * accel * ticks <= generator->slope && wide_is_at_least(missing, way));
@@ -136,8 +140,8 @@ static void lay_anew(void)
     for (unsigned i = 0; i < plan.order.sections; i++) {
         fits = fits && is_short(speed, plan.order.section[i].accel_steps_per_s2);
     }
-    bool laid = epoch_chance() % 2U == 0 || !fits ? motion_plan_stop(&plan, &at)
-                                                  : motion_plan_change_speed(&plan, &at, speed);
+    bool laid =
+        epoch_chance() % 2U == 0 || !fits ? motion_plan_stop(&plan, &at) : motion_plan_change_speed(&plan, &at, speed);
     if (laid) {
         cursor.end -= cursor.left;
         cursor.left = 0;

@@ -170,8 +170,7 @@ void test_a_move_has_corners_while_it_lasts(void)
 
 static struct motion_order order_of(uint64_t steps)
 {
-    return (struct motion_order){
-        .section = {{steps, 1000, 2000}}, .start_speed_steps_per_s = 1000, .sections = 1};
+    return (struct motion_order){.section = {{steps, 1000, 2000}}, .start_speed_steps_per_s = 1000, .sections = 1};
 }
 
 static void move(uint64_t steps)

@@ -8,7 +8,12 @@
 static struct mover_bench bench;
 
 /* The input of each kind of guard; N is 1 where nothing else is said. */
-enum { M = 1U << 2, N = 1U << 3, X = 1U << 4, LIMIT = 1U << 5 };
+enum {
+    M = 1U << 2,
+    N = 1U << 3,
+    X = 1U << 4,
+    LIMIT = 1U << 5
+};
 
 void setUp(void)
 {
@@ -61,7 +66,7 @@ void test_a_limit_that_is_high_at_the_start_allows_no_step(void)
 void test_guards_with_the_other_level_at_the_start_let_the_motor_go(void)
 {
     const struct mover_guards guards = {.stop_high = M, .stop_low = N, .stop_total = X};
-    mover_bench_start(&bench, &mover_bench_trapezoid, guards, (uint8_t) ~(M | X));
+    mover_bench_start(&bench, &mover_bench_trapezoid, guards, (uint8_t)~(M | X));
     bench.machine.inputs = N;
 
     mover_bench_run(&bench);

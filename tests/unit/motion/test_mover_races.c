@@ -9,16 +9,20 @@
 /* An input changes while main works: the tick interrupt comes at any of the calls that main makes to the backend, and
  * the plan interrupt as soon as main lets it. No time passes, so all that counts is what main had done until then. */
 
-enum { INPUT = 1, CALLS_MAX = 400, PASSES_MAX = 20000 };
+enum {
+    INPUT = 1,
+    CALLS_MAX = 400,
+    PASSES_MAX = 20000
+};
 
 static struct mover mover;
 static uint64_t now;
 static uint64_t armed;
 static bool is_armed;
 static uint64_t pulses;
-static unsigned calls;       /* of main to the backend */
-static unsigned edge_at;     /* the call at which the input changes; 0: never */
-static bool edge_waits;      /* the interrupt is held off */
+static unsigned calls;   /* of main to the backend */
+static unsigned edge_at; /* the call at which the input changes; 0: never */
+static bool edge_waits;  /* the interrupt is held off */
 static bool step_held;
 static bool plan_held;
 static bool plan_waits;

@@ -72,7 +72,9 @@ void test_an_unclosed_comment_is_told_with_its_brace(void)
 
 void test_a_bad_call_is_told_with_the_character_that_was_sent(void)
 {
-    TEST_ASSERT_EQUAL_HEX8(0xB4, check("\xB4" "81").character);
+    TEST_ASSERT_EQUAL_HEX8(0xB4, check("\xB4"
+                                       "81")
+                                     .character);
 }
 
 void test_a_message_of_8192_bytes_is_read_whole(void)

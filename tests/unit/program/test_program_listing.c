@@ -108,7 +108,9 @@ void test_the_longest_command_fills_the_text(void)
 
 void test_a_call_is_listed_with_an_apostrophe(void)
 {
-    assert_listed("\x27" "3", PROGRAM_CALL, 3, 0);
+    assert_listed("\x27"
+                  "3",
+                  PROGRAM_CALL, 3, 0);
 }
 
 static void assert_same_when_read_again(uint8_t opcode, int32_t value, uint8_t io)

@@ -4,7 +4,9 @@
 
 #include <string.h>
 
-enum { TEXT_BYTES_MAX = PROGRAM_COMMANDS_MAX * PROGRAM_COMMAND_BYTES_MAX };
+enum {
+    TEXT_BYTES_MAX = PROGRAM_COMMANDS_MAX * PROGRAM_COMMAND_BYTES_MAX
+};
 
 static struct program_memory memory;
 static uint8_t text[TEXT_BYTES_MAX + 1];

@@ -11,7 +11,10 @@
 
 #define LENGTH(array) (sizeof(array) / sizeof(array)[0])
 
-enum { LOG_BYTES_MAX = 4096, TEXT_BYTES_MAX = 1024 };
+enum {
+    LOG_BYTES_MAX = 4096,
+    TEXT_BYTES_MAX = 1024
+};
 
 static struct exact_text text;
 
@@ -170,7 +173,8 @@ void test_nul_and_8_bit_bytes_are_unknown_commands(void)
 
 void test_a_nul_does_not_end_a_number_that_is_missing(void)
 {
-    const char program[] = "F\0" "5";
+    const char program[] = "F\0"
+                           "5";
     exact_text_take(&text, program, sizeof program - 1);
     read_text();
     TEST_ASSERT_EQUAL_STRING("!0 ?1", finds);
@@ -178,7 +182,9 @@ void test_a_nul_does_not_end_a_number_that_is_missing(void)
 
 void test_all_call_characters_call(void)
 {
-    assert_reads("'3\"4`5\xB4" "6", "'3 '4 '5 '6");
+    assert_reads("'3\"4`5\xB4"
+                 "6",
+                 "'3 '4 '5 '6");
 }
 
 void test_reset_halt_and_resume_are_ordinary_commands(void)

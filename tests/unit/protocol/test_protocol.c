@@ -9,7 +9,9 @@
 #include "host_machine.h"
 #include "io.h"
 
-enum { GUARD = 0xA5 };
+enum {
+    GUARD = 0xA5
+};
 
 static struct host_machine machine;
 static struct io io;
@@ -303,8 +305,9 @@ void test_an_empty_message_has_no_answer(void)
 void test_the_longest_message_is_taken(void)
 {
     memset(request, ' ', sizeof request);
-    memcpy(request, "\2"
-                    "1T01",
+    memcpy(request,
+           "\2"
+           "1T01",
            5);
     send(request, PROTOCOL_REQUEST_BYTES_MAX);
     assert_answer("\2"
@@ -316,8 +319,9 @@ void test_the_longest_message_is_taken(void)
 void test_an_over_long_message_is_not_taken_and_has_no_answer(void)
 {
     memset(request, ' ', sizeof request);
-    memcpy(request, "\2"
-                    "1T01",
+    memcpy(request,
+           "\2"
+           "1T01",
            5);
     send(request, PROTOCOL_REQUEST_BYTES_MAX + 1);
     TEST_ASSERT_EQUAL_UINT32(0, answer_length);

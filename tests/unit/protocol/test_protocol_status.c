@@ -10,7 +10,10 @@
 #include "protocol.h"
 #include "status_vectors.h"
 
-enum { ROOM_BYTES = 200, GUARD = 0xA5 };
+enum {
+    ROOM_BYTES = 200,
+    GUARD = 0xA5
+};
 
 static struct host_machine machine;
 static struct io io;

@@ -193,7 +193,9 @@ void test_a_full_queue_is_run_to_its_end(void)
 
 void test_the_queue_is_a_ring_that_can_be_fed_without_end(void)
 {
-    enum { SEGMENTS = 5 * STEP_QUEUE_SEGMENTS + 1 };
+    enum {
+        SEGMENTS = 5 * STEP_QUEUE_SEGMENTS + 1
+    };
     begin_two(1, 1);
 
     for (uint32_t i = 2; i < SEGMENTS; i++) {

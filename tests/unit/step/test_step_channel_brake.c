@@ -9,7 +9,7 @@
 /* The stop-gap that brakes at once, and the planned segment that takes its place. */
 
 enum {
-    MADE = 5,          /* pulses before the stop, of MOVE; the next one is armed */
+    MADE = 5, /* pulses before the stop, of MOVE; the next one is armed */
     MOVE = 1000,
     PLANNED = 40,      /* pulses behind the armed one, as planned */
     GAP = PLANNED / 2, /* and those of the stop-gap */
@@ -121,7 +121,9 @@ void test_a_look_at_rest_tells_the_last_pulse_and_that_none_is_armed(void)
 }
 
 /* Pulse 5 came on this tick; pulse 6 is armed. */
-enum { LAST_TICK = START + MADE * INTERVAL };
+enum {
+    LAST_TICK = START + MADE * INTERVAL
+};
 
 void test_a_look_tells_the_pulse_before_the_armed_one_if_that_came_behind_the_moment(void)
 {

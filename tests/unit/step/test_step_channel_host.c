@@ -8,7 +8,11 @@
 
 /* Channels on the host machine: what arrives at the pins. */
 
-enum { INTERVAL = 84000, EDGES_MAX = 64, MOTOR = 1 };
+enum {
+    INTERVAL = 84000,
+    EDGES_MAX = 64,
+    MOTOR = 1
+};
 
 static struct host_machine machine;
 static struct step_channel channels[UNIT_MOTORS];

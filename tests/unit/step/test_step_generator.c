@@ -12,7 +12,10 @@ struct motion {
 };
 
 /* A pulse is due when the position, in 1 / (10000 * 2 * f^2) steps, is between the two: 51/100 tick to either side. */
-enum { TICK_PARTS = 100, TOLERANCE_PARTS = 51 };
+enum {
+    TICK_PARTS = 100,
+    TOLERANCE_PARTS = 51
+};
 
 #define STEP_PARTS (UINT64_C(2) * TICK_PARTS * TICK_PARTS * TICK_HZ)
 
@@ -66,8 +69,8 @@ static void begin(const struct motion *motion, uint32_t interval_ticks)
 /* The position after so many hundredths of a tick. */
 static struct wide position_after(const struct motion *motion, uint64_t parts)
 {
-    uint64_t rise = parts * (uint64_t)(motion->accel_steps_per_s2 < 0 ? -motion->accel_steps_per_s2
-                                                                       : motion->accel_steps_per_s2);
+    uint64_t rise =
+        parts * (uint64_t)(motion->accel_steps_per_s2 < 0 ? -motion->accel_steps_per_s2 : motion->accel_steps_per_s2);
     uint64_t start = UINT64_C(2) * TICK_PARTS * TICK_HZ * motion->speed_steps_per_s;
     return wide_multiply(parts, motion->accel_steps_per_s2 < 0 ? start - rise : start + rise);
 }
@@ -296,7 +299,9 @@ void test_a_pulse_that_lies_just_beyond_half_a_tick_is_the_one_before(void)
 }
 
 /* A ramp that is a little more than half a tick's way off a whole step after GUESS ticks: behind it or before it. */
-enum { GUESS = 5000 };
+enum {
+    GUESS = 5000
+};
 
 static struct step_generator ramp_off(int32_t accel, bool behind)
 {

@@ -6,7 +6,9 @@
 
 /* What tests/proofs leaves open: that the search of a pulse ends before its corrections are used up. Ramps over the
  * whole range, up from a speed and down to it, as far as they stay below the top speed. */
-enum { PULSES = 400 };
+enum {
+    PULSES = 400
+};
 
 static const uint32_t speeds[] = {1, 2, 3, 5, 8, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 16000, 50000, 200000};
 

@@ -6,7 +6,9 @@
 #include "host_machine.h"
 #include "store.h"
 
-enum { FLASH_DONE_KINDS = HOST_FLASH_ALL + 1 };
+enum {
+    FLASH_DONE_KINDS = HOST_FLASH_ALL + 1
+};
 
 static struct host_machine machine;
 static struct host_machine machine_before;

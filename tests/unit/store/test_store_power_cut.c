@@ -28,7 +28,7 @@ static struct text known[UNIT_MOTORS]; /* what must be there */
 static struct text fresh;              /* what is being stored */
 static uint8_t loaded[STORE_TEXT_BYTES_MAX];
 static uint32_t random_state;
-static bool area_is_full;              /* the next store changes areas */
+static bool area_is_full; /* the next store changes areas */
 static unsigned old_seen;
 static unsigned new_seen;
 static unsigned points; /* power cuts of all tests so far */
@@ -56,8 +56,8 @@ static void restart(void)
 
 static bool is_there(unsigned motor, const struct text *text)
 {
-    return !store_is_damaged(&store, motor) && store_load(&store, motor, loaded) == text->length
-        && memcmp(loaded, text->bytes, text->length) == 0;
+    return !store_is_damaged(&store, motor) && store_load(&store, motor, loaded) == text->length &&
+           memcmp(loaded, text->bytes, text->length) == 0;
 }
 
 static void assert_all_known(void)

@@ -13,11 +13,11 @@ __asm__(".pushsection .ramcode, \"ax\"\n.thumb_func\ncount_low:\n\t"
         "push {r4-r11, lr}\n\t"
         "mov lr, r0\n\t"
         "nop\n\t"
-        "str r1, [lr]\n\t" LOOK(0) LOOK(1) LOOK(3) LOOK(4) LOOK(5) LOOK(6) LOOK(7) LOOK(8) LOOK(9) LOOK(10)
-        "add r0, r0, r1\n\tadd r0, r0, r3\n\tadd r0, r0, r4\n\tadd r0, r0, r5\n\tadd r0, r0, r6\n\t"
-        "add r0, r0, r7\n\tadd r0, r0, r8\n\tadd r0, r0, r9\n\tadd r0, r0, r10\n\t"
-        "and r0, r0, #15\n\trsb r0, r0, #10\n\t" /* of the port only pin 0 has a bit that low */
-        "pop {r4-r11, pc}\n.popsection\n");
+        "str r1, [lr]\n\t" LOOK(0) LOOK(1) LOOK(3) LOOK(4) LOOK(5) LOOK(6) LOOK(7) LOOK(8) LOOK(9)
+            LOOK(10) "add r0, r0, r1\n\tadd r0, r0, r3\n\tadd r0, r0, r4\n\tadd r0, r0, r5\n\tadd r0, r0, r6\n\t"
+                     "add r0, r0, r7\n\tadd r0, r0, r8\n\tadd r0, r0, r9\n\tadd r0, r0, r10\n\t"
+                     "and r0, r0, #15\n\trsb r0, r0, #10\n\t" /* of the port only pin 0 has a bit that low */
+                     "pop {r4-r11, pc}\n.popsection\n");
 
 static volatile uint32_t served;
 

@@ -4,7 +4,9 @@
  */
 #include "part.h"
 
-enum { INVPC = 1 << 18 };
+enum {
+    INVPC = 1 << 18
+};
 
 static volatile uint32_t number;
 

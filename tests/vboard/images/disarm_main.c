@@ -12,10 +12,10 @@
 #include "stm32f4.h"
 
 enum {
-    AHEAD_TICKS = 700,   /* of an edge when its move begins: it is armed by then */
-    VARIED_TICKS = 256,  /* what comes on top of the lead of an edge that is armed just in time, or late */
-    AROUND_TICKS = 192,  /* halts begin in so many ticks before the edge; the first third of them is in time */
-    REST_TICKS = 300,    /* behind the edge, until its interrupt is over */
+    AHEAD_TICKS = 700,  /* of an edge when its move begins: it is armed by then */
+    VARIED_TICKS = 256, /* what comes on top of the lead of an edge that is armed just in time, or late */
+    AROUND_TICKS = 192, /* halts begin in so many ticks before the edge; the first third of them is in time */
+    REST_TICKS = 300,   /* behind the edge, until its interrupt is over */
     FEED_TRIALS = 1000,
 };
 
@@ -87,11 +87,17 @@ static void wait_until(uint32_t tick)
 static void wait_cycles(uint32_t cycles)
 {
     switch (cycles % 8U) {
-#define CASE(n)                      \
-    case n:                          \
-        __asm__ volatile("nop");     \
+#define CASE(n)                                                                                                        \
+    case n:                                                                                                            \
+        __asm__ volatile("nop");                                                                                       \
         __attribute__((fallthrough));
-        CASE(7) CASE(6) CASE(5) CASE(4) CASE(3) CASE(2) CASE(1)
+        CASE(7)
+        CASE(6)
+        CASE(5)
+        CASE(4)
+        CASE(3)
+        CASE(2)
+        CASE(1)
 #undef CASE
     default:
         break;

@@ -14,10 +14,10 @@ static void take(void)
     (void)EXTI_PR; /* so that the line is low at the return */
 }
 
-#define HANDLER(name)        \
-    void name##_handler(void) \
-    {                        \
-        take();              \
+#define HANDLER(name)                                                                                                  \
+    void name##_handler(void)                                                                                          \
+    {                                                                                                                  \
+        take();                                                                                                        \
     }
 HANDLER(exti0)
 HANDLER(exti1)

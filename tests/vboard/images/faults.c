@@ -37,7 +37,7 @@ __attribute__((naked)) void svc_handler(void)
 
 static void provoke(void)
 {
-    (void)REG(0xA0000000);          /* nothing is there */
+    (void)REG(0xA0000000); /* nothing is there */
     REG(0xA0000010) = 1;
     __asm volatile("udf #0");
     __asm volatile(".fpu fpv4-sp-d16\n vmov s0, r0"); /* the coprocessor is off */

@@ -7,7 +7,7 @@ int main(void)
     settle();
     result[0] = GPIO_MODER(GPIOA);
     GPIO_MODER(GPIOA) = (GPIO_MODER(GPIOA) & ~0xFFu) | 0x15; /* PA0 to PA2 outputs, PA3 input */
-    GPIO_BSRR(GPIOA) = 0x00070005;                            /* set wins over reset */
+    GPIO_BSRR(GPIOA) = 0x00070005;                           /* set wins over reset */
     result[1] = GPIO_ODR(GPIOA) & 7;
     result[2] = GPIO_IDR(GPIOA) & 7;
     GPIO_PUPDR(GPIOA) = (GPIO_PUPDR(GPIOA) & ~0xC0u) | 0x40; /* PA3 up */

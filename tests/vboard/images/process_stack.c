@@ -18,8 +18,8 @@ int main(void)
     __asm volatile("msr psp, %[top]\n msr control, %[two]\n isb\n str %[bit], [%[pend]]\n nop\n nop\n"
                    "mov %[sp], sp\n msr control, %[zero]\n isb\n"
                    : [sp] "=&r"(sp)
-                   : [top] "r"(process_stack + 64), [two] "r"(2), [pend] "r"(&NVIC_ISPR(0)),
-                     [bit] "r"(1u << IRQ_EXTI0), [zero] "r"(0)
+                   : [top] "r"(process_stack + 64), [two] "r"(2), [pend] "r"(&NVIC_ISPR(0)), [bit] "r"(1u << IRQ_EXTI0),
+                     [zero] "r"(0)
                    : "memory");
     result[0] = handler_sp > (uint32_t)(uintptr_t)(process_stack + 64) && handler_sp <= msp;
     result[1] = (uint32_t)(uintptr_t)(process_stack + 64);

@@ -8,7 +8,7 @@ int main(void)
     RCC_APB1ENR |= 1;
     settle();
     GPIO_MODER(GPIOA) = (GPIO_MODER(GPIOA) & ~0xFu) | 0xA; /* PA0, PA1 alternate */
-    GPIO_AFRL(GPIOA) = 0x11;                                /* TIM2 */
+    GPIO_AFRL(GPIOA) = 0x11;                               /* TIM2 */
     TIM_CCR(TIM2, 1) = 1000;
     TIM_CCR(TIM2, 2) = 700;
     TIM_CCMR1(TIM2) = 1 << 4 | 3 << 12; /* active on match, toggle on match */

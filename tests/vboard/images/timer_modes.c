@@ -27,7 +27,7 @@ int main(void)
     result[2] = (cycles() - before) / 16;
     result[3] = TIM_CNT(TIM2);
 
-    TIM_CNT(TIM3) = 0xFFFE; /* 16 bits */
+    TIM_CNT(TIM3) = 0xFFFE;     /* 16 bits */
     TIM_CR1(TIM3) = 1 | 1 << 3; /* one pulse: stops at the update */
     __asm volatile("nop\n nop\n nop\n nop\n nop\n nop");
     result[4] = TIM_CR1(TIM3);

@@ -4,7 +4,18 @@
  */
 #include "part.h"
 
-enum { FROZEN, ACTIVE, INACTIVE, TOGGLE, LOW, HIGH, PWM1, PWM2, PRELOAD = 1 << 3, FLAG1 = 2 };
+enum {
+    FROZEN,
+    ACTIVE,
+    INACTIVE,
+    TOGGLE,
+    LOW,
+    HIGH,
+    PWM1,
+    PWM2,
+    PRELOAD = 1 << 3,
+    FLAG1 = 2
+};
 
 static unsigned results;
 

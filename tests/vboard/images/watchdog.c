@@ -24,7 +24,7 @@ int main(void)
     }
     IWDG_KR = 0xCCCC;
     IWDG_KR = 0x5555;
-    IWDG_PR = 0; /* / 4 */
+    IWDG_PR = 0;   /* / 4 */
     IWDG_RLR = 79; /* 80 periods of 125 us: 10 ms */
     while (IWDG_SR != 0) {
     }

@@ -8,51 +8,64 @@
 #ifndef BOARD_H
 #define BOARD_H
 
-#define BOARD_PINS(X)          \
-    X(STEP_1, A, 5, TIM2_CH1)  \
-    X(STEP_2, A, 1, TIM2_CH2)  \
-    X(STEP_3, A, 2, TIM2_CH3)  \
-    X(STEP_4, A, 3, TIM2_CH4)  \
-    X(DIR_1, C, 1, OUT)        \
-    X(DIR_2, C, 2, OUT)        \
-    X(DIR_3, C, 4, OUT)        \
-    X(DIR_4, C, 5, OUT)        \
-    X(LINE_DE, D, 10, OUT)     \
-    X(LINE_TX, D, 8, USART3)   \
-    X(LINE_RX, D, 9, USART3)   \
-    X(BI_1, E, 8, IN_UP)       \
-    X(BI_2, E, 9, IN_UP)       \
-    X(BI_3, E, 10, IN_UP)      \
-    X(BI_4, E, 11, IN_UP)      \
-    X(BI_5, E, 12, IN_UP)      \
-    X(BI_6, E, 13, IN_UP)      \
-    X(BI_7, E, 14, IN_UP)      \
-    X(BI_8, E, 15, IN_UP)      \
-    X(BO_1, B, 11, OUT)        \
-    X(BO_2, B, 5, OUT)         \
-    X(BO_3, B, 7, OUT)         \
-    X(BO_4, B, 8, OUT)         \
-    X(BO_5, B, 12, OUT)        \
-    X(BO_6, B, 13, OUT)        \
-    X(BO_7, B, 14, OUT)        \
-    X(BO_8, B, 15, OUT)        \
-    X(LED_1, D, 12, OUT)       \
-    X(LED_2, D, 13, OUT)       \
-    X(LED_3, D, 14, OUT)       \
-    X(LED_4, D, 15, OUT)       \
-    X(S1_1, E, 4, IN_UP)       \
-    X(S1_2, E, 5, IN_UP)       \
-    X(S1_3, E, 6, IN_UP)       \
+#define BOARD_PINS(X)                                                                                                  \
+    X(STEP_1, A, 5, TIM2_CH1)                                                                                          \
+    X(STEP_2, A, 1, TIM2_CH2)                                                                                          \
+    X(STEP_3, A, 2, TIM2_CH3)                                                                                          \
+    X(STEP_4, A, 3, TIM2_CH4)                                                                                          \
+    X(DIR_1, C, 1, OUT)                                                                                                \
+    X(DIR_2, C, 2, OUT)                                                                                                \
+    X(DIR_3, C, 4, OUT)                                                                                                \
+    X(DIR_4, C, 5, OUT)                                                                                                \
+    X(LINE_DE, D, 10, OUT)                                                                                             \
+    X(LINE_TX, D, 8, USART3)                                                                                           \
+    X(LINE_RX, D, 9, USART3)                                                                                           \
+    X(BI_1, E, 8, IN_UP)                                                                                               \
+    X(BI_2, E, 9, IN_UP)                                                                                               \
+    X(BI_3, E, 10, IN_UP)                                                                                              \
+    X(BI_4, E, 11, IN_UP)                                                                                              \
+    X(BI_5, E, 12, IN_UP)                                                                                              \
+    X(BI_6, E, 13, IN_UP)                                                                                              \
+    X(BI_7, E, 14, IN_UP)                                                                                              \
+    X(BI_8, E, 15, IN_UP)                                                                                              \
+    X(BO_1, B, 11, OUT)                                                                                                \
+    X(BO_2, B, 5, OUT)                                                                                                 \
+    X(BO_3, B, 7, OUT)                                                                                                 \
+    X(BO_4, B, 8, OUT)                                                                                                 \
+    X(BO_5, B, 12, OUT)                                                                                                \
+    X(BO_6, B, 13, OUT)                                                                                                \
+    X(BO_7, B, 14, OUT)                                                                                                \
+    X(BO_8, B, 15, OUT)                                                                                                \
+    X(LED_1, D, 12, OUT)                                                                                               \
+    X(LED_2, D, 13, OUT)                                                                                               \
+    X(LED_3, D, 14, OUT)                                                                                               \
+    X(LED_4, D, 15, OUT)                                                                                               \
+    X(S1_1, E, 4, IN_UP)                                                                                               \
+    X(S1_2, E, 5, IN_UP)                                                                                               \
+    X(S1_3, E, 6, IN_UP)                                                                                               \
     X(S1_4, E, 7, IN_UP)
 
 /* Pins that parts on the board drive or load; checked, not used. */
-#define BOARD_TAKEN(X)                                                                            \
-    X(A, 0, "button B1") X(A, 4, "audio") X(A, 6, "accelerometer")                                \
-    X(A, 7, "accelerometer") X(A, 9, "USB") X(A, 10, "USB") X(A, 11, "USB") X(A, 12, "USB")       \
-    X(B, 3, "SWO") X(B, 6, "audio") X(B, 9, "audio") X(B, 10, "microphone") X(B, 2, "BOOT1")      \
-    X(C, 0, "USB") X(C, 3, "microphone") X(C, 7, "audio") X(C, 10, "audio") X(C, 12, "audio")     \
-    X(D, 4, "audio") X(D, 5, "USB") X(E, 0, "accelerometer") X(E, 1, "accelerometer")             \
-    X(E, 3, "accelerometer")
+#define BOARD_TAKEN(X)                                                                                                 \
+    X(A, 0, "button B1")                                                                                               \
+    X(A, 4, "audio")                                                                                                   \
+    X(A, 6, "accelerometer")                                                                                           \
+    X(A, 7, "accelerometer")                                                                                           \
+    X(A, 9, "USB")                                                                                                     \
+    X(A, 10, "USB")                                                                                                    \
+    X(A, 11, "USB")                                                                                                    \
+    X(A, 12, "USB")                                                                                                    \
+    X(B, 3, "SWO")                                                                                                     \
+    X(B, 6, "audio")                                                                                                   \
+    X(B, 9, "audio")                                                                                                   \
+    X(B, 10, "microphone")                                                                                             \
+    X(B, 2, "BOOT1")                                                                                                   \
+    X(C, 0, "USB")                                                                                                     \
+    X(C, 3, "microphone")                                                                                              \
+    X(C, 7, "audio")                                                                                                   \
+    X(C, 10, "audio")                                                                                                  \
+    X(C, 12, "audio")                                                                                                  \
+    X(D, 4, "audio") X(D, 5, "USB") X(E, 0, "accelerometer") X(E, 1, "accelerometer") X(E, 3, "accelerometer")
 
 /* Pins without a signal that are pulled up, so that a part beside them rests. */
 #define BOARD_PULLED_UP(X) X(E, 3, "chip select of the accelerometer")
