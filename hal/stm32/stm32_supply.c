@@ -16,8 +16,8 @@ static_assert(STM32_BROWN_OUT_RISING_MAX_MV(BOARD_BROWN_OUT_LEVEL) <= BOARD_SUPP
 static_assert(STM32_BROWN_OUT_FALLING_MIN_MV(BOARD_BROWN_OUT_LEVEL) >= 2100U,
               "BOARD_BROWN_OUT_LEVEL: below 2.1 V the part cannot run at 168 MHz");
 
-/* How long the detector takes to begin is in no data sheet of this part; those of its family say 100 us at most. A turn
- * reads the timer by a slow bus: so many take longer, whatever the clock, if it stands still. */
+/* How long the detector takes to begin is not in the data sheet of this part: assumed, with much room. A turn reads the
+ * timer by a slow bus: so many take longer, whatever the clock, if it stands still. */
 #define SETTLE_TICKS (250U * TICKS_PER_US)
 enum {
     TURNS_MAX = 20000

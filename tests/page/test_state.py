@@ -11,7 +11,7 @@ from fake_unit import FakeUnit
 from playwright.sync_api import expect
 from service_page import NOT_KNOWN, ServicePage, shown
 
-MOVING, RUNNING, WAITING, STOPPED, FAILED, ENDED = (1 << bit for bit in range(6))
+MOVING, RUNNING, WAITING, STOPPED, FAILED, ENDED, SIMULATED = (1 << bit for bit in range(7))
 NODE = 3
 SOON_MS = 3000
 """A second until the page goes grey, and what a busy machine takes."""
@@ -48,6 +48,9 @@ def test_each_motor_says_what_it_does(lines_page, unit):
         (status(STOPPED, STOPPED | MOVING, ENDED, ENDED | MOVING),
          ["stopped by K", "stopped by K, slows down", "stopped by X",
           "stopped by X, slows down"]),
+        (status(MOVING | RUNNING | SIMULATED, SIMULATED, MOVING | RUNNING, STOPPED | SIMULATED),
+         ["moves, simulated", "rests, nothing left to run, simulated", "moves",
+          "stopped by K, simulated"]),
         (status(FAILED, FAILED | MOVING, 0, 0, errors=[1, 6, 0, 0]),
          ["failed: label not found", "failed: more than 10 sections, slows down",
           "rests, nothing left to run", "rests, nothing left to run"]),

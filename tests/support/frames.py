@@ -30,6 +30,7 @@ C_HEAD = """\
 /*
  * The frames of tests/vectors/frames.json, written by tests/support/frames.py: change them there.
  */
+/* clang-format off */
 #ifndef FRAME_VECTORS_H
 #define FRAME_VECTORS_H
 

@@ -21,6 +21,7 @@ C_HEAD = """\
  * The answers of tests/vectors/status.json, written by tests/support/statuses.py: change them
  * there.
  */
+/* clang-format off */
 #ifndef STATUS_VECTORS_H
 #define STATUS_VECTORS_H
 

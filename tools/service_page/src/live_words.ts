@@ -49,8 +49,13 @@ function halted(motor: MotorLive): [Kind, string] | null {
     return motor.stopped ? ["stopped", t("live.stopped")] : null;
 }
 
-/** What a motor does, in a word for the style and in words for people. */
+/** What a motor does, in a word for the style and in words for people. While T41 is switched it may differ by motor. */
 export function motorState(motor: MotorLive): [Kind, string] {
+    const [kind, words] = doing(motor);
+    return [kind, motor.simulated ? `${words}, ${t("live.simulated")}` : words];
+}
+
+function doing(motor: MotorLive): [Kind, string] {
     if (motor.moving === null) {
         return ["unknown", t("live.unknown")];
     }

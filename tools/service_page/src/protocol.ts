@@ -72,6 +72,8 @@ export interface MotorLive {
     waiting?: boolean;
     stopped?: boolean;
     failed?: boolean;
+    /** STEP and DIR do not reach its pins (T41). */
+    simulated?: boolean;
     ended?: boolean;
     error?: string;
     awaited?: { what: string; number: number; level: number } | null;
