@@ -224,13 +224,13 @@ class FakeLine:
             return data
 
         self._read, self._write = read, connection.sendall
-        for came in self._until_the_end():
-            try:
+        try:
+            for came in self._until_the_end():
                 self._handle(came)
-            except OSError:
-                return
-            if closed:
-                return
+                if closed:
+                    return
+        except OSError:  # the other side has gone
+            return
 
     def _until_the_end(self) -> Iterator[bytes]:
         """Bodies between flags as they come; empty when nothing has come."""

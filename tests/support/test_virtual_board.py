@@ -10,8 +10,8 @@ from virtual_board import PIN_TIMES_US, pin_times_too_short
 
 def summary(times: Mapping[str, float | None], resets: int = 1) -> dict[str, object]:
     motor = {"motor": 1, "pulses": 3, **PIN_TIMES_US, **times}
-    counts = {"resets": {"power": 1, "watchdog": resets - 1}, "pin_resets": 0}
-    return {**counts, "motors": [motor]}
+    starts = {"resets": {"power": 1, "watchdog": resets - 1}, "pin_resets": 0}
+    return {**starts, "supply": {"brown_outs": 0}, "motors": [motor]}
 
 
 def test_times_as_the_drivers_need_them_pass() -> None:

@@ -20,7 +20,7 @@ from types import MappingProxyType
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
-FUZZ_SECONDS = 15  # of exploration, each fuzzer
+FUZZ_SECONDS = 10  # of exploration, each fuzzer
 LONG_MINUTES = 4  # the same with --long
 SOAK_MINUTES = 24 * 60  # of unit time, with --long
 SWEEPS = {"RKM04_LONG": "1", "RKM04_PROGRAMS": "11000"}  # with --long; 10 000 compared

@@ -20,8 +20,7 @@ SILENT_ROUNDS = 4
 
 PAUSE_SECONDS = 0.02
 ANSWERING_SECONDS = 12.0
-"""So long a unit is told to stop that answers and does not: K does nothing to a motor that slows
-down because of \\, and what stands behind the \\ would run then."""
+"""So long a unit is told to stop that answers and does not."""
 
 
 def stop_all(
