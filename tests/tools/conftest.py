@@ -13,9 +13,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from fake_unit import FakeLine, FakeUnit
 from rkm04_tools import board
 from rkm04_tools.cli import main
 from served import Served
+from service_client import Service, build_with_page
 from step_rig import MOTORS, StepRig
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -69,6 +71,36 @@ def tool(capsys: pytest.CaptureFixture[str]) -> Tool:
         return Result(status, printed.out, printed.err)
 
     return run
+
+
+@pytest.fixture
+def fake(unit: FakeUnit, monkeypatch: pytest.MonkeyPatch) -> Iterator[FakeLine]:
+    """A line with the `unit` of the test's file, where commands go that name no other."""
+    line = FakeLine(unit)
+    monkeypatch.setenv("RKM04_PORT", line.port)
+    monkeypatch.setenv("RKM04_NODE", str(unit.node))
+    yield line
+    line.close()
+
+
+@pytest.fixture
+def call(tool: Tool, fake: FakeLine) -> Callable[..., str]:
+    """Run a command on the fake line; return what it printed, which must be no complaint."""
+
+    def run(*arguments: str | Path) -> str:
+        result = tool(*arguments)
+        assert (result.status, result.err) == (0, "")
+        return result.out
+
+    return run
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+    """The service program, without a browser."""
+    running = Service(build_with_page(tmp_path_factory.mktemp("service")))
+    yield running
+    assert running.end() == (0, "")
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from typing import Any
 
 import fake_unit
 import pytest
-from fake_unit import ENDED, FAILED, MOVING, RUNNING, STOPPED, WAITING, FakeLine, FakeUnit
+from fake_unit import ENDED, FAILED, MOVING, RUNNING, STOPPED, WAITING, FakeUnit
 from rkm04_tools import acting
 from rkm04_tools.line import open_line
 from rkm04_tools.sending import Plan, check_program
@@ -28,16 +28,13 @@ def unit():
 
 
 @pytest.fixture
-def fake(unit, monkeypatch):
-    line = FakeLine(unit)
-    monkeypatch.setenv("RKM04_PORT", line.port)
-    monkeypatch.setenv("RKM04_NODE", str(NODE))
+def fake(fake, monkeypatch):
+    """The same line, beside a tool that has less patience."""
     monkeypatch.setattr(acting, "STAND_SECONDS", 0.05)
     monkeypatch.setattr(acting, "LOOK_SECONDS", 0.1)
     monkeypatch.setattr(acting, "QUIET_SECONDS", 0.06)
     monkeypatch.setattr(acting, "POLL_SECONDS", 0.01)
-    yield line
-    line.close()
+    return fake
 
 
 def acts(unit: FakeUnit) -> list[tuple[int, bytes]]:

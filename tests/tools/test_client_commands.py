@@ -27,28 +27,6 @@ def unit():
     return FakeUnit(NODE, positions=[5000, -5, 0, 16_000_000], programs=programs, tables={1: TABLE})
 
 
-@pytest.fixture
-def fake(unit, monkeypatch):
-    line = FakeLine(unit)
-    monkeypatch.setenv("RKM04_PORT", line.port)
-    monkeypatch.setenv("RKM04_NODE", str(NODE))
-    yield line
-    line.close()
-
-
-@pytest.fixture
-def call(tool, fake):
-    """Run a command on the fake line; return what it printed, which must be no complaint."""
-
-    def run(*arguments: str | Path) -> str:
-        result = tool(*arguments)
-        assert (result.status, result.err) == (0, "")
-        out: str = result.out
-        return out
-
-    return run
-
-
 def acts(unit: FakeUnit) -> list[bytes]:
     return [message for message in unit.done if message[0] in (2, 3)]
 

@@ -6,12 +6,11 @@ import json
 import re
 import signal
 import time
-from pathlib import Path
 
 import fake_unit
 import pytest
 import statuses
-from fake_unit import FakeLine, FakeUnit
+from fake_unit import FakeUnit
 
 NODE = 3
 TABLE = b"  4;[(1;100),(248;1000),(4753;1000),(5000;0)]"
@@ -20,28 +19,6 @@ TABLE = b"  4;[(1;100),(248;1000),(4753;1000),(5000;0)]"
 @pytest.fixture
 def unit():
     return FakeUnit(NODE, positions=[5000, -5, 0, 16_000_000], tables={1: TABLE})
-
-
-@pytest.fixture
-def fake(unit, monkeypatch):
-    line = FakeLine(unit)
-    monkeypatch.setenv("RKM04_PORT", line.port)
-    monkeypatch.setenv("RKM04_NODE", str(NODE))
-    yield line
-    line.close()
-
-
-@pytest.fixture
-def call(tool, fake):
-    """Run a command on the fake line; return what it printed, which must be no complaint."""
-
-    def run(*arguments: str | Path) -> str:
-        result = tool(*arguments)
-        assert (result.status, result.err) == (0, "")
-        out: str = result.out
-        return out
-
-    return run
 
 
 def test_watch_prints_a_line_each_time(call, unit):

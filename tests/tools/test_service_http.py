@@ -9,18 +9,10 @@ import threading
 import pytest
 from rkm04_tools.service.curves import Curves, Wanted
 from rkm04_tools.service.trouble import Superseded
-from service_client import PAGE, Service, build_with_page
+from service_client import PAGE
 from websockets.exceptions import InvalidStatus
 
 ENDLESS = "@1 S2000 V16000 A60000 F1 R D J1"
-
-
-@pytest.fixture(scope="module")
-def service(tmp_path_factory):
-    running = Service(build_with_page(tmp_path_factory.mktemp("service")))
-    yield running
-    status, complaint = running.end()
-    assert (status, complaint) == (0, "")
 
 
 @pytest.fixture

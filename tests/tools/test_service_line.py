@@ -34,14 +34,6 @@ def start(tmp_path):
         assert (status, complaint) == (0, "")
 
 
-@pytest.fixture(scope="module")
-def service(tmp_path_factory):
-    running = Service(build_with_page(tmp_path_factory.mktemp("service")))
-    yield running
-    status, complaint = running.end()
-    assert (status, complaint) == (0, "")
-
-
 @pytest.fixture
 def browser(service):
     """A browser at a virtual unit that is as if it were new."""

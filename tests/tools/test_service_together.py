@@ -13,14 +13,6 @@ LONG = "\\ C100 S500 " + "W1 F1 R " * 220
 """More than one message."""
 
 
-@pytest.fixture(scope="module")
-def service(tmp_path_factory):
-    running = Service(build_with_page(tmp_path_factory.mktemp("service")))
-    yield running
-    status, complaint = running.end()
-    assert (status, complaint) == (0, "")
-
-
 @pytest.fixture
 def browser(service):
     """A browser at a virtual unit without programs."""
