@@ -482,7 +482,10 @@ def test_a_text_that_is_too_long_is_refused(browser):
     assert browser.next("error")["error"]["kind"] == "TooLarge"
 
 
-def test_a_flood_of_orders_is_refused_in_words_and_a_stop_comes_through(browser):
+def test_a_flood_of_orders_is_refused_in_words_and_a_stop_comes_through(start):
+    """Of a service of its own: a stop is for all units that were ever seen."""
+    browser = start().browser()
+    browser.ask("connect", port="virtual", node=1)
     for _ in range(150):
         browser.say(type="request", message="program", motor=1)
 
