@@ -8,6 +8,10 @@ import pytest
 from playwright.sync_api import WebSocket, expect
 from service_page import ServicePage
 
+NODES = [str(node) for node in range(1, 17)]
+SCANS = 3
+"""A scan waits 45 ms for a unit: a busy machine may take longer."""
+
 
 @pytest.fixture
 def requests(page: ServicePage) -> list[dict[str, object]]:
@@ -91,11 +95,16 @@ def test_all_units_are_meant_once_and_the_page_says_that_none_answers(page, requ
 
 
 def test_a_scan_finds_the_units_and_a_click_goes_to_one(page, requests):
-    page.page.locator("#scan").click()
     found = page.page.locator("#found button")
-    expect(found).to_have_count(16)
+    for _ in range(SCANS):
+        answers = page.answers.count()
+        page.page.locator("#scan").click()
+        expect(page.answers).to_have_count(answers + 1)
+        if found.count() == len(NODES):
+            break
+    assert found.all_text_contents() == NODES
     expect(found.nth(0)).to_have_attribute("aria-pressed", "true")
-    assert [asked["message"] for asked in requests] == ["scan"]
+    assert {asked["message"] for asked in requests} == {"scan"}
 
     found.nth(10).click()
     expect(page.page.locator("#state")).to_contain_text("node 11")
