@@ -145,7 +145,7 @@ static void run_call(struct interpreter *interpreter, uint32_t label, uint64_t n
     run_jump(interpreter, label, now_ticks);
 }
 
-/* Goes back behind the youngest call; what it has begun and not ended of loops is closed. */
+/* Goes back to what follows the youngest call; what it has begun and not ended of loops is closed. */
 static void run_return(struct interpreter *interpreter, uint64_t now_ticks)
 {
     if (interpreter->call_depth == 0) {

@@ -136,7 +136,7 @@ bool interpreter_load(struct interpreter *interpreter, const uint8_t *text, uint
     return true;
 }
 
-/* Whether K has stopped, or is stopping, a run without end behind which nothing was stored: a jog. A guard may have
+/* Whether K has stopped, or is stopping, a run without end after which nothing was stored: a jog. A guard may have
  * begun to stop it before. */
 static bool is_jog_stopped(const struct interpreter *interpreter)
 {
@@ -145,7 +145,7 @@ static bool is_jog_stopped(const struct interpreter *interpreter)
            interpreter_has_run_all(interpreter);
 }
 
-/* Nothing of the run is left to go on with; what has been stored behind it follows when the motor stands. */
+/* Nothing of the run is left to go on with; what has been stored after it follows when the motor stands. */
 static void end_jog(struct interpreter *interpreter)
 {
     interpreter->order.sections = 0;

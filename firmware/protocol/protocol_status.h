@@ -14,7 +14,7 @@
 #include "interpreter.h"
 
 enum {
-    PROTOCOL_STATUS_LAYOUT = 2, /* a later layout has these bytes too, and more behind them */
+    PROTOCOL_STATUS_LAYOUT = 2, /* a later layout has these bytes too, and more after them */
     PROTOCOL_LINE_COUNTS = 12,  /* counters of the link, in the order of its LINK_COUNTS */
 
     /* What a motor waits for: the number of an input or variable, with the level in bit 7, or one of these. */

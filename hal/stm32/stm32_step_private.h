@@ -31,7 +31,7 @@
 
 /* The bus of the timer runs at a quarter of the core's clock, the timer at half. An access takes two clocks of that
  * bus, and one of the core each for the matrix and to get into step with the bus (AN4031, table 4): a write acts that
- * much behind its instruction, and the next access waits for it. `cycles` are those of the code. */
+ * much after its instruction, and the next access waits for it. `cycles` are those of the code. */
 enum {
     CYCLES_PER_TICK = 2,
     BUS_ACCESS_CYCLES = 2 * 4 + 2

@@ -33,7 +33,7 @@ class Marks:
         return any(came)
 
     def forget(self, tick: int, made: int) -> None:
-        r"""With a `\`, a last section that begins behind it sets no outputs."""
+        r"""With a `\`, a last section that begins after it sets no outputs."""
         if made < self._border:
             self._outputs = ()
             return

@@ -97,14 +97,14 @@ class Motor:
 
     @property
     def is_jog_stopped(self) -> bool:
-        """Whether `K` has ended, or is ending, a run without end behind which nothing is stored."""
+        """Whether `K` has ended, or is ending, a run without end after which nothing is stored."""
         jog = self._moving is not None and self._moving.is_endless and not self._moving.limit
         paused = self.phase is Phase.STOPPED and self._paused in (Phase.MOVING, Phase.RUNNING)
         braking = self.phase is Phase.MOVING and self._cause == "K"
         return jog and (paused or braking) and self._has_run_all
 
     def leave_jog(self, tick: int) -> None:
-        """Something was stored behind a jog that has been stopped: it follows the stand."""
+        """Something was stored after a jog that has been stopped: it follows the stand."""
         self._order = None
         self._resume_wanted = False
         if self.phase is Phase.MOVING:

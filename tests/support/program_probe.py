@@ -66,7 +66,7 @@ class Event:
 class Connection:
     """STEP and DIR of a motor are connected to their pins, or disconnected.
 
-    `ends_move`: it is the very next thing behind the end of a move of this motor.
+    `ends_move`: it is the very next thing after the end of a move of this motor.
     """
 
     tick: int

@@ -77,7 +77,7 @@ VECTORS = [
     Vector("just switched on"),
     Vector("input 1 and output 8", inputs=0x01, outputs=0x80, line_counts=[1] + [0] * 11),
     Vector("behind the watchdog", cause=2, switches=0x02),
-    Vector("behind a reset, no crystal", cause=1, switches=0x11, motors=[0, 16, 0, 0],
+    Vector("after a reset, no crystal", cause=1, switches=0x11, motors=[0, 16, 0, 0],
            errors=[0, 10, 0, 0]),
     Vector("at work", inputs=0xA5, outputs=0x3C, switches=0x0C, motors=[3, 6 + 64, 9 + 64, 32 + 64],
            positions_steps=[5000, -5, 16_000_000, -(2**40)], late_steps=7,

@@ -3,10 +3,10 @@
 An anchor is one of
 
     contract FUNCTION           before its definition, or before its declaration if that is all
-    begin FUNCTION [BLOCK]      behind the opening brace
+    begin FUNCTION [BLOCK]      after the opening brace
     end FUNCTION [BLOCK]        before the closing brace
     before FUNCTION STATEMENT   before its first line
-    after FUNCTION STATEMENT    behind its last line
+    after FUNCTION STATEMENT    after its last line
 
 where a BLOCK is the body of an `if`, `else`, `loop` or `switch`, and a STATEMENT one of these, or
 
@@ -14,7 +14,7 @@ where a BLOCK is the body of an `if`, `else`, `loop` or `switch`, and a STATEMEN
     call NAME                   calls this function, and does nothing else
     return, break
 
-each with its number in the function behind it, from 1, if there are several such.
+each with its number in the function after it, from 1, if there are several such.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ def _before(source: Source, place: int, anchor: str) -> int:
 
 
 def _behind(source: Source, place: int, anchor: str) -> int:
-    """The line below a place, behind which there must be nothing but a comment in it."""
+    """The line below a place, after which there must be nothing but a comment in it."""
     end = source.code.find(b"\n", place)
     rest = source.code[place:end].strip()
     if rest and not (rest.startswith(b"/*") and rest.endswith(b"*/")):

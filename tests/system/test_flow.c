@@ -181,7 +181,7 @@ void test_a_loop_reached_again_begins_anew(const char *text, unsigned passes)
     TEST_ASSERT_EQUAL_UINT32(0, bench_count(&bench, 1, HAL_TRACE_ERROR));
 }
 
-/* A loop that the subroutine has left open is not that of the E behind the call. */
+/* A loop that the subroutine has left open is not that of the E after the call. */
 TEST_CASE("'1 E J9 @1 L5 .", INTERPRETER_ERROR_LOOP_END)
 TEST_CASE("L2 '1 E E J9 @1 L5 .", INTERPRETER_ERROR_LOOP_END)
 TEST_CASE("L2 '1 E J9 @1 L5 .", INTERPRETER_ERROR_NONE)
@@ -204,7 +204,7 @@ void test_a_loop_is_not_the_one_of_a_call_before(void)
     TEST_ASSERT_EQUAL_UINT32(0, bench_count(&bench, 1, HAL_TRACE_ERROR));
 }
 
-/* The E in the subroutine ends the loop of the caller; the loop begun behind it is the subroutine's. */
+/* The E in the subroutine ends the loop of the caller; the loop begun after it is the subroutine's. */
 void test_a_subroutine_may_end_the_loop_of_its_caller(void)
 {
     bench_do(&bench, 1, "[ L1 '1 E J9 @1 E L3 . @9 ]");

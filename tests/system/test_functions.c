@@ -49,7 +49,7 @@ void test_c41_connects_the_outputs_again(void)
     TEST_ASSERT_EQUAL_UINT32(50, bench.pulse_count);
 }
 
-/* Motor 1 or 3, so that T41 comes from a motor that is polled before and behind. */
+/* Motor 1 or 3, so that T41 comes from a motor that is polled before and after. */
 TEST_CASE(1)
 TEST_CASE(3)
 void test_t41_lets_a_motor_that_moves_finish_its_move_and_makes_no_other(unsigned motor)

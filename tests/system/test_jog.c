@@ -1,4 +1,4 @@
-/* Jogging: new commands behind a run without end that K has stopped (spec, section 5.5). */
+/* Jogging: new commands after a run without end that K has stopped (language.md). */
 #include "bench.h"
 #include "unity.h"
 
@@ -14,7 +14,7 @@ void tearDown(void)
     bench_check(&bench);
 }
 
-/* Jogging; the new command comes behind the stop, or while the motor still brakes for `ms`. */
+/* Jogging; the new command comes after the stop, or while the motor still brakes for `ms`. */
 TEST_CASE("G+", "G-", 2000)
 TEST_CASE("G+", "G-", 50)
 TEST_CASE("G-", "G-", 2000)
@@ -119,7 +119,7 @@ void test_new_commands_wait_in_a_pause_behind_a_run_without_end(void)
     TEST_ASSERT_TRUE(bench_output(&bench, 1));
 }
 
-/* The second K stops what has come behind the run, not the run: that has been ended. */
+/* The second K stops what has come after the run, not the run: that has been ended. */
 void test_k_while_a_jog_brakes_keeps_the_new_commands_for_c75(void)
 {
     bench_send(&bench, 1, "S100 V1000 A2000 G+");
@@ -151,7 +151,7 @@ void test_new_commands_take_back_a_c75_that_waits_for_a_jog_to_stand(void)
     TEST_ASSERT_EQUAL_INT(INTERPRETER_STOPPED, bench_state(&bench, 1));
 }
 
-/* A guard and K together stop a jog: new commands run all the same, while the motor brakes and behind it. */
+/* A guard and K together stop a jog: new commands run all the same, while the motor brakes and after it. */
 TEST_CASE(0)
 TEST_CASE(2000)
 void test_a_jog_that_a_guard_was_stopping_needs_no_reset_either(unsigned ms)

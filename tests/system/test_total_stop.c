@@ -89,7 +89,7 @@ void test_x_ends_a_program_that_waits_or_runs(const char *text)
     TEST_ASSERT_EQUAL_INT64(HAL_TRACE_STOP_TOTAL, bench_event(&bench, 1, HAL_TRACE_STOP, 0)->value);
 }
 
-/* At rest before there was a move, and behind one that X has watched. */
+/* At rest before there was a move, and after one that X has watched. */
 TEST_CASE("X03")
 TEST_CASE("X03 S1000 F5 R")
 TEST_CASE("X03 W5")

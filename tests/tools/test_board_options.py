@@ -31,7 +31,7 @@ Part = Callable[..., Path]
 
 @pytest.fixture
 def part(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Part:
-    """A part that has these option bytes before and behind a write."""
+    """A part that has these option bytes before and after a write."""
     monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
 
     def make(before: int, after: int = 0, status: int = 0) -> Path:

@@ -419,7 +419,7 @@ def test_an_interruption_of_a_stream_stops_the_motor_and_tells_so(start, serve, 
         out, err = process.communicate(timeout=10)
 
         assert (process.returncode, out) == (130, "")
-        assert "rkm04: interrupted behind " in err
+        assert "rkm04: interrupted after " in err
         assert err.endswith(
             f" of 4003 commands; unit {NODE}: motor 1 stands, stopped by K (rkm04 resume goes on)\n"
         )

@@ -16,7 +16,7 @@ LISTED = list(commands_of(PARSER))
 
 
 def at(words: str) -> list[str]:
-    """What is offered behind `rkm04` and these words."""
+    """What is offered after `rkm04` and these words."""
     return offered(PARSER, words.split(" "))
 
 

@@ -1,4 +1,4 @@
-"""The unit lets the line go within a character behind its last stop bit, whatever else it does."""
+"""The unit lets the line go within a character after its last stop bit, whatever else it does."""
 
 from __future__ import annotations
 

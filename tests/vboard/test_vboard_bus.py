@@ -47,7 +47,7 @@ def test_the_option_says_what_an_access_at_a_quarter_of_the_clock_takes(run_imag
 def test_a_write_to_a_slow_bus_acts_when_it_arrives(run_image, wait, low):
     result = run_image("arrival", "--apb-wait", str(wait)).result
 
-    # The first look comes two cycles behind the store, the others one by one.
+    # The first look comes two cycles after the store, the others one by one.
     assert result[0] == low
 
 

@@ -5,7 +5,7 @@
     + .direction = 0
 
 is what stands in the function, and what may stand there instead. Tokens are compared, so layout
-and comments do not matter. If they stand there more than once, a number behind the function tells
+and comments do not matter. If they stand there more than once, a number after the function tells
 which, from 1; without a function they are looked for in the whole file. A line that begins with
 blanks goes on with the one above.
 """

@@ -29,7 +29,7 @@ BROADCAST_NOTE = "NOT CONFIRMED: no unit answers a broadcast; look at each motor
 
 @dataclass(frozen=True)
 class Told:
-    """What a motor does behind an order. `done`: whether it obeys; None: nobody knows."""
+    """What a motor does after an order. `done`: whether it obeys; None: nobody knows."""
 
     motor: int
     text: str

@@ -30,7 +30,7 @@ USB_LOADER = "0483:df11"
 """How the chip's own loader shows up on USB."""
 
 DFU_LEFT = 74
-"""How dfu-util ends when it cannot ask the board for its state; so it is behind `:leave`, too."""
+"""How dfu-util ends when it cannot ask the board for its state; so it is after `:leave`, too."""
 DFU_WRITTEN = "File downloaded successfully"
 SMALL_SIGN = "if it is less than 1 MB, all four LEDs blink at power-on"
 

@@ -17,7 +17,7 @@ DFU_GROUP = re.compile(r"(\d+)\*(\d+)(K?)")
 
 
 def openocd(probe: str, *actions: str) -> list[str]:
-    """A call of OpenOCD; the actions run one behind the other."""
+    """A call of OpenOCD; the actions run one after the other."""
     scripts = ["-f", f"interface/{probe}.cfg", "-f", "target/stm32f4x.cfg"]
     return ["openocd", *scripts, "-c", "; ".join(["init", *actions, "shutdown"])]
 

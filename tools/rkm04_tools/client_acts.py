@@ -97,7 +97,7 @@ def _stream(options: Namespace, node: int, port: str, checked: Checked) -> int:
             with _undisturbed():
                 found = acting.stop(motor.unit, motor.number)
             for each in found:
-                text = f"interrupted behind {fed} of {total} commands; {_line(motor, each)}"
+                text = f"interrupted after {fed} of {total} commands; {_line(motor, each)}"
                 print(f"rkm04: {text}", file=sys.stderr)
             return INTERRUPTED
 
@@ -125,7 +125,7 @@ def _undisturbed() -> Iterator[None]:
 
 
 def _tell_sent(options: Namespace, motor: Motor, sent: Sent) -> int:
-    """Print what was sent, and what the motors do behind it."""
+    """Print what was sent, and what the motors do after it."""
     if sent.overflow:
         _warn(
             options,

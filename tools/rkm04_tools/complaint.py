@@ -29,14 +29,14 @@ FOREIGN_COMMENTS = (";", "//", "#", "--", "%")
 def without_comments(text: str, errors: Sequence[ParseError]) -> list[ParseError]:
     """Leave out what follows from a comment of another language, up to the end of its line."""
     kept: list[ParseError] = []
-    behind = 0
+    after = 0
     for error in errors:
-        if error.offset < behind:
+        if error.offset < after:
             continue
         kept.append(error)
         if text.startswith(FOREIGN_COMMENTS, error.offset):
             end = LINE_END.search(text, error.offset)
-            behind = end.start() if end else len(text)
+            after = end.start() if end else len(text)
     return kept
 
 
@@ -89,7 +89,7 @@ def _advice(character: str, rows: Sequence[OpcodeRow]) -> str:
     if character.islower() and rows_of(character.upper(), rows):
         return f"; commands are upper case: {character.upper()}"
     if character == "\x1a":
-        return "; the end of a DOS file stands here, with more behind it"
+        return "; the end of a DOS file stands here, with more after it"
     if character == "}":
         return "; no comment is open here"
     if character in QUOTES:

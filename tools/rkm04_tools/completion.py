@@ -62,7 +62,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def offered(parser: argparse.ArgumentParser, words: Sequence[str]) -> list[str]:
-    """What can stand in place of the last word, behind the others; it begins as that does."""
+    """What can stand in place of the last word, after the others; it begins as that does."""
     *before, begun = words or [""]
     pending: argparse.Action | None = None
     for word in before:

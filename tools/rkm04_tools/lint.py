@@ -100,9 +100,9 @@ def _returned_loops(flow: Flow) -> Iterator[Remark]:
     for index in sorted(flow.run - flow.main):
         command = flow.commands[index]
         if command.opcode == "LOOP":
-            behind = {flow.commands[i].opcode for i in flow.reached(flow.next_inside(index))}
-            if "RETURN" in behind and "LOOP_END" not in behind:
-                text = f"the . behind it closes {command.text}; an E behind the call is not its own"
+            after = {flow.commands[i].opcode for i in flow.reached(flow.next_inside(index))}
+            if "RETURN" in after and "LOOP_END" not in after:
+                text = f"the . after it closes {command.text}; an E after the call is not its own"
                 yield Remark(command.offset, "loop-returned", text)
 
 
@@ -230,13 +230,13 @@ def _behind_calls(flow: Flow, end: int) -> Iterator[int]:
 
 
 def _total_stops(flow: Flow) -> Iterator[Remark]:
-    """Find an X behind which the program only comes to rest."""
+    """Find an X after which the program only comes to rest."""
     if not any(command.opcode in TAKES_TIME for command in flow.commands):
         return
     for index, command in enumerate(flow.commands):
         if command.opcode == "TOTAL_STOP" and index in flow.run:
-            behind = {flow.commands[i].opcode for i in _with_steps(flow, [index])}
-            if behind.isdisjoint(TAKES_TIME):
+            after = {flow.commands[i].opcode for i in _with_steps(flow, [index])}
+            if after.isdisjoint(TAKES_TIME):
                 text = f"{command.text} does nothing while the motor rests; put it before the moves"
                 yield Remark(command.offset, "total-stop", text)
 

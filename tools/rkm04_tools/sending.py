@@ -3,7 +3,7 @@
 Programs go in canonical form, cut at borders of commands. What needs several messages must not run
 before all of it has arrived. So `[` goes before it and `]` behind. Where that would change the
 program, because it has brackets of its own (one `]` releases every `[`) or leaves no room for two
-more, the motor is reset, held by `[`, and stopped by K; `]` is the first command behind that, and
+more, the motor is reset, held by `[`, and stopped by K; `]` is the first command after that, and
 C75 follows the last message. (K alone does nothing to a motor at rest.)
 
 K, C75 and V that are the whole text go as they are: alone in a message each acts at once.

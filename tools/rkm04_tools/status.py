@@ -52,7 +52,7 @@ LINE_COUNTS = {
 LAYOUT = struct.Struct(f"<BB4B4B4B4qI{len(LINE_COUNTS)}I")
 LAYOUT_OLDEST = 1
 WAITS = struct.Struct("<4B")
-"""What layout 2 has behind it: what each motor waits for."""
+"""What layout 2 has after it: what each motor waits for."""
 
 WAITS_HIGH, WAITS_TIME, WAITS_RELEASE = 0x80, 96, 97
 

@@ -2,7 +2,7 @@
 
 The memory is a ring, and what has run may be overwritten. So the unit is asked again and again
 which command it runs, and gets no more than fits in front of that. What a loop comes back to, and
-what waits for a `]` further on, is kept until it is behind. Jumps and calls are refused: a label
+what waits for a `]` further on, is kept until it is after. Jumps and calls are refused: a label
 that has been overwritten, or has not come yet, would end the program.
 """
 
@@ -127,7 +127,7 @@ class Feeder:
     def _send(self, part: Sequence[Command], is_first: bool) -> None:
         sessions, node = self._motor.unit.line.sessions, self._motor.unit.node
         if not is_first and sessions[node] != self._session:
-            # A question in between has begun a new one, behind which the unit may be another.
+            # A question in between has begun a new one, after which the unit may be another.
             raise UnitRestarted(f"unit {node}", repeated=False)
         text = ("\\" if is_first else "") + "".join(command.text for command in part)
         if [command.opcode for command in part] == ["SPEED"]:

@@ -57,7 +57,7 @@ bool infile_read(struct infile *file, const char *path)
     return error == 0;
 }
 
-/* What may stand behind the last line: blanks, and the end that DOS editors write. */
+/* What may stand after the last line: blanks, and the end that DOS editors write. */
 static bool is_end(uint8_t byte)
 {
     return byte == 0x1AU || byte == ' ' || byte == '\t' || byte == '\r' || byte == '\n';

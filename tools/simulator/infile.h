@@ -16,7 +16,7 @@ struct infile {
 /* Reads a file, `-` is standard input. False after a complaint. */
 bool infile_read(struct infile *file, const char *path);
 
-/* The same without a byte order mark (UTF-8), and without an end of file of DOS and blanks behind the last line. */
+/* The same without a byte order mark (UTF-8), and without an end of file of DOS and blanks after the last line. */
 bool infile_read_text(struct infile *file, const char *path);
 
 /* The line, from 1, of the byte at an offset, and its column, from 1. */

@@ -238,7 +238,7 @@ static uint32_t refuse_return(struct board *board, unsigned exception, uint32_t 
 
 /* Erratum 838869 of the core (its revisions r0p0 and r0p1): where a handler ends with BX while its last store still
  * waits for the bus, the processor may take the wrong vector. A DSB between the two helps, and so does a return by POP,
- * whose load comes behind the store. */
+ * whose load comes after the store. */
 static void look_for_store(struct board *board)
 {
     enum {

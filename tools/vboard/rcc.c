@@ -47,11 +47,11 @@ enum {
 #define LSI_START_PS (15 * VTIME_PS_PER_US)
 #define PLL_LOCK_PS (200 * VTIME_PS_PER_US)
 
-/* HSERDY goes low six of its cycles behind HSEON (RM0090 section 7.3.1). How long PLLRDY takes is not said; assumed. */
+/* HSERDY goes low six of its cycles after HSEON (RM0090 section 7.3.1). How long PLLRDY takes is not said; assumed. */
 #define HSE_STOP_CYCLES 6
 #define PLL_STOP_PS VTIME_PS_PER_US
 
-/* Errata ES0182, "delay after an RCC peripheral clock enabling": an access too short behind the enable is lost: 2
+/* Errata ES0182, "delay after an RCC peripheral clock enabling": an access too short after the enable is lost: 2
  * cycles of AHB, or 1 + the divider of APB. The write itself is on its way for 2 more: with a store, a read-back and a
  * store at once the second one was lost on a part. */
 enum {

@@ -158,7 +158,7 @@ void supply_reset(struct board *board)
     board->supply.settled_ps = VTIME_NEVER;
 }
 
-/* MS: of a point behind the first one. */
+/* MS: of a point after the first one. */
 static bool read_time(const struct supply *supply, const char **at, const char *end, uint64_t *ps)
 {
     if (!line_read_fixed(at, end, MS_DECIMALS, MS_MAX * VTIME_PS_PER_MS, ps) || *at == end || **at != ':') {

@@ -115,7 +115,7 @@ struct judge_limits judge_default_limits(void);
 
 void judge_init(struct judge *judge, const struct judge_limits *limits);
 
-/* A pulse, as an edge with a direction, or as a line of a file with the position behind it. */
+/* A pulse, as an edge with a direction, or as a line of a file with the position after it. */
 void judge_pulse(struct judge *judge, uint64_t tick, unsigned motor, bool backward);
 void judge_pulse_to(struct judge *judge, uint64_t tick, unsigned motor, int64_t position);
 

@@ -52,7 +52,7 @@ static const struct status_vector status_vectors[] = {
      "\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00"
      "\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00"
      "\x00", 101},
-    {"behind a reset, no crystal",
+    {"after a reset, no crystal",
      {0, 0, 1, 17, {0, 16, 0, 0}, {0, 10, 0, 0},
       {INT64_C(0), INT64_C(0), INT64_C(0), INT64_C(0)}, 0U,
       {0U, 0U, 0U, 0U, 0U, 0U,

@@ -1,6 +1,6 @@
 /*
  * When a write to the slow bus acts, at 168 MHz. Channel 1 of TIM2 is forced high by a store, and a port on the fast
- * bus looks at the pin in the cycles behind it; the same for a pin of the port itself. Then an interrupt whose flag is
+ * bus looks at the pin in the cycles after it; the same for a pin of the port itself. Then an interrupt whose flag is
  * cleared by the last instruction but one of its handler.
  */
 #include "part.h"

@@ -15,7 +15,7 @@ enum {
     AHEAD_TICKS = 700,  /* of an edge when its move begins: it is armed by then */
     VARIED_TICKS = 256, /* what comes on top of the lead of an edge that is armed just in time, or late */
     AROUND_TICKS = 192, /* halts begin in so many ticks before the edge; the first third of them is in time */
-    REST_TICKS = 300,   /* behind the edge, until its interrupt is over */
+    REST_TICKS = 300,   /* after the edge, until its interrupt is over */
     FEED_TRIALS = 1000,
 };
 

@@ -32,7 +32,7 @@ HOLD, RELEASE = "[", "]"
 def send_all(unit: Unit, texts: Mapping[int, str], together: bool, tell: Tell) -> Answer:
     """Send each motor its own program, or nothing if one of them is wrong.
 
-    Each runs as soon as it has arrived; or, `together`, each waits behind `[` until one `]` for all
+    Each runs as soon as it has arrived; or, `together`, each waits after `[` until one `]` for all
     motors lets them start on the same tick.
     """
     plans = {motor: _planned(motor, text) for motor, text in texts.items()}
@@ -72,7 +72,7 @@ def _planned(motor: int, text: str) -> Plan:
 
 
 def _held_back(motor: int, plan: Plan) -> Plan:
-    """The same program behind `[`, in as many texts as it needs."""
+    """The same program after `[`, in as many texts as it needs."""
     if any(command.opcode in BRACKETS for command in plan.commands):
         raise Failure(
             f"motor {motor}: the program has [ or ] of its own, so it cannot wait for the others; "
@@ -96,7 +96,7 @@ def _held_back(motor: int, plan: Plan) -> Plan:
 
 
 def _require_no_other_waits(unit: Unit, others: Sequence[int]) -> None:
-    """`]` for all motors would let a motor start that waits behind `[` of another program."""
+    """`]` for all motors would let a motor start that waits after `[` of another program."""
     for number in others:
         brackets = [c for c in held_commands(unit.motor(number)) if c in (HOLD, RELEASE)]
         if brackets and brackets[-1] == HOLD:

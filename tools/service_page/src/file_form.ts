@@ -15,7 +15,7 @@ export interface FileForm {
     end: LineEnd;
     /** The text as it was read, if its lines end in different ways. */
     mixed: string | null;
-    /** What old programs put behind the text: the DOS end of file, and what fills the rest. */
+    /** What old programs put after the text: the DOS end of file, and what fills the rest. */
     tail: string;
 }
 
@@ -66,7 +66,7 @@ export function decodeProgram(name: string, bytes: Uint8Array): { text: string; 
     return { text: text.split(LINE_END).join("\n"), form };
 }
 
-/** Lines before and behind those that were edited keep the ends that they had. */
+/** Lines before and after those that were edited keep the ends that they had. */
 function withMixedEnds(lines: string[], before: string, end: LineEnd): string {
     const [old, ends] = [before.split(LINE_END), endsOf(before)];
     const common = Math.min(lines.length, old.length);
