@@ -144,8 +144,8 @@ void stm32_tick_start(const struct hal_client *client, uint32_t core_hz, bool cr
     tick.period = core_hz / PERIODS_HZ;
     tick.hold = core_hz / HOLDS_HZ;
     tick.tick_cycles = core_hz > TICK_HZ ? core_hz / TICK_HZ : 1U;
-    SCB_SHPR3 = (uint32_t)STM32_PRIORITY_TICK << (24U + PRIORITY_SHIFT) | (uint32_t)STM32_PRIORITY_PLAN
-                                                                              << (16U + PRIORITY_SHIFT);
+    SCB_SHPR3 = ((uint32_t)STM32_PRIORITY_TICK << (24U + PRIORITY_SHIFT)) |
+                ((uint32_t)STM32_PRIORITY_PLAN << (16U + PRIORITY_SHIFT));
     restart_clock(tick.period);
     STK_CTRL = STK_CTRL_CLKSOURCE | STK_CTRL_TICKINT | STK_CTRL_ENABLE;
 }
