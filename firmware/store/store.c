@@ -7,12 +7,12 @@
 #include "store_record.h"
 
 enum {
-    LOG_BEGIN = STORE_RECORD_EXTRA_BYTES, /* behind the record that says that the area is good */
+    LOG_BEGIN = STORE_RECORD_EXTRA_BYTES, /* after the record that says that the area is good */
     TEXT_RECORD_BYTES_MAX = STORE_RECORD_EXTRA_BYTES + STORE_TEXT_BYTES_MAX,
 };
 
 static_assert(STORE_TEXT_BYTES_MAX % HAL_FLASH_WORD_BYTES == 0, "the longest text needs no filling");
-static_assert(LOG_BEGIN + (UNIT_MOTORS + 1) * TEXT_RECORD_BYTES_MAX <= HAL_FLASH_AREA_BYTES,
+static_assert(LOG_BEGIN + (STORE_SLOTS + 1) * TEXT_RECORD_BYTES_MAX <= HAL_FLASH_AREA_BYTES,
               "an area that has just been begun has room for one more text");
 static_assert(HAL_FLASH_AREAS == 2, "there is one other area");
 
@@ -30,9 +30,9 @@ static void note_generation(struct store *store, uint32_t generation)
 
 static void lose_all(struct store *store)
 {
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        store->image[motor] = 0;
-        store->damaged[motor] = true;
+    for (unsigned slot = 0; slot < STORE_SLOTS; slot++) {
+        store->image[slot] = 0;
+        store->damaged[slot] = true;
     }
 }
 
@@ -80,7 +80,7 @@ static void scan_log(struct store *store)
             break;
         }
         if (record.state == STORE_RECORD_FINISHED) {
-            store->image[record.motor] = offset;
+            store->image[record.slot] = offset;
             note_generation(store, record.generation);
         }
         offset += record.size_bytes;
@@ -88,24 +88,24 @@ static void scan_log(struct store *store)
     store->end = offset;
 }
 
-/* Finds the image of a motor, which must be what was written. False if there is none. */
-static bool find_image(const struct store *store, unsigned motor, struct store_record *record)
+/* Finds the image of a slot, which must be what was written. False if there is none. */
+static bool find_image(const struct store *store, unsigned slot, struct store_record *record)
 {
-    assert(motor < UNIT_MOTORS);
-    if (store->image[motor] == 0) {
+    assert(slot < STORE_SLOTS);
+    if (store->image[slot] == 0) {
         return false;
     }
-    *record = store_record_read(store->area, store->image[motor]);
-    return record->state == STORE_RECORD_FINISHED && store_record_is_intact(store->area, store->image[motor], record);
+    *record = store_record_read(store->area, store->image[slot]);
+    return record->state == STORE_RECORD_FINISHED && store_record_is_intact(store->area, store->image[slot], record);
 }
 
 static void check_images(struct store *store)
 {
     struct store_record record;
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        if (store->image[motor] != 0 && !find_image(store, motor, &record)) {
-            store->image[motor] = 0;
-            store->damaged[motor] = true;
+    for (unsigned slot = 0; slot < STORE_SLOTS; slot++) {
+        if (store->image[slot] != 0 && !find_image(store, slot, &record)) {
+            store->image[slot] = 0;
+            store->damaged[slot] = true;
         }
     }
 }
@@ -129,47 +129,47 @@ void store_init(struct store *store)
     }
 }
 
-bool store_is_damaged(const struct store *store, unsigned motor)
+bool store_is_damaged(const struct store *store, unsigned slot)
 {
-    assert(motor < UNIT_MOTORS);
-    return store->damaged[motor];
+    assert(slot < STORE_SLOTS);
+    return store->damaged[slot];
 }
 
-uint32_t store_load(const struct store *store, unsigned motor, uint8_t text[STORE_TEXT_BYTES_MAX])
+uint32_t store_load(const struct store *store, unsigned slot, uint8_t text[STORE_TEXT_BYTES_MAX])
 {
     struct store_record record;
-    if (!find_image(store, motor, &record)) {
+    if (!find_image(store, slot, &record)) {
         return 0;
     }
-    store_record_read_text(store->area, store->image[motor], &record, text);
+    store_record_read_text(store->area, store->image[slot], &record, text);
     return record.length;
 }
 
-/* Copies what is known of a motor to the other area, at *end, which moves on; that it is damaged is known too. */
-static bool carry_over(const struct store *store, unsigned motor, uint32_t *end)
+/* Copies what is known of a slot to the other area, at *end, which moves on; that it is damaged is known too. */
+static bool carry_over(const struct store *store, unsigned slot, uint32_t *end)
 {
     struct store_record record;
     uint32_t begin = *end;
-    if (find_image(store, motor, &record)) {
+    if (find_image(store, slot, &record)) {
         *end += record.size_bytes;
-        return store_record_copy(store->area, store->image[motor], other_area(store), begin, record.size_bytes);
+        return store_record_copy(store->area, store->image[slot], other_area(store), begin, record.size_bytes);
     }
-    if (store->image[motor] == 0 && !store->damaged[motor]) {
+    if (store->image[slot] == 0 && !store->damaged[slot]) {
         return true;
     }
     *end += STORE_RECORD_EXTRA_BYTES;
-    return store_record_write_damaged(other_area(store), begin, motor, store->generation);
+    return store_record_write_damaged(other_area(store), begin, slot, store->generation);
 }
 
-/* Goes over to the other area with the newest image of each motor. Until the new area's own record is whole the
+/* Goes over to the other area with the newest image of each slot. Until the new area's own record is whole the
  * present one counts, and from then on the new one; their images are the same. */
 static bool move_to_other_area(struct store *store)
 {
     unsigned target = other_area(store);
     uint32_t end = LOG_BEGIN;
     bool done = hal_flash_erase(target);
-    for (unsigned motor = 0; motor < UNIT_MOTORS && done; motor++) {
-        done = carry_over(store, motor, &end);
+    for (unsigned slot = 0; slot < STORE_SLOTS && done; slot++) {
+        done = carry_over(store, slot, &end);
     }
     done = done && store_record_write(target, 0, 0, store->generation + 1U, NULL, 0);
     if (done && store->usable) {
@@ -182,7 +182,7 @@ static bool move_to_other_area(struct store *store)
     return done;
 }
 
-/* Where anything has been written behind the last record the area is full. This is looked for here, as the start has
+/* Where anything has been written after the last record the area is full. This is looked for here, as the start has
  * no time for it. */
 static bool has_room(const struct store *store, uint32_t length)
 {
@@ -195,9 +195,9 @@ static bool make_room(struct store *store, uint32_t length)
     return has_room(store, length) || (move_to_other_area(store) && has_room(store, length));
 }
 
-static bool append(struct store *store, unsigned motor, const uint8_t *text, uint32_t length)
+static bool append(struct store *store, unsigned slot, const uint8_t *text, uint32_t length)
 {
-    if (!store_record_write(store->area, store->end, motor, store->generation + 1U, text, length)) {
+    if (!store_record_write(store->area, store->end, slot, store->generation + 1U, text, length)) {
         /* The memory may report an error of the last word and yet have written it. */
         struct store_record record = store_record_read(store->area, store->end);
         if (record.state == STORE_RECORD_FINISHED) {
@@ -206,23 +206,23 @@ static bool append(struct store *store, unsigned motor, const uint8_t *text, uin
         return false;
     }
     store->generation++;
-    store->damaged[motor] = false;
-    store->image[motor] = store->end;
+    store->damaged[slot] = false;
+    store->image[slot] = store->end;
     store->end += store_record_size_bytes(length);
     return true;
 }
 
-enum store_error store_save(struct store *store, unsigned motor, const uint8_t *text, uint32_t length)
+enum store_error store_save(struct store *store, unsigned slot, const uint8_t *text, uint32_t length)
 {
     struct store_record record;
     if (length > STORE_TEXT_BYTES_MAX) {
         return STORE_TOO_LONG;
     }
-    if (find_image(store, motor, &record) &&
-        store_record_has_text(store->area, store->image[motor], &record, text, length)) {
+    if (find_image(store, slot, &record) &&
+        store_record_has_text(store->area, store->image[slot], &record, text, length)) {
         return STORE_OK;
     }
-    if (make_room(store, length) && append(store, motor, text, length)) {
+    if (make_room(store, length) && append(store, slot, text, length)) {
         return STORE_OK;
     }
     /* What flash holds now is what counts. The rest of this area is not tried again: the next text goes to the other

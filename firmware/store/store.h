@@ -1,9 +1,9 @@
 /*
- * The store: one program text per motor in memory that keeps it without power.
+ * The store: a few texts, each in a slot of its own, in memory that keeps them without power.
  *
- * Comes in: canonical program text to keep. Goes out: the same text after a reset. Texts are appended as records with
- * length, generation and CRC-32 (store_record.h) to one of the two areas of hal_flash; when it is full, the other one
- * is erased and the newest record of each motor copied over. Main only; no copy in RAM.
+ * Comes in: text to keep. Goes out: the same text after a reset. Texts are appended as records with length, generation
+ * and CRC-32 (store_record.h) to one of the two areas of hal_flash; when it is full, the other one is erased and the
+ * newest record of each slot copied over. Main only; no copy in RAM.
  *
  * Power cuts: the old text or the new one is there after a cut at any word or inside an erase. A record counts from
  * the moment its last word, the whole-mark, is written, and that is when all before it has been read back; an area
@@ -11,13 +11,13 @@
  * area before it made void, and it is erased only when it is to be used again: an erase that was cut is never trusted.
  *
  * Damage: a record that was whole and has not its text any more, because bits of it have changed, is damaged, and so
- * is its motor until the next store: an older text is never taken in its place. Where damage hides which motors are
+ * is its slot until the next store: an older text is never taken in its place. Where damage hides which slots are
  * meant, all are damaged. A record without whole-mark is what a cut or a failure has left; it does not count and the
- * text before it does. One wrong bit anywhere makes at most one motor damaged.
+ * text before it does. One wrong bit anywhere makes at most one slot damaged.
  *
- * A part without the memory keeps nothing: all motors count as damaged, so that they tell it, and a store fails.
+ * A part without the memory keeps nothing: all slots count as damaged, so that they tell it, and a store fails.
  *
- * Life: at 10 000 erases for each area the rotation is good for 220 000 stores of the longest text on all motors (11
+ * Life: at 10 000 erases for each area the rotation is good for 220 000 stores of the longest text on all slots (11
  * in each area beside the four copies) and for 17 million of 100 bytes. Storing what is stored already writes nothing.
  */
 #ifndef STORE_H
@@ -26,14 +26,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base_limits.h"
-
-/* The longest text that can be kept: 700 commands of 12 bytes. */
 enum {
-    STORE_TEXT_BYTES_MAX = 8400
+    STORE_SLOTS = 4,
+    STORE_TEXT_BYTES_MAX = 8400, /* of each text */
 };
 
-/* The error byte of Store Flash. */
+/* What became of a text that was to be kept. */
 enum store_error {
     STORE_OK = 0,
     STORE_WRITE_FAILED = 1, /* the memory reports an error or does not read back what was written; the old text stays,
@@ -43,10 +41,10 @@ enum store_error {
 
 struct store {
     uint32_t generation;         /* the highest of all records and areas */
-    uint32_t end;                /* offset behind the last record of the present area; its size: it is full */
-    uint32_t image[UNIT_MOTORS]; /* offset of the record that counts for each motor; 0: none */
+    uint32_t end;                /* offset after the last record of the present area; its size: it is full */
+    uint32_t image[STORE_SLOTS]; /* offset of the record that counts for each slot; 0: none */
     uint8_t area;                /* the present area */
-    bool damaged[UNIT_MOTORS];   /* what was stored for this motor cannot be read; image is 0 */
+    bool damaged[STORE_SLOTS];   /* what was stored in it cannot be read; image is 0 */
     bool usable;                 /* there is a present area; else the next store begins the other one */
 };
 
@@ -54,13 +52,13 @@ struct store {
  * a cut here does no harm, and calling again finds the same. */
 void store_init(struct store *store);
 
-/* Whether something was stored for motor 0 to 3 and cannot be read. */
-bool store_is_damaged(const struct store *store, unsigned motor);
+/* Whether something was stored in slot 0 to 3 and cannot be read. */
+bool store_is_damaged(const struct store *store, unsigned slot);
 
-/* Copies the text kept for motor 0 to 3, once more checked. Returns its length; 0 if there is none or it is empty. */
-uint32_t store_load(const struct store *store, unsigned motor, uint8_t text[STORE_TEXT_BYTES_MAX]);
+/* Copies the text kept in slot 0 to 3, once more checked. Returns its length; 0 if there is none or it is empty. */
+uint32_t store_load(const struct store *store, unsigned slot, uint8_t text[STORE_TEXT_BYTES_MAX]);
 
-/* Keeps a text for motor 0 to 3 in place of the one before; an empty text is kept as such. */
-enum store_error store_save(struct store *store, unsigned motor, const uint8_t *text, uint32_t length);
+/* Keeps a text in slot 0 to 3 in place of the one before; an empty text is kept as such. */
+enum store_error store_save(struct store *store, unsigned slot, const uint8_t *text, uint32_t length);
 
 #endif

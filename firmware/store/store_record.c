@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base_crc32.h"
-#include "base_limits.h"
 #include "hal_flash.h"
 #include "store.h"
 
@@ -133,7 +132,7 @@ static void head_begin(const struct store_record *record, uint8_t head[STORE_HEA
     write_number(&head[0], 4, MAGIC);
     write_number(&head[4], 4, record->generation);
     write_number(&head[8], 2, record->length);
-    write_number(&head[10], 1, record->motor);
+    write_number(&head[10], 1, record->slot);
 }
 
 static void head_finish(const struct store_record *record, uint8_t head[STORE_HEAD_BYTES])
@@ -149,12 +148,12 @@ static bool head_read(unsigned area, uint32_t offset, uint32_t head_offset, stru
     hal_flash_read(area, head_offset, head, STORE_HEAD_BYTES);
     record->generation = read_number(&head[4], 4);
     record->length = read_number(&head[8], 2);
-    record->motor = head[10];
+    record->slot = head[10];
     record->crc = read_number(&head[HEAD_FIELDS_BYTES], 4);
     record->size_bytes = store_record_size_bytes(record->length);
     return read_number(&head[0], 4) == MAGIC &&
            read_number(&head[HEAD_CHECKED_BYTES], 4) == crc32_append(0, head, HEAD_CHECKED_BYTES) &&
-           record->length <= STORE_TEXT_BYTES_MAX && record->motor < UNIT_MOTORS &&
+           record->length <= STORE_TEXT_BYTES_MAX && record->slot < STORE_SLOTS &&
            record->size_bytes <= HAL_FLASH_AREA_BYTES - offset;
 }
 
@@ -223,16 +222,16 @@ static bool write_record(unsigned area, uint32_t offset, struct store_record *re
            mark_write(area, whole_mark_offset(offset, record));
 }
 
-bool store_record_write(unsigned area, uint32_t offset, unsigned motor, uint32_t generation, const uint8_t *text,
+bool store_record_write(unsigned area, uint32_t offset, unsigned slot, uint32_t generation, const uint8_t *text,
                         uint32_t length)
 {
-    struct store_record record = {.generation = generation, .length = length, .motor = (uint8_t)motor};
+    struct store_record record = {.generation = generation, .length = length, .slot = (uint8_t)slot};
     return write_record(area, offset, &record, text, 0);
 }
 
-bool store_record_write_damaged(unsigned area, uint32_t offset, unsigned motor, uint32_t generation)
+bool store_record_write_damaged(unsigned area, uint32_t offset, unsigned slot, uint32_t generation)
 {
-    struct store_record record = {.generation = generation, .motor = (uint8_t)motor};
+    struct store_record record = {.generation = generation, .slot = (uint8_t)slot};
     return write_record(area, offset, &record, NULL, UINT32_MAX);
 }
 

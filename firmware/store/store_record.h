@@ -5,7 +5,7 @@
  * record looks like, at an offset that is a multiple of four; numbers have their low byte first:
  *
  *   offset        bytes
- *   0             20     head: magic 4, generation 4, length of the text 2, motor 1, zero 1,
+ *   0             20     head: magic 4, generation 4, length of the text 2, slot 1, zero 1,
  *                        CRC-32 of these 12 bytes and the text 4, CRC-32 of these 16 bytes 4
  *   20            20     the head once more
  *   40            n      the text, filled up with FF to whole words
@@ -37,7 +37,7 @@ enum store_record_state {
     STORE_RECORD_UNFINISHED, /* cut or failed before its whole-mark */
     STORE_RECORD_FINISHED,   /* has its whole-mark; whether the text is still what was written is another question */
     STORE_RECORD_VOID,       /* was finished, and does not count any more */
-    STORE_RECORD_LOST,       /* was begun, and neither head can be read: motor and size are not known */
+    STORE_RECORD_LOST,       /* was begun, and neither head can be read: slot and size are not known */
 };
 
 struct store_record {
@@ -45,7 +45,7 @@ struct store_record {
     uint32_t length;     /* of the text, bytes */
     uint32_t crc;        /* of the head's first fields and the text */
     uint32_t size_bytes; /* in flash; 0 if BLANK or LOST */
-    uint8_t motor;       /* 0 to 3 */
+    uint8_t slot;        /* 0 to 3 */
     uint8_t state;       /* enum store_record_state */
 };
 
@@ -60,11 +60,11 @@ bool store_record_is_intact(unsigned area, uint32_t offset, const struct store_r
 
 /* Writes a record where all is blank. False: the memory reports an error or something does not read back as written;
  * the record may count all the same. */
-bool store_record_write(unsigned area, uint32_t offset, unsigned motor, uint32_t generation, const uint8_t *text,
+bool store_record_write(unsigned area, uint32_t offset, unsigned slot, uint32_t generation, const uint8_t *text,
                         uint32_t length);
 
-/* Writes a finished record that is not intact: it says that what the motor had is not known. */
-bool store_record_write_damaged(unsigned area, uint32_t offset, unsigned motor, uint32_t generation);
+/* Writes a finished record that is not intact: it says that what the slot had is not known. */
+bool store_record_write_damaged(unsigned area, uint32_t offset, unsigned slot, uint32_t generation);
 
 /* Copies a finished record, byte by byte, to where all is blank. False: it does not read back as written. */
 bool store_record_copy(unsigned from_area, uint32_t from_offset, unsigned to_area, uint32_t to_offset,

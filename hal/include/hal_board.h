@@ -25,7 +25,7 @@ enum hal_board_cause hal_board_start_cause(void);
 /* Whether motion is allowed: not without the crystal, as step times would be wrong. */
 bool hal_board_may_move(void);
 
-/* Whether stored programs may start by themselves: not behind a watchdog or a fault. */
+/* Whether anything may start by itself: not after a watchdog or a fault. */
 bool hal_board_may_start_programs(void);
 
 /* Pulses that were made later than asked for, since the start; modulo 2^32. */

@@ -1,7 +1,7 @@
 /*
- * The seam to the memory that keeps the stored programs: two areas that are erased as a whole, bytes FF when erased,
- * written in 32-bit words, each word once between erases. Main only; the calls may take seconds, and the backend keeps
- * the step interrupt running meanwhile.
+ * The seam to the memory that keeps its content without power: two areas that are erased as a whole, bytes FF when
+ * erased, written in 32-bit words, each word once between erases. Main only; the calls may take seconds, and the
+ * backend keeps all interrupts running meanwhile.
  */
 #ifndef HAL_FLASH_H
 #define HAL_FLASH_H

@@ -17,14 +17,15 @@ struct hal_client {
     /* Step interrupt: the armed pulse of motor 0 to 3 has been made. True: main has something to do. */
     bool (*step_isr)(void *context, unsigned motor);
 
-    /* What step_isr works on, for a backend that counts cycles: it calls step_channel_next_isr itself, inline. */
+    /* What step_isr works on, for a backend that counts cycles: it calls step_channel_next itself, inline. */
     struct step_channel *channel[UNIT_MOTORS];
 
     /* Tick interrupt, every millisecond and whenever an input changes: senses the inputs for guards and stops. They had
      * not changed before `since_tick`, the unit's time. */
     void (*tick_isr)(void *context, uint64_t since_tick);
 
-    /* Plan interrupt, below the tick interrupt: whenever hal_run_plan has asked for it. Plans, which takes long. */
+    /* Plan interrupt, below the tick interrupt and above main: whenever hal_run_plan has asked for it. Plans, which
+     * takes long. */
     void (*plan_isr)(void *context);
 };
 
@@ -35,7 +36,8 @@ void hal_run_start(const struct hal_client *client);
  * interrupt. */
 void hal_run_plan(void);
 
-/* Holds the plan interrupt off while main works on what it shares with it, and lets it through again; not nested. */
+/* Holds the plan interrupt off while main works on what it shares with it, and lets it through again; not nested.
+ * Main. */
 void hal_run_hold_plan(void);
 void hal_run_release_plan(void);
 

@@ -14,7 +14,8 @@
  * just gone by is made good at once and counted as late. Main and all interrupts. */
 void hal_step_arm(unsigned motor, uint32_t tick);
 
-/* Takes the armed pulse back. False: it has been made already and its interrupt is due. As hal_step_hold. */
+/* Takes the armed pulse back. False: it has been made already and its interrupt is due. Only while hal_step_hold is in
+ * force, so in main, plan and tick interrupt. */
 bool hal_step_disarm(unsigned motor);
 
 /* Sets DIR: false forward, true backward. Called only while no pulse is armed. Main. */
@@ -29,7 +30,7 @@ void hal_step_connect(unsigned motor, bool connected);
 uint32_t hal_step_lead_ticks(void);
 
 /* Holds the step interrupt off and all others with it, for less than 2 us, and lets them through again; not nested.
- * Main and all interrupts but the step interrupt. */
+ * Main, plan and tick interrupt. */
 void hal_step_hold(void);
 void hal_step_release(void);
 

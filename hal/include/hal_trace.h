@@ -13,33 +13,17 @@
     X(START, "start") /* a program begins to run; value 0 */                                                           \
     X(MOVE, "move")   /* a move begins; value = steps, signed; 0 for a run without a set end */                        \
     X(DONE, "done")   /* a move has ended; value = steps made, signed */                                               \
-    X(STOP, "stop")   /* a motion or program is stopped; value = enum hal_trace_stop */                                \
+    X(STOP, "stop")   /* a motion or program is stopped; value = enum axis_cause */                                    \
     X(OUT, "out")     /* an output changes; value = its number, negative when cleared; motor 0 = the unit */           \
-    X(VAR, "var")     /* an internal variable is written; as OUT */                                                    \
-    X(WAIT, "wait")   /* a wait begins; value = milliseconds, or 0 for an input, variable or ']' */                    \
+    X(VAR, "var")     /* a variable of programs is written; as OUT */                                                  \
+    X(WAIT, "wait")   /* a wait begins; value = milliseconds, or 0 where its time is not set */                        \
     X(SPEED, "speed") /* the speed of the move in progress changes; value = steps/s */                                 \
-    X(ERROR, "error") /* the program ends with an error; value = enum interpreter_error */                             \
+    X(ERROR, "error") /* the program ends with an error; value = its number in the unit's list */                      \
     X(END, "end")     /* the program has nothing left to do; value 0 */
-
-#define HAL_TRACE_STOPS(X)                                                                                             \
-    X(NONE, "")                                                                                                        \
-    X(COMMAND, "K")                                                                                                    \
-    X(HIGH, "M")                                                                                                       \
-    X(LOW, "N")                                                                                                        \
-    X(TOTAL, "X")                                                                                                      \
-    X(RESET, "reset")                                                                                                  \
-    X(LIMIT, "limit")                                                                                                  \
-    X(ERROR, "error")
 
 enum hal_trace_event {
 #define X(name, text) HAL_TRACE_##name,
     HAL_TRACE_EVENTS(X)
-#undef X
-};
-
-enum hal_trace_stop {
-#define X(name, text) HAL_TRACE_STOP_##name,
-    HAL_TRACE_STOPS(X)
 #undef X
 };
 

@@ -38,7 +38,7 @@ void stm32_edge_start(void)
     stm32_edge_let_through();
 }
 
-/* What is pending is of edges that a look sees. The read ends when the writes have arrived: a look behind it misses no
+/* What is pending is of edges that a look sees. The read ends when the writes have arrived: a look after it misses no
  * edge that finds the mask still there. */
 void stm32_edge_let_through(void)
 {

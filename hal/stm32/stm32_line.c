@@ -44,7 +44,7 @@ static void receive(uint32_t status)
     uint8_t value = (uint8_t)USART_DR(STM32_LINE_BASE); /* also ends the errors, RM0090 30.6.1 */
     bool broken = (status & (USART_SR_FE | USART_SR_NF | USART_SR_ORE)) != 0;
     if (line.received_in - line.received_out == (uint32_t)RECEIVED_MAX) {
-        line.received[(line.received_in - 1U) % RECEIVED_MAX].broken = true; /* the byte behind it is lost */
+        line.received[(line.received_in - 1U) % RECEIVED_MAX].broken = true; /* the byte after it is lost */
         return;
     }
     line.received[line.received_in % RECEIVED_MAX] =
@@ -59,7 +59,7 @@ static void let_go(void)
     USART_CR1(STM32_LINE_BASE) = LISTENING;
 }
 
-/* Gives the transmitter its next byte; behind the last one it waits for the end of the stop bit. */
+/* Gives the transmitter its next byte; after the last one it waits for the end of the stop bit. */
 static void send_next(void)
 {
     if (line.sending_out == line.sending_in) {

@@ -26,7 +26,7 @@ static inline bool ends_behind_wrap(uint32_t edge, uint32_t now)
 }
 
 /* Puts the pin low and arms the next edge, whatever the channel did before. A late edge is not where the client has it,
- * one behind the counter's wrap is no matter of being above it, and one right before it would be cut short there. */
+ * one after the counter's wrap is no matter of being above it, and one right before it would be cut short there. */
 static void arm(unsigned motor, uint32_t tick)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
@@ -95,8 +95,8 @@ static void serve_special(unsigned motor)
         serve_fall(motor);
         return;
     }
-    unsigned next = step_channel_next_isr(stm32_step.client[motor]);
-    if ((next & STEP_CHANNEL_LOOK) != 0) {
+    unsigned next = step_channel_next(stm32_step.client[motor]);
+    if ((next & STEP_CHANNEL_WAKE) != 0) {
         stm32_event = true;
     }
     if (PULSES_ARE_LONG && TIM2_CNT - edge < (uint32_t)(HIGH_TICKS - SPIN_TICKS)) {
@@ -116,7 +116,7 @@ __attribute__((noinline)) static void serve_specials(void)
     }
 }
 
-/* Whether it takes more than a write of the compare value to arm the next edge: at the counter's wrap or behind it, or
+/* Whether it takes more than a write of the compare value to arm the next edge: at the counter's wrap or after it, or
  * late. */
 static inline bool needs_care(uint32_t tick, uint32_t now)
 {
@@ -128,7 +128,7 @@ __attribute__((noinline)) static void serve_border(unsigned motor)
 {
     struct step_channel *client = stm32_step.client[motor];
     uint32_t edge = client->cursor.generator.tick;
-    unsigned next = step_channel_next_segment_isr(client);
+    unsigned next = step_channel_next_segment(client);
     uint32_t tick = client->cursor.generator.tick;
     uint32_t now = wait_out(edge);
     if ((next & STEP_CHANNEL_ARM) == 0 || needs_care(tick, now)) {
@@ -147,7 +147,7 @@ static inline void serve_plain(unsigned motor)
         serve_border(motor);
         return;
     }
-    unsigned next = step_channel_next_isr(client);
+    unsigned next = step_channel_next(client);
     uint32_t tick = client->cursor.generator.tick;
     if (needs_care(tick, wait_out(edge))) {
         follow(motor, edge, next);
@@ -156,7 +156,7 @@ static inline void serve_plain(unsigned motor)
     }
 }
 
-/* A special channel whose edge comes together with plain ones is served behind them: its flag calls once more. */
+/* A special channel whose edge comes together with plain ones is served after them: its flag calls once more. */
 void stm32_step_interrupt(void)
 {
     uint32_t due = TIM2_SR & stm32_step.plain;
@@ -172,7 +172,7 @@ void stm32_step_interrupt(void)
 }
 
 /* Only from main, where the channel rests, or the pulse before is still being ended. The flag of a compare value long
- * past goes away behind the new value, whose own match is ROOM_TICKS off at least. */
+ * past goes away after the new value, whose own match is ROOM_TICKS off at least. */
 void hal_step_arm(unsigned motor, uint32_t tick)
 {
     uint32_t mask = stm32_mask();

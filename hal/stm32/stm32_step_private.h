@@ -9,7 +9,7 @@
  *      ___________/~~~~~~~~~~~~~~~~~~~~\______________/~~~
  *                 |  interrupt, client |    next armed
  *
- * Finding the next pulse takes longer than most drivers' minimum width, so the pin mostly is low at once behind it.
+ * Finding the next pulse takes longer than most drivers' minimum width, so the pin mostly is low at once after it.
  * What is left of a wider pulse is waited for if that takes less than an interrupt would (SPIN_TICKS); else the same
  * channel makes the falling edge too, and its interrupt arms what comes next.
  *
@@ -59,7 +59,7 @@ enum {
     SPIN_TICKS = 48, /* what an interrupt more takes at least */
     STUCK_TICKS = 5 * TICKS_PER_MS,
 
-    /* The first lead for a change of speed; where planning takes longer, the mover tries again with twice as much. */
+    /* The first lead for a change of speed; where planning takes longer, the axis tries again with twice as much. */
     LEAD_TICKS = 60 * TICKS_PER_US,
 };
 
@@ -88,7 +88,7 @@ struct stm32_step {
     struct step_channel *client[UNIT_MOTORS];
     uint32_t special;           /* of those that have one in another mode */
     uint32_t falling;           /* of those whose pulse is being ended by the channel */
-    uint32_t waiting;           /* of those falling that have a pulse to be armed behind it */
+    uint32_t waiting;           /* of those falling that have a pulse to be armed after it */
     uint32_t edge[UNIT_MOTORS]; /* of a plain channel, the client knows it; else the armed edge, or the last one */
     bool may_move;
     uint32_t modes[2];

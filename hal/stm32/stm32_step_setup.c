@@ -17,7 +17,7 @@ static void wait_until_past(uint32_t start, uint32_t ticks)
     }
 }
 
-/* Waits a few microseconds: what DIR has to stand still behind the last pulse, and before the next. */
+/* Waits a few microseconds: what DIR has to stand still after the last pulse, and before the next. */
 static void set_pins(unsigned motor, bool backward, bool connected)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];

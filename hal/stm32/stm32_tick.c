@@ -10,7 +10,7 @@
 
 /*
  * The clock comes every millisecond, and when main wants to be woken. An edge at an input has an interrupt of its own,
- * at the same priority, so that it acts at once. Behind it edges are held off for 50 us; then the clock looks at the
+ * at the same priority, so that it acts at once. After it edges are held off for 50 us; then the clock looks at the
  * inputs and lets edges through again. So a contact that bounces, or noise, has two short interrupts in 50 us at most,
  * and nothing is seen later than that.
  */
@@ -83,7 +83,7 @@ static void restart_clock(uint32_t cycles)
     SCB_ICSR = SCB_ICSR_PENDSTCLR;
 }
 
-/* The clock comes earlier than it would, and the millisecond goes on behind that. */
+/* The clock comes earlier than it would, and the millisecond goes on after that. */
 static void shorten_clock(uint32_t until_millisecond, uint32_t cycles)
 {
     tick.rest = until_millisecond > cycles ? until_millisecond - cycles : 0;
@@ -98,7 +98,7 @@ static uint32_t find_rest(void)
     return (SCB_ICSR & SCB_ICSR_PENDSTSET) != 0 ? 0 : cycles;
 }
 
-/* Goes on behind a clock that was shortened. What is left of the millisecond comes next, unless it is so short that it
+/* Goes on after a clock that was shortened. What is left of the millisecond comes next, unless it is so short that it
  * is over now. */
 static bool lengthen_clock(void)
 {

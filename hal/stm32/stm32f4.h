@@ -1,7 +1,7 @@
 /*
  * The registers of an STM32F405 or F407 that this backend uses, and of their bits those that it sets or reads.
  *
- * Numbers behind registers are sections of ST's reference manual RM0090; those of the core are sections of the
+ * Numbers after registers are sections of ST's reference manual RM0090; those of the core are sections of the
  * programming manual PM0214. tests/tools/test_stm32_registers.py holds every address and bit of the chip's blocks
  * against an independent description; it reads this file line by line, so each definition stays on one line.
  */

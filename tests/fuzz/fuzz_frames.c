@@ -2,7 +2,7 @@
  * Bytes to frames: only what an independent check finds to be a whole and good frame for this unit is delivered, and
  * all of that is.
  *
- * Input: the node (low 4 bits) | which byte is broken, 0: none | which byte comes behind a gap, 0: none | the bytes of
+ * Input: the node (low 4 bits) | which byte is broken, 0: none | which byte comes after a gap, 0: none | the bytes of
  * the line. Built with tiny limits, so that frames are too long often. The mutator mends the FCS of frames, as chance
  * alone makes no good one.
  */

@@ -2,12 +2,12 @@
  * Random commands in the interpreter: it never leaves its bounds, does a bounded amount of work in a pass, and orders
  * nothing that the language does not have.
  *
- * The commands are what the parser can make, in any order and number; they come as messages between passes. The mover
+ * The commands are what the parser can make, in any order and number; they come as messages between passes. The axis
  * is one of our own that ends, marks and stops its moves when the input says so, so a run costs a few microseconds.
- * Input: operations of a byte each, with their operands behind:
+ * Input: operations of a byte each, with their operands after:
  *   low 3 bits 0, 1  a message of 1 to 4 commands: opcode, condition, number of two bytes
  *   2  up to 32 commands right into memory      3  a pass      4  time goes by, two bytes of 10 us
- *   5  levels of the inputs      6  the mover: makes steps, ends its move, begins its last section
+ *   5  levels of the inputs      6  the axis: makes steps, ends its move, begins its last section
  *   7  the last message once more, or, the first time and if the operand is 0, memory nearly full of labels
  */
 #include <string.h>
@@ -18,6 +18,7 @@
 #include "hal_run.h"
 #include "hal_step.h"
 #include "hal_time.h"
+#include "hal_trace.h"
 #include "interpreter.h"
 #include "program_listing.h"
 #include "program_parser.h"
@@ -32,7 +33,8 @@ enum {
 
 struct bench {
     struct io io;
-    struct mover mover;
+    struct interpreter_shared shared;
+    struct axis axis;
     struct interpreter interpreter;
     uint64_t now;
     uint8_t inputs;
@@ -88,7 +90,7 @@ static void require_good_order(const struct motion_order *order)
     FUZZ_REQUIRE(is_in(order->start_speed_steps_per_s, 1, 2000));
     for (unsigned i = 0; i < order->sections; i++) {
         const struct motion_section *section = &order->section[i];
-        bool endless = order->sections == 1 && section->steps == MOTION_ENDLESS_STEPS;
+        bool endless = order->sections == 1 && motion_order_is_endless(order);
         FUZZ_REQUIRE(endless || is_in(section->steps, 1, MOTION_SECTION_STEPS_MAX));
         FUZZ_REQUIRE(is_in(section->speed_steps_per_s, 1, 16000));
         FUZZ_REQUIRE(is_in(section->accel_steps_per_s2, 1, 60000));
@@ -104,84 +106,113 @@ static uint64_t order_steps(const struct motion_order *order)
     return steps;
 }
 
-void mover_start(struct mover *mover, const struct motion_order *order, bool backward, uint64_t start_tick,
-                 const struct mover_guards *guards)
+static void begin(struct axis *axis, uint64_t start_tick)
 {
-    FUZZ_REQUIRE(!mover->moving && start_tick <= bench.now);
+    FUZZ_REQUIRE(axis->state == AXIS_STANDING && start_tick <= bench.now);
     FUZZ_REQUIRE(bench.now - start_tick <= INTERPRETER_CLOCK_SLACK_TICKS);
-    require_good_order(order);
+    require_good_order(&axis->order);
     bench.orders++;
-    mover->guards = *guards;
-    mover->channel.direction = backward ? -1 : 1;
-    mover->cause = (guards->stop_total & io_inputs(&bench.io)) != 0 ? HAL_TRACE_STOP_TOTAL : HAL_TRACE_STOP_NONE;
-    mover->moving = mover->cause == HAL_TRACE_STOP_NONE;
+    axis->cause = (axis->guards.abort_high & io_inputs(&bench.io)) != 0 ? AXIS_CAUSE_ABORT : AXIS_CAUSE_NONE;
+    axis->state = axis->cause == AXIS_CAUSE_NONE ? AXIS_MOVING : AXIS_ENDED;
     bench.made = 0;
-    bench.steps = order_steps(order);
+    bench.steps = order_steps(&axis->order);
     bench.end_tick = start_tick;
 }
 
-void mover_stop(struct mover *mover, enum hal_trace_stop cause)
+void axis_begin(struct axis *axis, const struct motion_order *order, bool backward, uint64_t start_tick,
+                const struct axis_guards *guards)
 {
-    if (mover->moving && mover->cause == HAL_TRACE_STOP_NONE) {
-        mover->cause = cause;
+    axis->order = *order;
+    axis->guards = *guards;
+    axis->channel.direction = backward ? -1 : 1;
+    begin(axis, start_tick);
+}
+
+void axis_go_on(struct axis *axis, uint64_t start_tick)
+{
+    FUZZ_REQUIRE(axis_has_rest(axis));
+    begin(axis, start_tick);
+}
+
+bool axis_has_rest(const struct axis *axis)
+{
+    return axis->order.sections > 0 && bench.made < bench.steps;
+}
+
+void axis_forget(struct axis *axis)
+{
+    axis->order.sections = 0;
+}
+
+bool axis_is_jog(const struct axis *axis)
+{
+    return motion_order_is_endless(&axis->order) && axis->guards.halt_high == 0;
+}
+
+bool axis_stop(struct axis *axis, enum axis_cause cause)
+{
+    bool stopped = axis->state == AXIS_MOVING;
+    if (stopped) {
+        axis->state = AXIS_STOPPING;
+        axis->cause = cause;
         bench.events++;
     }
+    return stopped;
 }
 
-void mover_change_speed(struct mover *mover, uint32_t speed_steps_per_s)
+void axis_change_speed(struct axis *axis, uint32_t speed_steps_per_s)
 {
     FUZZ_REQUIRE(is_in(speed_steps_per_s, 1, 16000));
-    (void)mover;
+    (void)axis;
 }
 
-void mover_poll(struct mover *mover)
+void axis_poll(struct axis *axis)
 {
-    (void)mover;
+    (void)axis;
 }
 
-bool mover_is_moving(const struct mover *mover)
+bool axis_take_end(struct axis *axis)
 {
-    return mover->moving;
+    bool ended = axis->state == AXIS_ENDED;
+    if (ended) {
+        axis->state = AXIS_STANDING;
+    }
+    return ended;
 }
 
-enum hal_trace_stop mover_stop_cause(const struct mover *mover)
+enum axis_cause axis_cause(const struct axis *axis)
 {
-    return mover->cause;
+    return axis->cause;
 }
 
-uint64_t mover_end_tick(const struct mover *mover)
+uint64_t axis_end_tick(const struct axis *axis)
 {
-    (void)mover;
+    (void)axis;
     return bench.end_tick;
 }
 
-uint64_t mover_steps_made(const struct mover *mover)
+int64_t axis_position_steps(const struct axis *axis)
 {
-    (void)mover;
-    return bench.made;
-}
-
-int64_t mover_position_steps(const struct mover *mover)
-{
-    (void)mover;
+    (void)axis;
     return bench.position;
 }
 
-void mover_set_position(struct mover *mover, int64_t position_steps)
+void axis_set_position(struct axis *axis, int64_t position_steps)
 {
-    FUZZ_REQUIRE(!mover->moving);
+    FUZZ_REQUIRE(!axis_is_moving(axis));
     bench.position = position_steps;
 }
 
-void mover_connect(struct mover *mover, bool connected)
+void axis_simulate(struct axis *axis, bool simulated)
 {
-    FUZZ_REQUIRE(!mover->moving);
-    mover->connected = connected;
+    if (!axis_is_moving(axis)) {
+        axis->simulated = simulated;
+    }
 }
 
-bool mover_take_mark(struct mover *mover)
+bool axis_take_mark(struct axis *axis)
 {
-    (void)mover;
+    (void)axis;
     bool mark = bench.mark;
     bench.mark = false;
     return mark;
@@ -194,11 +225,11 @@ static void require_bounds(const struct interpreter *interpreter)
     FUZZ_REQUIRE(interpreter->next <= memory->written && interpreter->place <= memory->written);
     FUZZ_REQUIRE(interpreter->loop_depth <= INTERPRETER_LOOPS_MAX);
     FUZZ_REQUIRE(interpreter->call_depth <= INTERPRETER_CALLS_MAX);
-    FUZZ_REQUIRE(interpreter->compound.sections <= MOTION_SECTIONS && interpreter->order.sections <= MOTION_SECTIONS);
+    FUZZ_REQUIRE(interpreter->compound.order.sections <= MOTION_SECTIONS);
     FUZZ_REQUIRE(memory->released <= memory->written);
-    FUZZ_REQUIRE(is_in(interpreter->speed, 1, 16000) && is_in(interpreter->start_speed, 1, 2000));
+    FUZZ_REQUIRE(is_in(interpreter->order.speed_steps_per_s, 1, 16000) &&
+                 is_in(interpreter->order.start_speed_steps_per_s, 1, 2000));
     FUZZ_REQUIRE((interpreter->state == INTERPRETER_FAILED) == (interpreter->error != INTERPRETER_ERROR_NONE));
-    FUZZ_REQUIRE(interpreter->under_way || !bench.mover.moving);
     for (unsigned i = 0; i < interpreter->loop_depth; i++) {
         const struct interpreter_loop *loop = &interpreter->loops[i];
         FUZZ_REQUIRE(loop->body <= memory->written && is_in(loop->left, 1, 255));
@@ -211,7 +242,7 @@ static void require_bounds(const struct interpreter *interpreter)
 
 static void do_pass(void)
 {
-    (void)io_sample_isr(&bench.io);
+    (void)io_sample(&bench.io);
     for (unsigned i = 0; i < PASSES_MAX; i++) {
         bench.events = 0;
         bench.orders = 0;
@@ -269,7 +300,7 @@ static void do_store(struct fuzz_stream *stream, unsigned commands)
         bool stored = instruction.opcode != PROGRAM_RESET && instruction.opcode != PROGRAM_HALT &&
                       instruction.opcode != PROGRAM_RESUME;
         if (stored) {
-            (void)program_memory_append(&bench.interpreter.memory, &instruction, bench.io.memory_locked);
+            (void)program_memory_append(&bench.interpreter.memory, &instruction, bench.shared.memory_locked);
         }
     }
 }
@@ -289,26 +320,27 @@ static void do_fill(unsigned operand)
     }
 }
 
-/* The mover makes steps, and may begin its last section, be stopped by a guard, or end. */
+/* The axis makes steps, and may begin its last section, be stopped by a guard, or end. */
 static void do_motion(struct fuzz_stream *stream)
 {
     uint8_t what = fuzz_take_byte(stream);
-    struct mover *mover = &bench.mover;
-    if (!mover->moving) {
+    struct axis *axis = &bench.axis;
+    if (!axis_is_moving(axis)) {
         return;
     }
     uint64_t steps = (uint64_t)what * what;
     steps = steps < bench.steps - bench.made ? steps : bench.steps - bench.made;
     bench.made += steps;
-    bench.position += mover->channel.direction * (int64_t)steps;
+    bench.position += axis->channel.direction * (int64_t)steps;
     bench.mark = bench.mark || (what & 1U) != 0;
     bench.end_tick = bench.now;
     if ((what & 2U) != 0) {
-        static const enum hal_trace_stop causes[] = {HAL_TRACE_STOP_HIGH, HAL_TRACE_STOP_LOW, HAL_TRACE_STOP_TOTAL,
-                                                     HAL_TRACE_STOP_LIMIT};
-        mover_stop(mover, causes[what / 8U % 4U]);
+        static const enum axis_cause causes[] = {AXIS_CAUSE_HIGH, AXIS_CAUSE_LOW, AXIS_CAUSE_ABORT, AXIS_CAUSE_LIMIT};
+        (void)axis_stop(axis, causes[what / 8U % 4U]);
     }
-    mover->moving = bench.made < bench.steps && (what & 4U) == 0;
+    if (bench.made == bench.steps || (what & 4U) != 0) {
+        axis->state = AXIS_ENDED;
+    }
 }
 
 static void do_operation(struct fuzz_stream *stream)
@@ -356,10 +388,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     bench.steps = 0;
     bench.end_tick = bench.now;
     bench.text_length = 0;
-    bench.mover.moving = false;
-    bench.mover.cause = HAL_TRACE_STOP_NONE;
+    bench.axis.state = AXIS_STANDING;
+    bench.axis.cause = AXIS_CAUSE_NONE;
     io_init(&bench.io);
-    interpreter_init(&bench.interpreter, 0, &bench.mover, &bench.io);
+    interpreter_shared_init(&bench.shared, &bench.io);
+    interpreter_init(&bench.interpreter, 0, &bench.axis, &bench.shared);
     for (unsigned i = 0; i < OPERATIONS_MAX && !fuzz_stream_is_over(&stream); i++) {
         do_operation(&stream);
     }

@@ -13,7 +13,7 @@
 #include "fuzz_stream.h"
 #include "fuzz_unit_bench.h"
 #include "program_parser.h"
-#include "protocol_status.h"
+#include "messages_status.h"
 
 enum {
     MESSAGES_MAX = 24,
@@ -54,7 +54,7 @@ static void check_set_command(const struct reply *reply)
     }
 }
 
-/* Numbers of ten characters or more, as the movers have them. */
+/* Numbers of ten characters or more, as the axes have them. */
 static void check_positions(const struct fuzz_unit *fuzz, const struct reply *reply, unsigned first, unsigned last)
 {
     uint32_t at = 2;
@@ -69,7 +69,7 @@ static void check_positions(const struct fuzz_unit *fuzz, const struct reply *re
             FUZZ_REQUIRE(digit == ' ' || digit == '-' || (digit >= '0' && digit <= '9'));
             value = digit >= '0' ? value * 10 + (digit - '0') : value;
         }
-        FUZZ_REQUIRE((negative ? -value : value) == mover_position_steps(&fuzz->unit.mover[motor]));
+        FUZZ_REQUIRE((negative ? -value : value) == axis_position_steps(&fuzz->unit.axis[motor]));
     }
     FUZZ_REQUIRE(at == reply->bytes_length);
 }
@@ -78,17 +78,17 @@ static void check_of_motors(const struct fuzz_unit *fuzz, const struct reply *re
 {
     uint8_t number = reply->request[0];
     unsigned motor = (unsigned)(reply->request[1] - '0');
-    bool single = number >= PROTOCOL_GET_COMMAND;
+    bool single = number >= MESSAGES_GET_COMMAND;
     FUZZ_REQUIRE(starts_with(reply, number, reply->request[1]));
     if (single && motor == 0) {
         FUZZ_REQUIRE(reply->bytes_length == 17 && memcmp(reply->bytes + 2, "ERROR COMMAND! ", 15) == 0);
-    } else if (number == PROTOCOL_SET_COMMAND) {
+    } else if (number == MESSAGES_SET_COMMAND) {
         check_set_command(reply);
-    } else if (number == PROTOCOL_STORE_FLASH) {
+    } else if (number == MESSAGES_STORE_FLASH) {
         FUZZ_REQUIRE(reply->bytes_length == 3 && reply->bytes[2] == STORE_OK);
-    } else if (number == PROTOCOL_GET_POSITION) {
+    } else if (number == MESSAGES_GET_POSITION) {
         check_positions(fuzz, reply, motor == 0 ? 0 : motor - 1U, motor == 0 ? 4U : motor);
-    } else if (number == PROTOCOL_GET_COMMAND) {
+    } else if (number == MESSAGES_GET_COMMAND) {
         struct program_summary summary = program_check(reply->bytes + 2, reply->bytes_length - 2U);
         FUZZ_REQUIRE(summary.status == PROGRAM_OK && summary.commands <= PROGRAM_COMMANDS_MAX);
     } else {
@@ -100,12 +100,12 @@ static void check_answer(const struct fuzz_unit *fuzz, const struct reply *reply
 {
     uint8_t number = reply->request[0];
     bool named = reply->length >= 2 && reply->request[1] >= '0' && reply->request[1] <= '4';
-    if (number == PROTOCOL_VERSION) {
+    if (number == MESSAGES_VERSION) {
         FUZZ_REQUIRE(reply->bytes_length == 2 + VERSION_BYTES && starts_with(reply, number, VERSION_BYTES));
-    } else if (number == PROTOCOL_GET_STATUS) {
-        FUZZ_REQUIRE(reply->bytes_length == STATUS_BYTES && starts_with(reply, number, PROTOCOL_STATUS_LAYOUT));
-    } else if (number > PROTOCOL_GET_PROGRESS || (!named && number != PROTOCOL_SET_COMMAND)) {
-        FUZZ_REQUIRE(reply->bytes_length == 4 && starts_with(reply, PROTOCOL_UNKNOWN, number));
+    } else if (number == MESSAGES_GET_STATUS) {
+        FUZZ_REQUIRE(reply->bytes_length == STATUS_BYTES && starts_with(reply, number, MESSAGES_STATUS_LAYOUT));
+    } else if (number > MESSAGES_GET_PROGRESS || (!named && number != MESSAGES_SET_COMMAND)) {
+        FUZZ_REQUIRE(reply->bytes_length == 4 && starts_with(reply, MESSAGES_UNKNOWN, number));
     } else if (!named) {
         FUZZ_REQUIRE(reply->bytes_length == 4 && reply->bytes[2] == FLAG_VALUE);
     } else {
@@ -126,14 +126,14 @@ static uint64_t written_of_all(const struct fuzz_unit *fuzz)
 static void do_message(struct fuzz_unit *fuzz, const uint8_t *message, uint32_t length)
 {
     uint64_t before = written_of_all(fuzz);
-    uint32_t answered = unit_message(&fuzz->unit, message, length, fuzz->answer);
+    uint32_t answered = rkm04_message(&fuzz->unit, message, length, fuzz->answer);
     struct reply reply = {.request = message, .length = length, .bytes = fuzz->answer, .bytes_length = answered};
-    FUZZ_REQUIRE(answered <= PROTOCOL_ANSWER_BYTES_MAX);
+    FUZZ_REQUIRE(answered <= MESSAGES_ANSWER_BYTES_MAX);
     judge_exchange(&fuzz->judge, length == 0 ? 0 : 1, answered == 0 ? 0 : 1);
     if (length != 0) {
         check_answer(fuzz, &reply);
     }
-    bool taken = length != 0 && message[0] == PROTOCOL_SET_COMMAND &&
+    bool taken = length != 0 && message[0] == MESSAGES_SET_COMMAND &&
                  (fuzz->answer[2] == FLAG_NONE || fuzz->answer[2] == FLAG_OVERFLOW);
     FUZZ_REQUIRE(taken || written_of_all(fuzz) == before);
 }

@@ -2,10 +2,10 @@
  * The whole unit: bytes and input edges in, the judge on the pulses. Every good frame has one answer, which an
  * independent reader finds whole, a broadcast has none, a repeat is not executed again, and noise is never answered
  * unless the receiver has found a good frame in it. Time, flash faults and restarts come in between. A run begins with
- * an open session; behind a restart every request but Version is refused until there is one.
+ * an open session; after a restart every request but Version is refused until there is one.
  *
  * Input: a head (low 2 bits: epoch; bit 7: the run is made once more at another epoch and must be the same but for the
- * shift) | operations, a byte each with its operands behind:
+ * shift) | operations, a byte each with its operands after:
  *   low 3 bits 0, 1  a request to this unit: the message up to a 0; the frame and its FCS are made here
  *   2  a broadcast likewise       3  the last frame once more, with one bit flipped if there is one (5 high bits)
  *   4  noise: bytes up to a 0     5  an input edge: high bits are input and level, at the next time
@@ -44,7 +44,7 @@ struct talk {
 
 static struct talk talk;
 
-/* The bytes come in one behind the other. */
+/* The bytes come in one after the other. */
 static void hear(struct talk *t, const uint8_t *bytes, uint32_t length)
 {
     struct host_machine *machine = &t->fuzz->machine;
@@ -93,7 +93,7 @@ static uint32_t commands_taken(const struct fuzz_unit *fuzz)
 
 static void do_frame(struct talk *t, bool repeated)
 {
-    const struct link *link = &t->fuzz->unit.link;
+    const struct link *link = &t->fuzz->unit.line.link;
     uint32_t repeats = link->receiver.counts[LINK_COUNT_REPEATS];
     bool known = repeated && t->answered && !t->broadcast;
     uint32_t taken = commands_taken(t->fuzz);
@@ -111,7 +111,7 @@ static void do_request(struct talk *t, const uint8_t *message, uint32_t length, 
 {
     t->number = (uint8_t)(t->number == UINT8_MAX ? 1 : t->number + 1U);
     t->broadcast = broadcast;
-    t->opens = message[0] == PROTOCOL_VERSION;
+    t->opens = message[0] == MESSAGES_VERSION;
     t->frame_length = frame_write(t->frame, broadcast ? 0 : NODE, t->number, message, length);
     do_frame(t, false);
 }
@@ -131,12 +131,12 @@ static void do_message(struct talk *t, struct fuzz_stream *stream, bool broadcas
 /* Something that is no frame of ours, or only by chance. */
 static void do_noise(struct talk *t, const uint8_t *bytes, uint32_t length)
 {
-    const uint32_t *counts = t->fuzz->unit.link.receiver.counts;
+    const uint32_t *counts = t->fuzz->unit.line.link.receiver.counts;
     uint32_t frames = counts[LINK_COUNT_FRAMES];
     hear(t, bytes, length);
     t->answered = false;
     bool over = !wait_for_silence(t);
-    t->open = t->fuzz->unit.link.open; /* a frame in it may have been Version */
+    t->open = t->fuzz->unit.line.link.open; /* a frame in it may have been Version */
     if (!over) {
         FUZZ_REQUIRE(t->fuzz->sent_count == 0 || counts[LINK_COUNT_FRAMES] != frames);
     }
@@ -226,7 +226,7 @@ static void do_operation(struct talk *t, struct fuzz_stream *stream)
 
 static uint64_t run_once(struct fuzz_stream stream, unsigned epoch)
 {
-    const uint8_t opening = PROTOCOL_VERSION;
+    const uint8_t opening = MESSAGES_VERSION;
     talk.fuzz = fuzz_unit_begin(epoch);
     talk.frame_length = 0;
     talk.number = 0;

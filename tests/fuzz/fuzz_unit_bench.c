@@ -11,7 +11,7 @@ enum {
     COPIED_BYTES = offsetof(struct fuzz_unit, machine) + offsetof(struct host_machine, flash),
     ERASED = 0xFF,
     LINE_BYTE_TICKS = 800,         /* the line is quicker than it should be, so that long answers take no time */
-    LATE_TICKS = 5 * TICKS_PER_US, /* the tick interrupt behind an edge, as on a board */
+    LATE_TICKS = 5 * TICKS_PER_US, /* the tick interrupt after an edge, as on a board */
 };
 
 /* 0, a wrap of the 32-bit counter after 30 ms, one after 3 s, and some other time. */
@@ -54,8 +54,8 @@ static bool is_over(void *context)
 static void switch_on(void)
 {
     live.machine.faults.late_tick_ticks = LATE_TICKS;
-    unit_init(&live.unit);
-    unit_start(&live.unit);
+    rkm04_init(&live.unit);
+    rkm04_start(&live.unit);
 }
 
 static void make_fresh(unsigned which)

@@ -13,20 +13,20 @@
 
 #include "host_machine.h"
 #include "judge_unit.h"
-#include "unit.h"
+#include "rkm04.h"
 
 enum {
     FUZZ_EPOCHS = 4,
     FUZZ_PULSES_MAX = 1500,
     FUZZ_PASSES_MAX = 1500,
-    FUZZ_SENT_MAX = 2 * PROTOCOL_ANSWER_BYTES_MAX + 64,
+    FUZZ_SENT_MAX = 2 * MESSAGES_ANSWER_BYTES_MAX + 64,
 };
 
 struct fuzz_unit {
     struct judged_unit judged;
-    struct unit unit;
+    struct rkm04 unit;
     struct judge judge;
-    uint8_t answer[PROTOCOL_ANSWER_BYTES_MAX];
+    uint8_t answer[MESSAGES_ANSWER_BYTES_MAX];
     uint8_t sent[FUZZ_SENT_MAX]; /* by the line, since the harness has read it */
     uint32_t sent_count;
     uint32_t passes;

@@ -16,7 +16,7 @@ CHROMIUM = Path("/usr/bin/chromium")
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
-    """Not for the session: its event loop would be in the way of the tests behind these."""
+    """Not for the session: its event loop would be in the way of the tests after these."""
     if not CHROMIUM.exists():
         pytest.skip(f"{CHROMIUM} is not there: install Debian's package chromium")
     expect.set_options(timeout=PATIENCE_SECONDS * 1000)

@@ -115,7 +115,7 @@ def store_and_see_a_guard_act(page: ServicePage) -> None:
     )
     page.expect_beyond(200)
     page.page.locator("#live-inputs button").nth(2).click()
-    assert 700 < page.expect_standing() < 4000
+    assert 200 < page.expect_standing() < 4000
 
 
 STEPS: dict[str, Callable[[ServicePage], None]] = {

@@ -8,7 +8,7 @@ from reference import TICK_HZ, endless, limit_run, single
 
 MS = TICK_HZ // 1000
 DEFAULTS = Limits(start_speed=100, speed=1000, accel=2000)
-"""S, V and A behind a reset; no fragment changes S or A."""
+"""S, V and A after a reset; no fragment changes S or A."""
 
 
 def test_the_loop_makes_three_moves_with_pauses_and_b300_none(run_program):

@@ -1,6 +1,6 @@
 /*
  * Contracts of the step channel: proved with step_channel.acsl (the ring, and what goes along it) and
- * step_channel_cut.acsl (what ends or changes a move).
+ * step_channel_replace.acsl (what ends or changes a move).
  */
 #ifndef CHANNELS_H
 #define CHANNELS_H
@@ -113,15 +113,15 @@ static inline uint64_t step_cursor_pulse(const struct step_cursor *cursor);
 /*@ requires is_sound(channel);
     assigns channel->cursor, channel->running, channel->marked, channel->taken;
     ensures is_sound(channel);
-    ensures \result == STEP_CHANNEL_ARM || \result == STEP_CHANNEL_LOOK || \result == 3;
-    ensures \result == STEP_CHANNEL_LOOK ==> !channel->running &&
+    ensures \result == STEP_CHANNEL_ARM || \result == STEP_CHANNEL_WAKE || \result == 3;
+    ensures \result == STEP_CHANNEL_WAKE ==> !channel->running &&
         pulse_of(&channel->cursor) == \old(pulse_of(&channel->cursor));
-    ensures \result != STEP_CHANNEL_LOOK ==> channel->running == \old(channel->running) &&
+    ensures \result != STEP_CHANNEL_WAKE ==> channel->running == \old(channel->running) &&
         pulse_of(&channel->cursor) == \old(pulse_of(&channel->cursor)) + 1;
     ensures queued(channel) <= \old(queued(channel));
     ensures \old(queued(channel)) == 0 ==> channel->cursor.end == \old(channel->cursor.end);
 */
-static inline unsigned step_channel_next_isr(struct step_channel *channel);
+static inline unsigned step_channel_next(struct step_channel *channel);
 
 /*@ requires \valid_read(channel);
     assigns \nothing;
@@ -213,7 +213,7 @@ static void cursor_go_back(struct step_cursor *cursor);
         (\result && pulse_of(cursor) == pulse_of(&channel->cursor) - 1);
     ensures \result ==> pulse_of(cursor) >= 1;
 */
-bool step_channel_look(const struct step_channel *channel, uint32_t since, struct step_cursor *cursor);
+bool step_channel_find_pulse(const struct step_channel *channel, uint32_t since, struct step_cursor *cursor);
 
 /*@ requires is_sound(channel) && is_numbered(channel) && pulse_of(&channel->cursor) <= pulse;
     requires \exists integer i; is_within(channel, pulse, i);

@@ -21,10 +21,10 @@
         keeps_order{A, B}(order) && is_order{A}(order) ==> is_order{B}(order);
     lemma keeps_plan{A, B}: \forall struct motion_plan *plan;
         keeps_order{A, B}(\at(&plan->order, A)) && keeps_origin{A, B}(plan) && is_plan{A}(plan) ==> is_plan{B}(plan);
-    lemma keeps_way{A, B}: \forall struct motion_plan *plan, integer i;
+    lemma keeps_span{A, B}: \forall struct motion_plan *plan, integer i;
         keeps_steps{A, B}(\at(&plan->order, A)) && keeps_accel{A, B}(\at(&plan->order, A)) &&
             keeps_origin{A, B}(plan) &&
-        0 <= i < MOTION_SECTIONS ==> way_gain{A}(plan, i) == way_gain{B}(plan, i);
+        0 <= i < MOTION_SECTIONS ==> span_gain{A}(plan, i) == span_gain{B}(plan, i);
     lemma keeps_leave_all{A, B}: \forall struct motion_plan *plan;
         keeps_order{A, B}(\at(&plan->order, A)) && keeps_origin{A, B}(plan) && keeps_exits{A, B}(plan) &&
         0 <= \at(plan->first, A) && \at(plan->order.sections, A) <= MOTION_SECTIONS &&
@@ -54,15 +54,15 @@
         keeps_order{A, B}(\at(&plan->order, A)) && keeps_origin{A, B}(plan) && keeps_exits{A, B}(plan) &&
         0 <= \at(plan->first, A) <= i < MOTION_SECTIONS &&
         is_reached{A}(plan, i) ==> is_reached{B}(plan, i);
-    lemma keeps_laid{A, B}: \forall struct motion_plan *plan;
+    lemma keeps_fitted{A, B}: \forall struct motion_plan *plan;
         keeps_order{A, B}(\at(&plan->order, A)) && keeps_origin{A, B}(plan) && keeps_exits{A, B}(plan) &&
         0 <= \at(plan->first, A) && \at(plan->order.sections, A) <= MOTION_SECTIONS &&
-        is_laid{A}(plan) ==> is_laid{B}(plan);
+        is_fitted{A}(plan) ==> is_fitted{B}(plan);
     lemma keeps_ready{A, B}: \forall struct motion_plan *plan;
         keeps_order{A, B}(\at(&plan->order, A)) && keeps_origin{A, B}(plan) && keeps_exits{A, B}(plan) &&
         0 <= \at(plan->first, A) && is_ready{A}(plan) ==> is_ready{B}(plan);
-    lemma laid_is_ready: \forall struct motion_plan *plan;
-        is_plan(plan) && has_exits(plan) && is_laid(plan) && !plan->stopping ==> is_ready(plan);
+    lemma fitted_is_ready: \forall struct motion_plan *plan;
+        is_plan(plan) && has_exits(plan) && is_fitted(plan) && plan->kind != MOTION_PLAN_STOP ==> is_ready(plan);
 */
 
 #endif

@@ -8,14 +8,14 @@
 
 /*@ predicate is_same64{A, B}(uint64_t *cell) = \at(*cell, A) == \at(*cell, B);
     predicate is_same32{A, B}(uint32_t *cell) = \at(*cell, A) == \at(*cell, B);
-    predicate is_same_flag{A, B}(bool *cell) = \at(*cell, A) == \at(*cell, B);
+    predicate is_same_kind{A, B}(enum motion_plan_kind *cell) = \at(*cell, A) == \at(*cell, B);
 */
 
 /* The cells of an origin, a profile, a place and a slope: SAME(type, cell) for each. The provers can say that a cell is
  * kept where something else is written, and cannot say it of the whole. */
 #define ORIGIN_CELLS(SAME, plan) \
     SAME(64, &plan->origin.time.ticks) SAME(32, &plan->origin.time.fraction) SAME(64, &plan->origin.step) \
-    SAME(64, &plan->origin.speed2) SAME(_flag, &plan->changed) SAME(_flag, &plan->stopping)
+    SAME(64, &plan->origin.speed2) SAME(_kind, &plan->kind)
 #define PROFILE_CELLS(SAME, plan) \
     SAME(64, &plan->progress.profile.enter) SAME(64, &plan->progress.profile.turn) \
     SAME(64, &plan->progress.profile.cruise) SAME(64, &plan->progress.profile.exit) \

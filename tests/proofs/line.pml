@@ -1,5 +1,5 @@
 /*
- * The line between one master and one unit (firmware/docs/line.md, "Sessions"), for Spin.
+ * The line between one master and one unit (firmware/rkm04/docs/line.md, "Sessions"), for Spin.
  *
  * The line may lose, damage and repeat any frame, in both directions, and holds up to two each way; it does not
  * overtake. The unit may start anew at any time, and so may the master, in the middle of anything. Every choice that

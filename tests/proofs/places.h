@@ -33,7 +33,12 @@ uint64_t motion_time_up(struct motion_time time);
     assigns \nothing;
     ensures value(\result) == quanta(b) - quanta(a);
 */
-struct wide motion_place_way(struct motion_place a, struct motion_place b);
+struct wide motion_place_distance(struct motion_place a, struct motion_place b);
+
+/*@ assigns \nothing;
+    ensures \result <==> a.step == b.step && a.quanta == b.quanta;
+*/
+bool motion_place_is_same(struct motion_place a, struct motion_place b);
 
 /*@ requires 1 <= denominator <= 0x100000000;
     requires step + numerator / denominator <= 0xFFFFFFFFFFFFFFFF;

@@ -1,11 +1,13 @@
 /*
- * Contracts of what motion_plan.c keeps for itself: proved with motion_plan.acsl (the look backward, the brake) and
- * motion_plan_look.acsl (the look forward and what lays a plan).
+ * Contracts of what the parts of a plan share, and of its look-ahead: proved with motion_plan.acsl,
+ * motion_lookahead.acsl and motion_lookahead_forward.acsl.
  */
 #ifndef PLANS_H
 #define PLANS_H
 
-#include "motion_plan.h"
+#include "lower.h"
+#include "motion_endless.h"
+#include "motion_plan_private.h"
 #include "motion_leg.h"
 #include "step_scale.h"
 #include "wide.h"
@@ -35,14 +37,14 @@
         speed2_in_range(plan->origin.speed2);
     predicate has_exits(struct motion_plan *plan) =
         \forall integer i; plan->first <= i < plan->order.sections ==> speed2_in_range(plan->exit_speed2[i]);
-    logic integer way_steps(struct motion_plan *plan, integer section) =
+    logic integer span_steps(struct motion_plan *plan, integer section) =
         section == plan->first ?
             begin_of(&plan->order, section) + plan->order.section[section].steps - plan->origin.step :
             plan->order.section[section].steps;
-    logic integer way_begin(struct motion_plan *plan, integer section) =
+    logic integer span_begin(struct motion_plan *plan, integer section) =
         section == plan->first ? plan->origin.step : begin_of(&plan->order, section);
-    logic integer way_gain(struct motion_plan *plan, integer section) =
-        gain_of(plan->order.section[section].accel_steps_per_s2, way_steps(plan, section));
+    logic integer span_gain(struct motion_plan *plan, integer section) =
+        gain_of(plan->order.section[section].accel_steps_per_s2, span_steps(plan, section));
     logic integer full_gain(struct motion_order *order, integer section) =
         gain_of(order->section[section].accel_steps_per_s2, order->section[section].steps);
     logic integer enter_of(struct motion_plan *plan, integer section) =
@@ -78,17 +80,18 @@
 */
 
 /* The conditions of a profile. */
-/*@ logic integer jumps_of(struct motion_plan *plan, integer i) = plan->changed && i == plan->first ? 1 : 0;
+/*@ logic integer jumps_of(struct motion_plan *plan, integer i) =
+        plan->kind == MOTION_PLAN_CHANGED && i == plan->first ? 1 : 0;
     predicate is_reached(struct motion_plan *plan, integer i) =
         in_reach(jumps_of(plan, i), enter_of(plan, i), plan->exit_speed2[i], limit_of(&plan->order, i),
-            start_of(&plan->order), way_gain(plan, i));
-    predicate is_laid(struct motion_plan *plan) =
+            start_of(&plan->order), span_gain(plan, i));
+    predicate is_fitted(struct motion_plan *plan) =
         \forall integer i; plan->first <= i < plan->order.sections ==> is_reached(plan, i);
     predicate fits_next(struct motion_plan *plan, integer i, integer speed2) =
         speed2 <= next_limit(&plan->order, i) &&
         (i + 1 < plan->order.sections ==> speed2 <= plan->exit_speed2[i + 1] + full_gain(&plan->order, i + 1));
     predicate can_begin(struct motion_plan *plan, integer i, integer enter, integer gain) =
-        plan->changed ?
+        plan->kind == MOTION_PLAN_CHANGED ?
             enter - gain <= plan->exit_speed2[i] ||
                 (plan->exit_speed2[i] == limit_of(&plan->order, i) && fits_next(plan, i, enter - gain)) :
             enter <= limit_of(&plan->order, i) && enter - gain <= plan->exit_speed2[i];
@@ -117,51 +120,32 @@
     predicate keeps_exits{A, B}(struct motion_plan *plan) =
         \forall integer k; 0 <= k < MOTION_SECTIONS ==> \at(plan->exit_speed2[k], A) == \at(plan->exit_speed2[k], B);
     predicate keeps_origin{A, B}(struct motion_plan *plan) =
-        \at(plan->first, A) == \at(plan->first, B) && \at(plan->changed, A) == \at(plan->changed, B) &&
-        \at(plan->stopping, A) == \at(plan->stopping, B) &&
+        \at(plan->first, A) == \at(plan->first, B) && \at(plan->kind, A) == \at(plan->kind, B) &&
         \at(plan->origin.time.ticks, A) == \at(plan->origin.time.ticks, B) &&
         \at(plan->origin.time.fraction, A) == \at(plan->origin.time.fraction, B) &&
         \at(plan->origin.step, A) == \at(plan->origin.step, B) &&
         \at(plan->origin.speed2, A) == \at(plan->origin.speed2, B);
 */
 
-/*@ assigns \nothing;
-    ensures \result == least(a, b);
-*/
-static uint64_t lower(uint64_t a, uint64_t b);
-
 /*@ requires \valid_read(plan) && is_order(&plan->order) && section <= plan->order.sections;
     assigns \nothing;
     ensures \result == begin_of(&plan->order, section) && \result <= 10 * MOTION_ENDLESS_STEPS;
 */
-static uint64_t section_begin(const struct motion_plan *plan, unsigned section);
+uint64_t motion_plan_section_begin(const struct motion_plan *plan, unsigned section);
 
 /*@ requires \valid_read(plan) && is_plan(plan) && plan->first <= section < plan->order.sections;
     assigns \nothing;
-    ensures \result.steps == way_steps(plan, section) && 1 <= \result.steps <= MOTION_ENDLESS_STEPS;
+    ensures \result.steps == span_steps(plan, section) && 1 <= \result.steps <= MOTION_ENDLESS_STEPS;
     ensures \result.accel_steps_per_s2 == plan->order.section[section].accel_steps_per_s2;
     ensures \result.speed_steps_per_s == plan->order.section[section].speed_steps_per_s;
     ensures \result.start_speed_steps_per_s == plan->order.start_speed_steps_per_s;
     ensures speed_in_range(\result.speed_steps_per_s) && speed_in_range(\result.start_speed_steps_per_s);
     ensures 1 <= \result.accel_steps_per_s2 <= STEP_ACCEL_MAX;
-    ensures \result.begin == way_begin(plan, section) && \result.begin <= 10 * MOTION_ENDLESS_STEPS;
+    ensures \result.begin == span_begin(plan, section) && \result.begin <= 10 * MOTION_ENDLESS_STEPS;
     ensures \result.jumps == jumps_of(plan, section);
     ensures \result.enter_speed2 == enter_speed2 && \result.exit_speed2 == plan->exit_speed2[section];
 */
-static struct motion_way section_way(const struct motion_plan *plan, unsigned section, uint64_t enter_speed2);
-
-/*@ requires \valid_read(plan) && plan->first <= section < MOTION_SECTIONS;
-    assigns \nothing;
-    ensures \result == enter_of(plan, section);
-*/
-static uint64_t section_enter(const struct motion_plan *plan, unsigned section);
-
-/*@ requires \valid_read(order) && is_order(order) && section < order->sections;
-    assigns \nothing;
-    ensures \result == least(limit_of(order, section), next_limit(order, section));
-    ensures speed2_in_range(\result);
-*/
-static uint64_t border_cap(const struct motion_order *order, unsigned section);
+struct motion_span motion_plan_section_span(const struct motion_plan *plan, unsigned section, uint64_t enter_speed2);
 
 /*@ requires \valid_read(plan) && is_order(&plan->order) && section < plan->order.sections;
     requires speed2_in_range(plan->exit_speed2[section]);
@@ -169,7 +153,7 @@ static uint64_t border_cap(const struct motion_order *order, unsigned section);
     ensures \result == plan->exit_speed2[section] + full_gain(&plan->order, section);
     ensures \result >= plan->exit_speed2[section];
 */
-static uint64_t brakeable(const struct motion_plan *plan, unsigned section);
+uint64_t motion_lookahead_brakeable(const struct motion_plan *plan, unsigned section);
 
 /*@ requires \valid(plan) && is_order(&plan->order) && plan->first < plan->order.sections;
     assigns plan->exit_speed2[plan->first .. plan->order.sections - 1];
@@ -178,29 +162,20 @@ static uint64_t brakeable(const struct motion_plan *plan, unsigned section);
     ensures can_leave_all(plan);
     ensures keeps_order{Old, Post}(&plan->order) && keeps_origin{Old, Post}(plan);
 */
-static void look_backward(struct motion_plan *plan);
+void motion_lookahead_backward(struct motion_plan *plan);
 
 /*@ requires \valid(plan) && is_plan(plan);
     requires \forall integer i; plan->first <= i < plan->order.sections ==> is_backed(plan, i);
-    requires can_begin(plan, plan->first, plan->origin.speed2, way_gain(plan, plan->first));
-    requires can_leave(&plan->order, plan->first, plan->origin.speed2 - way_gain(plan, plan->first));
+    requires can_begin(plan, plan->first, plan->origin.speed2, span_gain(plan, plan->first));
+    requires can_leave(&plan->order, plan->first, plan->origin.speed2 - span_gain(plan, plan->first));
     requires can_leave_all(plan);
     assigns plan->exit_speed2[plan->first .. plan->order.sections - 1];
-    ensures has_exits(plan) && is_laid(plan);
+    ensures has_exits(plan) && is_fitted(plan);
     ensures can_leave_all(plan);
     ensures keeps_order{Old, Post}(&plan->order) && keeps_origin{Old, Post}(plan);
     ensures is_plan(plan);
-    ensures can_leave(&plan->order, plan->first, plan->origin.speed2 - way_gain(plan, plan->first));
+    ensures can_leave(&plan->order, plan->first, plan->origin.speed2 - span_gain(plan, plan->first));
 */
-static void look_forward(struct motion_plan *plan);
-
-/*@ requires \valid_read(plan) && has_order(plan);
-    assigns \nothing;
-    ensures \result <= plan->order.sections;
-    ensures \result == plan->order.sections <==> begin_of(&plan->order, plan->order.sections) <= step;
-    ensures \result < plan->order.sections ==> begin_of(&plan->order, \result) <= step <
-        begin_of(&plan->order, \result) + plan->order.section[\result].steps;
-*/
-static unsigned section_behind(const struct motion_plan *plan, uint64_t step);
+void motion_lookahead_forward(struct motion_plan *plan);
 
 #endif

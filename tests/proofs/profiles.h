@@ -5,6 +5,8 @@
 #ifndef PROFILES_H
 #define PROFILES_H
 
+#include "lower.h"
+#include "motion_endless.h"
 #include "motion_profile.h"
 #include "places.h"
 
@@ -27,16 +29,16 @@
     predicate in_reach(integer jumps, integer enter, integer exit, integer limit, integer start, integer gain) =
         meets(enter_at(jumps, enter, exit, limit, start, gain), exit, limit, floor_of(jumps, limit, start), gain);
 
-    predicate way_in_range(struct motion_way way) =
-        speed_in_range(way.speed_steps_per_s) && speed_in_range(way.start_speed_steps_per_s) &&
-        1 <= way.accel_steps_per_s2 <= STEP_ACCEL_MAX &&
-        1 <= way.steps <= MOTION_ENDLESS_STEPS && way.begin <= 0x1000000000000 &&
-        speed2_in_range(way.enter_speed2) && speed2_in_range(way.exit_speed2);
-    predicate way_in_reach(struct motion_way way) =
-        in_reach(way.jumps, way.enter_speed2, way.exit_speed2, square_of(way.speed_steps_per_s),
-            square_of(way.start_speed_steps_per_s), gain_of(way.accel_steps_per_s2, way.steps));
+    predicate span_in_range(struct motion_span span) =
+        speed_in_range(span.speed_steps_per_s) && speed_in_range(span.start_speed_steps_per_s) &&
+        1 <= span.accel_steps_per_s2 <= STEP_ACCEL_MAX &&
+        1 <= span.steps <= MOTION_ENDLESS_STEPS && span.begin <= 0x1000000000000 &&
+        speed2_in_range(span.enter_speed2) && speed2_in_range(span.exit_speed2);
+    predicate span_in_reach(struct motion_span span) =
+        in_reach(span.jumps, span.enter_speed2, span.exit_speed2, square_of(span.speed_steps_per_s),
+            square_of(span.start_speed_steps_per_s), gain_of(span.accel_steps_per_s2, span.steps));
 
-    predicate is_way_of(integer steps, integer per_step, integer change) = steps * per_step <= change + per_step;
+    predicate is_distance_of(integer steps, integer per_step, integer change) = steps * per_step <= change + per_step;
     predicate is_ramp_of(integer steps, integer per_step, integer change) = steps * per_step <= change;
     predicate has_speeds(struct motion_profile profile) =
         2 <= profile.enter <= 2 * speed2_max && 2 <= profile.turn <= 2 * speed2_max &&
@@ -60,51 +62,51 @@ uint64_t motion_square(uint32_t speed_steps_per_s);
 */
 uint64_t motion_gain(uint32_t accel_steps_per_s2, uint64_t steps);
 
-/*@ requires \valid_read(way) && way_in_range(*way);
+/*@ requires \valid_read(span) && span_in_range(*span);
     assigns \nothing;
-    ensures \result == floor_of(way->jumps, square_of(way->speed_steps_per_s),
-        square_of(way->start_speed_steps_per_s));
+    ensures \result == floor_of(span->jumps, square_of(span->speed_steps_per_s),
+        square_of(span->start_speed_steps_per_s));
     ensures speed2_in_range(\result);
 */
-uint64_t motion_profile_floor(const struct motion_way *way);
+uint64_t motion_profile_floor(const struct motion_span *span);
 
-/*@ requires \valid_read(way) && way_in_range(*way);
+/*@ requires \valid_read(span) && span_in_range(*span);
     assigns \nothing;
-    ensures \result == enter_at(way->jumps, way->enter_speed2, way->exit_speed2, square_of(way->speed_steps_per_s),
-        square_of(way->start_speed_steps_per_s), gain_of(way->accel_steps_per_s2, way->steps));
+    ensures \result == enter_at(span->jumps, span->enter_speed2, span->exit_speed2, square_of(span->speed_steps_per_s),
+        square_of(span->start_speed_steps_per_s), gain_of(span->accel_steps_per_s2, span->steps));
     ensures speed2_in_range(\result);
 */
-uint64_t motion_profile_enter(const struct motion_way *way);
+uint64_t motion_profile_enter(const struct motion_span *span);
 
-/*@ requires \valid_read(way) && way_in_range(*way) && way_in_reach(*way);
+/*@ requires \valid_read(span) && span_in_range(*span) && span_in_reach(*span);
     assigns \nothing;
-    ensures \result.begin == way->begin && \result.end == way->begin + way->steps;
-    ensures \result.accel_steps_per_s2 == way->accel_steps_per_s2;
+    ensures \result.begin == span->begin && \result.end == span->begin + span->steps;
+    ensures \result.accel_steps_per_s2 == span->accel_steps_per_s2;
     ensures has_speeds(\result) && has_corners(\result);
     ensures \result.exit <= \result.cruise;
-    ensures is_way_of(\result.end - \result.corner_b.step, 4 * way->accel_steps_per_s2,
+    ensures is_distance_of(\result.end - \result.corner_b.step, 4 * span->accel_steps_per_s2,
         \result.cruise - \result.exit);
-    ensures \result.cruise <= most(2 * square_of(way->speed_steps_per_s), \result.exit);
-    ensures is_ramp_of(\result.corner_a.step - \result.begin, 4 * way->accel_steps_per_s2,
-        2 * most(way->enter_speed2, square_of(way->speed_steps_per_s)));
+    ensures \result.cruise <= most(2 * square_of(span->speed_steps_per_s), \result.exit);
+    ensures is_ramp_of(\result.corner_a.step - \result.begin, 4 * span->accel_steps_per_s2,
+        2 * most(span->enter_speed2, square_of(span->speed_steps_per_s)));
 */
-struct motion_profile motion_profile_lay(const struct motion_way *way);
+struct motion_profile motion_profile_fit(const struct motion_span *span);
 
-/*@ requires \valid_read(way) && way_in_range(*way) && way->exit_speed2 <= way->enter_speed2;
-    requires way->enter_speed2 - way->exit_speed2 <= gain_of(way->accel_steps_per_s2, way->steps);
+/*@ requires \valid_read(span) && span_in_range(*span) && span->exit_speed2 <= span->enter_speed2;
+    requires span->enter_speed2 - span->exit_speed2 <= gain_of(span->accel_steps_per_s2, span->steps);
     assigns \nothing;
-    ensures \result.begin == way->begin && \result.end == \result.corner_a.step;
-    ensures \result.accel_steps_per_s2 == way->accel_steps_per_s2;
+    ensures \result.begin == span->begin && \result.end == \result.corner_a.step;
+    ensures \result.accel_steps_per_s2 == span->accel_steps_per_s2;
     ensures has_speeds(\result) && is_place(\result.corner_a) && \result.corner_b == \result.corner_a;
     ensures \result.cruise == \result.exit;
-    ensures is_way_of(\result.end - \result.corner_b.step, 4 * way->accel_steps_per_s2,
+    ensures is_distance_of(\result.end - \result.corner_b.step, 4 * span->accel_steps_per_s2,
         \result.cruise - \result.exit);
-    ensures way->begin * STEP_QUANTA <= quanta(\result.corner_a) <= (way->begin + way->steps) * STEP_QUANTA;
-    ensures way->enter_speed2 - way->exit_speed2 == gain_of(way->accel_steps_per_s2, way->steps) ==>
-        quanta(\result.corner_a) == (way->begin + way->steps) * STEP_QUANTA;
-    ensures is_ramp_of(\result.corner_a.step - \result.begin, 4 * way->accel_steps_per_s2,
-        2 * way->enter_speed2);
+    ensures span->begin * STEP_QUANTA <= quanta(\result.corner_a) <= (span->begin + span->steps) * STEP_QUANTA;
+    ensures span->enter_speed2 - span->exit_speed2 == gain_of(span->accel_steps_per_s2, span->steps) ==>
+        quanta(\result.corner_a) == (span->begin + span->steps) * STEP_QUANTA;
+    ensures is_ramp_of(\result.corner_a.step - \result.begin, 4 * span->accel_steps_per_s2,
+        2 * span->enter_speed2);
 */
-struct motion_profile motion_profile_lay_stop(const struct motion_way *way);
+struct motion_profile motion_profile_fit_stop(const struct motion_span *span);
 
 #endif

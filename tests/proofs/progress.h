@@ -1,5 +1,5 @@
 /*
- * Contracts of what lays a leg in motion_plan.c: proved with motion_plan_legs.acsl.
+ * Contracts of the kinds of leg in motion_legs.c: proved with motion_legs_kinds.acsl.
  */
 #ifndef PROGRESS_H
 #define PROGRESS_H
@@ -11,7 +11,7 @@
 /*@ predicate has_ramps(struct motion_profile profile) =
         has_speeds(profile) && 1 <= profile.accel_steps_per_s2 <= STEP_ACCEL_MAX &&
         profile.exit <= profile.cruise &&
-        is_way_of(profile.end - profile.corner_b.step, 4 * profile.accel_steps_per_s2,
+        is_distance_of(profile.end - profile.corner_b.step, 4 * profile.accel_steps_per_s2,
             profile.cruise - profile.exit);
     predicate knows_slope(struct motion_progress *progress) =
         progress->twice_speed2 != 0 ==> is_slope(progress->slope);

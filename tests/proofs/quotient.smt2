@@ -1,4 +1,4 @@
-; search_quotient of firmware/step/step_generator.c, bit by bit, for z3: no quotient of a distance of at most 2^63 is
+; search_quotient of firmware/engine/step/step_generator.c, bit by bit, for z3: no quotient of a distance of at most 2^63 is
 ; above 2^31 - 1, and the bits are as step_generator_search.acsl admits (unsat); a quotient of 2^31 - 1 there is (sat).
 (set-logic QF_BV)
 (declare-const distance (_ BitVec 64))

@@ -1,5 +1,5 @@
 /*
- * What motion_plan_begin, _stop and _change_speed leave behind, and what motion_plan_next begins with.
+ * What motion_plan_begin, _stop and _change_speed leave, and what motion_plan_next begins with.
  */
 #ifndef READY_H
 #define READY_H
@@ -8,9 +8,9 @@
 
 /*@ predicate is_braked_at(struct motion_plan *plan, integer i) =
         speed2_in_range(plan->exit_speed2[i]) && plan->exit_speed2[i] <= enter_of(plan, i) &&
-        enter_of(plan, i) - plan->exit_speed2[i] <= way_gain(plan, i);
+        enter_of(plan, i) - plan->exit_speed2[i] <= span_gain(plan, i);
     predicate is_braked_through(struct motion_plan *plan, integer i) =
-        enter_of(plan, i) - plan->exit_speed2[i] == way_gain(plan, i) &&
+        enter_of(plan, i) - plan->exit_speed2[i] == span_gain(plan, i) &&
         plan->exit_speed2[i] <= limit_of(&plan->order, i + 1);
     predicate is_braked_all(struct motion_plan *plan) =
         \forall integer i; plan->first <= i < plan->order.sections ==> is_braked_at(plan, i);
@@ -19,7 +19,7 @@
     predicate is_ready(struct motion_plan *plan) =
         plan->first <= plan->order.sections <= MOTION_SECTIONS &&
         (plan->first < plan->order.sections ==>
-            is_plan(plan) && has_exits(plan) && (plan->stopping ? is_braked(plan) : is_laid(plan)));
+            is_plan(plan) && has_exits(plan) && (plan->kind == MOTION_PLAN_STOP ? is_braked(plan) : is_fitted(plan)));
     predicate lies_on(struct motion_order *order, integer step, integer speed2) =
         speed2_in_range(speed2) && \forall integer i; 0 <= i < order->sections &&
             begin_of(order, i) <= step < begin_of(order, i) + order->section[i].steps ==>
@@ -45,34 +45,17 @@
     ensures kept_plan: \old(is_plan(plan)) ==> is_plan(plan);
     ensures kept_left: \old(is_plan(plan) && can_leave_all(plan)) ==> can_leave_all(plan);
     ensures kept_leaves: \old(is_plan(plan) && can_leave(&plan->order, plan->first,
-        plan->origin.speed2 - way_gain(plan, plan->first))) ==>
-            can_leave(&plan->order, plan->first, plan->origin.speed2 - way_gain(plan, plan->first));
+        plan->origin.speed2 - span_gain(plan, plan->first))) ==>
+            can_leave(&plan->order, plan->first, plan->origin.speed2 - span_gain(plan, plan->first));
 */
-static void rewind_to_origin(struct motion_plan *plan);
-
-/*@ requires \valid(plan) && is_plan(plan);
-    requires can_leave(&plan->order, plan->first, plan->origin.speed2 - way_gain(plan, plan->first));
-    assigns plan->exit_speed2[plan->first .. plan->order.sections - 1], plan->order.sections;
-    ensures plan->first <= plan->order.sections <= \old(plan->order.sections);
-    ensures plan->first < plan->order.sections ==> is_plan(plan) && has_exits(plan) && is_braked(plan);
-*/
-static void plan_brake(struct motion_plan *plan);
-
-/*@ requires \valid(plan) && \valid_read(order) && \separated(plan, order) && is_order(order);
-    assigns *plan;
-    ensures is_order(&plan->order) && plan->first == 0 && !plan->stopping && !plan->changed;
-    ensures plan->origin.time.ticks == start_tick && plan->origin.time.fraction == 0 && plan->origin.step == 0;
-    ensures plan->origin.speed2 == least(start_of(&plan->order), limit_of(&plan->order, 0));
-    ensures speed2_in_range(plan->origin.speed2);
-*/
-static void take_order(struct motion_plan *plan, const struct motion_order *order, uint64_t start_tick);
+void motion_plan_rewind(struct motion_plan *plan);
 
 /*@ requires \valid(plan) && \valid_read(order) && \separated(plan, order) && is_order(order);
     assigns *plan;
     ensures is_ready(plan) && is_rewound(plan) && is_plan(plan);
     ensures can_leave_all(plan);
-    ensures can_leave(&plan->order, plan->first, plan->origin.speed2 - way_gain(plan, plan->first));
-    ensures is_order(&plan->order) && !plan->stopping && !plan->changed && plan->first == 0;
+    ensures can_leave(&plan->order, plan->first, plan->origin.speed2 - span_gain(plan, plan->first));
+    ensures is_order(&plan->order) && plan->kind == MOTION_PLAN_ORDERED && plan->first == 0;
     ensures plan->origin.time.ticks == start_tick && plan->origin.time.fraction == 0 && plan->origin.step == 0;
     ensures plan->begin_speed2 == plan->origin.speed2 && speed2_in_range(plan->begin_speed2);
 */
@@ -81,11 +64,11 @@ void motion_plan_begin(struct motion_plan *plan, const struct motion_order *orde
 /*@ requires \valid(plan) && \valid_read(at) && \separated(plan, at) && has_order(plan);
     requires lies_on(&plan->order, at->step, at->speed2);
     assigns *plan;
-    ensures \result <==> !\old(plan->stopping) && \old(at->step < begin_of(&plan->order, plan->order.sections));
+    ensures \result <==> \old(at->step < begin_of(&plan->order, plan->order.sections));
     ensures !\result ==> *plan == \old(*plan);
     ensures \result ==> is_ready(plan);
     ensures \result ==> is_rewound(plan);
-    ensures \result ==> plan->stopping && plan->order.sections <= \old(plan->order.sections);
+    ensures \result ==> plan->kind == MOTION_PLAN_STOP && plan->order.sections <= \old(plan->order.sections);
     ensures \result ==> plan->origin.step == \old(at->step) && plan->origin.speed2 == \old(at->speed2);
     ensures plan->begin_speed2 == \old(plan->begin_speed2);
 */
@@ -94,12 +77,12 @@ bool motion_plan_stop(struct motion_plan *plan, const struct motion_point *at);
 /*@ requires \valid(plan) && \valid_read(at) && \separated(plan, at) && has_order(plan);
     requires lies_on(&plan->order, at->step, at->speed2) && speed_in_range(speed_steps_per_s);
     assigns *plan;
-    ensures \result <==> !\old(plan->stopping) && \old(at->step < begin_of(&plan->order, plan->order.sections));
+    ensures \result <==> \old(at->step < begin_of(&plan->order, plan->order.sections));
     ensures !\result ==> *plan == \old(*plan);
     ensures \result ==> is_ready(plan) && is_rewound(plan) && is_plan(plan);
     ensures \result ==> can_leave_all(plan);
-    ensures \result ==> can_leave(&plan->order, plan->first, plan->origin.speed2 - way_gain(plan, plan->first));
-    ensures \result ==> !plan->stopping && plan->changed && plan->order.sections == \old(plan->order.sections);
+    ensures \result ==> can_leave(&plan->order, plan->first, plan->origin.speed2 - span_gain(plan, plan->first));
+    ensures \result ==> plan->kind == MOTION_PLAN_CHANGED && plan->order.sections == \old(plan->order.sections);
     ensures \result ==> plan->origin.step == \old(at->step) && plan->origin.speed2 == \old(at->speed2);
     ensures plan->begin_speed2 == \old(plan->begin_speed2);
 */

@@ -1,5 +1,5 @@
 /*
- * The ring of segments between main and the step interrupt (firmware/step/step_channel.c), for Spin.
+ * The ring of segments between main and the step interrupt (firmware/engine/step/step_channel.c), for Spin.
  *
  * Main fills the ring, cuts it and starts the motor where it has come to rest; the step interrupt empties it. The tick
  * interrupt may brake once, between any two steps of main: it drops what is queued and closes the ring, until main has
@@ -46,7 +46,7 @@ byte intended[PUSHES + 1];
 byte begun = 0;  /* segments taken in all: the place in `intended` of the next */
 byte pushed = 0; /* the place in `intended` of the next that is put in */
 
-/* step_channel_next_segment_isr: in the interrupt, or in main while no pulse is armed. */
+/* step_channel_next_segment: in the interrupt, or in main while no pulse is armed. */
 inline take(seen)
 {
     armed = false;
@@ -170,7 +170,7 @@ inline push()
     refused = false
 }
 
-/* plan_stop of the mover. A motor that was at rest when the stop came brakes now, or stays where it is. */
+/* plan_stop of the axis. A motor that was at rest when the stop came brakes now, or stays where it is. */
 inline plan_stop(seen)
 {
     stopping = false;
@@ -186,7 +186,7 @@ inline plan_stop(seen)
     :: else
     fi;
     if
-    :: braking -> /* step_channel_splice */
+    :: braking -> /* step_channel_replace_brake */
         hold();
 #ifndef PLANT_NOT_OPENED
         closed = false;
@@ -233,7 +233,7 @@ active proctype main()
     :: cuts > 0 && running ->
         cuts--;
         hold();
-        at = begun; /* step_channel_foresee: the armed pulse, or one of a later segment */
+        at = begun; /* step_channel_look_ahead: the armed pulse, or one of a later segment */
         held = false;
         do
         :: at < pushed -> at++

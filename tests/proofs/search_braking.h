@@ -1,5 +1,5 @@
 /*
- * The interval that is foretold where the motor brakes is a good guess for the search of the pulse. Whole numbers.
+ * The interval that is predicted where the motor brakes is a good guess for the search of the pulse. Whole numbers.
  */
 #ifndef SEARCH_BRAKING_H
 #define SEARCH_BRAKING_H
@@ -35,13 +35,13 @@
 #include "search_peaks.h"
 
 /* Braking: the interval before was not much longer than a step's time at the slope that is left, or no longer than the
- * next; w is the slope by which the next is foretold, half a unit of the high word lower. */
+ * next; w is the slope by which the next is predicted, half a unit of the high word lower. */
 /*@ predicate is_interval_before(integer i, integer s, integer b) =
         0 <= i <= 0x40000000 && 4 * (i * s) <= 5 * STEP_QUANTA && 4 * (b * i) <= s + 10 * b;
     predicate is_told(integer r, integer s, integer b, integer i, integer t, integer w) =
-        is_braking(r, s, b) && 0 <= i && is_slower(w, s, b, i) && is_foretold(t, r, s - b * i);
+        is_braking(r, s, b) && 0 <= i && is_slower(w, s, b, i) && is_predicted(t, r, s - b * i);
     lemma told_less: \forall integer r, s, b, i, t, w; is_told(r, s, b, i, t, w) ==> 0 <= b * i && 0 <= b * t;
-    lemma told_foretold: \forall integer r, s, b, i, t, w; is_told(r, s, b, i, t, w) ==>
+    lemma told_predicted: \forall integer r, s, b, i, t, w; is_told(r, s, b, i, t, w) ==>
         t * w <= STEP_QUANTA - r + (s - b * i) / 2 + 0x200000000;
     lemma told_way: \forall integer r, s, b, i, t, w; is_told(r, s, b, i, t, w) ==> t * w <= STEP_QUANTA + 2 * s;
     predicate is_before(integer i, integer r, integer s, integer b) =
@@ -50,7 +50,7 @@
         is_told(r, s, b, i, t, w) && is_before(i, r, s, b);
     lemma brakes_over_peak: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) &&
         is_no_longer(i, r, s, b) ==>
-            foretells_peak(r, s, b, i, i - 2, s - b * (i - 2), STEP_QUANTA - r, t, w);
+            predicts_peak(r, s, b, i, i - 2, s - b * (i - 2), STEP_QUANTA - r, t, w);
     lemma brakes_before_speed: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) &&
         is_interval_before(i, s, b) ==> 4 * w >= 3 * s - 10 * b - 0x200000000 && 2 * w >= s && w <= s;
     lemma brakes_speed: \forall integer r, s, b, i, t, w; brakes(r, s, b, i, t, w) ==> 2 * w >= s && w <= s;

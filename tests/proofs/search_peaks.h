@@ -1,6 +1,6 @@
 /*
  * The interval before a pulse of a braking ramp may have been one in which the motor still sped up. Then it was no
- * longer than the one to come, but for two ticks: what is foretold from it is not late. Whole numbers.
+ * longer than the one to come, but for two ticks: what is predicted from it is not late. Whole numbers.
  */
 #ifndef SEARCH_PEAKS_H
 #define SEARCH_PEAKS_H
@@ -77,28 +77,28 @@
     lemma peak_ahead: \forall integer u, r, s, b, i, j, v, g; is_over_peak(r, s, b, i, j, v, g) &&
         is_peak_slope(u, s, b, g) ==> v * u <= peak(s, v, b, g);
 */
-/* What is foretold: t ticks, at a slope w a little below that halfway. */
-/*@ predicate foretells_peak(integer r, integer s, integer b, integer i, integer j, integer v, integer g, integer t,
-        integer w) = is_over_peak(r, s, b, i, j, v, g) && w == slower(v, b) && is_foretold(t, r, s - b * i);
-    lemma peak_slower: \forall integer r, s, b, i, j, v, g, t, w; foretells_peak(r, s, b, i, j, v, g, t, w) ==>
+/* What is predicted: t ticks, at a slope w a little below that halfway. */
+/*@ predicate predicts_peak(integer r, integer s, integer b, integer i, integer j, integer v, integer g, integer t,
+        integer w) = is_over_peak(r, s, b, i, j, v, g) && w == slower(v, b) && is_predicted(t, r, s - b * i);
+    lemma peak_slower: \forall integer r, s, b, i, j, v, g, t, w; predicts_peak(r, s, b, i, j, v, g, t, w) ==>
         w == s - b * i - 0x80000000 && t * w <= g + (s - b * i) / 2 + 0x200000000;
-    lemma peak_foretold: \forall integer r, s, b, i, j, v, g, t, w; foretells_peak(r, s, b, i, j, v, g, t, w) ==>
+    lemma peak_predicted: \forall integer r, s, b, i, j, v, g, t, w; predicts_peak(r, s, b, i, j, v, g, t, w) ==>
         2 * (t * w) <= 2 * g + v + 0x400000000 && 1 <= w && w <= v && 0 <= t;
-    lemma peak_scaled: \forall integer r, s, b, i, j, v, g, t, w; foretells_peak(r, s, b, i, j, v, g, t, w) ==>
+    lemma peak_scaled: \forall integer r, s, b, i, j, v, g, t, w; predicts_peak(r, s, b, i, j, v, g, t, w) ==>
         is_less_scaled(2 * (t * w), 2 * g + v + 0x400000000, b);
-    lemma peak_left: \forall integer r, s, b, i, j, v, g, t, w; foretells_peak(r, s, b, i, j, v, g, t, w) ==>
+    lemma peak_left: \forall integer r, s, b, i, j, v, g, t, w; predicts_peak(r, s, b, i, j, v, g, t, w) ==>
         peak(s, v, b, g) - 2 * (s * b) - 0x80000000 * s - b * v - 0x400000000 * b <= (s - 2 * (b * t)) * w;
     lemma peak_accel_scaled: \forall integer r, s, b, i, j, v, g; is_over_peak(r, s, b, i, j, v, g) ==>
         is_less_scaled(s, 2 * v, b) && is_less_scaled(b, 1024000000, v) && 500 * b <= v;
-    lemma peak_enough: \forall integer u, r, s, b, i, j, v, g, t, w; foretells_peak(r, s, b, i, j, v, g, t, w) &&
+    lemma peak_enough: \forall integer u, r, s, b, i, j, v, g, t, w; predicts_peak(r, s, b, i, j, v, g, t, w) &&
         is_peak_slope(u, s, b, g) ==> v * (u - 9450000000) <= (s - 2 * (b * t)) * w;
     lemma peak_enough_scaled: \forall integer u, v; 21000000000 <= u && 0 <= v ==>
         is_less_scaled(11 * u, 20 * (u - 9450000000), v);
     lemma peak_slower_scaled: \forall integer u, r, s, b, i, j, v, g, t, w;
-        foretells_peak(r, s, b, i, j, v, g, t, w) && is_peak_slope(u, s, b, g) ==> is_less_scaled(w, v, 11 * u);
-    lemma peak_divided: \forall integer u, r, s, b, i, j, v, g, t, w; foretells_peak(r, s, b, i, j, v, g, t, w) &&
+        predicts_peak(r, s, b, i, j, v, g, t, w) && is_peak_slope(u, s, b, g) ==> is_less_scaled(w, v, 11 * u);
+    lemma peak_divided: \forall integer u, r, s, b, i, j, v, g, t, w; predicts_peak(r, s, b, i, j, v, g, t, w) &&
         is_peak_slope(u, s, b, g) ==> is_less_scaled(11 * u, 20 * (s - 2 * (b * t)), w);
-    lemma peak_slope: \forall integer u, r, s, b, i, j, v, g, t, w; foretells_peak(r, s, b, i, j, v, g, t, w) &&
+    lemma peak_slope: \forall integer u, r, s, b, i, j, v, g, t, w; predicts_peak(r, s, b, i, j, v, g, t, w) &&
         is_peak_slope(u, s, b, g) ==> 40 * (b * t) <= 20 * s - 11 * u;
 */
 /* How late it may be. */
@@ -110,11 +110,11 @@
         is_less_squared(21000000000, s - 2 * (b * j));
     lemma peak_end: \forall integer r, s, b, i, j, v, g; is_over_peak(r, s, b, i, j, v, g) ==>
         21000000000 <= s - 2 * (b * j);
-    lemma peak_speed: \forall integer r, s, b, i, j, v, g, t, w; foretells_peak(r, s, b, i, j, v, g, t, w) ==>
+    lemma peak_speed: \forall integer r, s, b, i, j, v, g, t, w; predicts_peak(r, s, b, i, j, v, g, t, w) ==>
         s <= 2 * w && 18000000000 <= w && w <= s;
-    lemma peak_soon_scaled: \forall integer r, s, b, i, j, v, g, t, w; foretells_peak(r, s, b, i, j, v, g, t, w) &&
+    lemma peak_soon_scaled: \forall integer r, s, b, i, j, v, g, t, w; predicts_peak(r, s, b, i, j, v, g, t, w) &&
         4 <= t ==> is_less_scaled(18000000000, w, t - 4);
-    lemma peak_soon: \forall integer r, s, b, i, j, v, g, t, w; foretells_peak(r, s, b, i, j, v, g, t, w) ==>
+    lemma peak_soon: \forall integer r, s, b, i, j, v, g, t, w; predicts_peak(r, s, b, i, j, v, g, t, w) ==>
         t <= 101000000;
     lemma peak_before_scaled: \forall integer r, s, b, i, j, v, g; is_over_peak(r, s, b, i, j, v, g) ==>
         is_less_scaled(b * j, v, j);

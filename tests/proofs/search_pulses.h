@@ -1,5 +1,5 @@
 /*
- * From one pulse of a ramp to the next: what is foretold there is a good guess, and behind a pulse that is near a whole
+ * From one pulse of a ramp to the next: what is predicted there is a good guess, and after a pulse that is near a whole
  * step the ramp goes on. Whole numbers that do not wrap.
  */
 #ifndef SEARCH_PULSES_H
@@ -69,18 +69,18 @@
         0x200000000 <= s + a * i < 0x2000000000000000;
     lemma ramp_down_about: \forall integer r, s, a, i, pulses; a <= 0 && 1 <= pulses &&
         is_on_ramp(r, s, a, i, pulses) ==> 0x200000000 <= s + a * i < 0x2000000000000000;
-    predicate foretells(integer r, integer s, integer a, integer i, integer pulses, integer t, integer r2,
-        integer s2) = is_on_ramp(r, s, a, i, pulses) && 1 <= pulses && is_foretold(t, r, s + a * i) &&
+    predicate predicts(integer r, integer s, integer a, integer i, integer pulses, integer t, integer r2,
+        integer s2) = is_on_ramp(r, s, a, i, pulses) && 1 <= pulses && is_predicted(t, r, s + a * i) &&
         is_moved(r - STEP_QUANTA, s, a, t, r2, s2);
-    lemma foretells_speeds: \forall integer r, s, a, i, pulses, t, r2, s2; 0 <= a &&
-        foretells(r, s, a, i, pulses, t, r2, s2) ==> guesses_speed(r, s, a, i, t, r2, s2);
-    lemma foretells_brakes: \forall integer r, s, a, i, pulses, t, r2, s2; a <= 0 &&
-        foretells(r, s, a, i, pulses, t, r2, s2) ==>
+    lemma predicts_speeds: \forall integer r, s, a, i, pulses, t, r2, s2; 0 <= a &&
+        predicts(r, s, a, i, pulses, t, r2, s2) ==> guesses_speed(r, s, a, i, t, r2, s2);
+    lemma predicts_brakes: \forall integer r, s, a, i, pulses, t, r2, s2; a <= 0 &&
+        predicts(r, s, a, i, pulses, t, r2, s2) ==>
             guesses_brake(r, s, -a, i, t, s - (-a) * i - 0x80000000, r2, s2);
-    lemma foretells_guess: \forall integer r, s, a, i, pulses, t, r2, s2;
-        foretells(r, s, a, i, pulses, t, r2, s2) ==> is_guess(r2, s2, a);
-    lemma foretells_slope: \forall integer r, s, a, i, pulses, t, r2, s2;
-        foretells(r, s, a, i, pulses, t, r2, s2) ==> s2 < 0x100000000000000;
+    lemma predicts_guess: \forall integer r, s, a, i, pulses, t, r2, s2;
+        predicts(r, s, a, i, pulses, t, r2, s2) ==> is_guess(r2, s2, a);
+    lemma predicts_slope: \forall integer r, s, a, i, pulses, t, r2, s2;
+        predicts(r, s, a, i, pulses, t, r2, s2) ==> s2 < 0x100000000000000;
 */
 /* The next pulse. */
 /*@ predicate goes_on(integer r, integer s, integer a, integer i, integer pulses, integer t, integer r2,

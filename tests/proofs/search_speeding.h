@@ -1,5 +1,5 @@
 /*
- * The interval that is foretold where the motor speeds up is a good guess for the search of the pulse. Whole numbers.
+ * The interval that is predicted where the motor speeds up is a good guess for the search of the pulse. Whole numbers.
  */
 #ifndef SEARCH_SPEEDING_H
 #define SEARCH_SPEEDING_H
@@ -13,9 +13,9 @@
 */
 #include "search_ramps.h"
 
-/* Speeding up: whatever the interval before was, what is foretold is not later than the slope says. */
+/* Speeding up: whatever the interval before was, what is predicted is not later than the slope says. */
 /*@ predicate speeds(integer r, integer s, integer a, integer i, integer t) =
-        is_speeding(r, s, a) && 0 <= i <= 0x40000000 && is_foretold(t, r, s + a * i);
+        is_speeding(r, s, a) && 0 <= i <= 0x40000000 && is_predicted(t, r, s + a * i);
     predicate guesses_speed(integer r, integer s, integer a, integer i, integer t, integer r2, integer s2) =
         speeds(r, s, a, i, t) && is_gone(r - STEP_QUANTA, s, a, t, r2, s2);
     lemma speeds_least: \forall integer r, s, a, i, t; speeds(r, s, a, i, t) ==> s <= s + a * i;

@@ -1,5 +1,5 @@
 /*
- * The profile of a section, or of its part of a stop, as motion_plan.c lays it: proved with motion_plan_section.acsl.
+ * The profile of a section, or of its part of a stop, as motion_legs.c fits it: proved with motion_legs_section.acsl.
  */
 #ifndef SECTIONS_H
 #define SECTIONS_H
@@ -31,14 +31,14 @@
 /*@ requires \valid_read(plan) && is_ready(plan) && plan->first <= section < plan->order.sections;
     assigns \nothing;
     ensures speeds: has_speeds(\result) && \result.end <= corner_step_max;
-    ensures ramps: has_ramps(\result) && \result.begin == way_begin(plan, section);
-    ensures profile: !plan->stopping ==>
-        is_profile_of(\result, way_begin(plan, section), begin_of(&plan->order, section + 1));
-    ensures stop: plan->stopping ==> is_stop_of(\result, way_begin(plan, section));
-    ensures border: plan->stopping && section + 1 < plan->order.sections ==>
+    ensures ramps: has_ramps(\result) && \result.begin == span_begin(plan, section);
+    ensures profile: plan->kind != MOTION_PLAN_STOP ==>
+        is_profile_of(\result, span_begin(plan, section), begin_of(&plan->order, section + 1));
+    ensures stop: plan->kind == MOTION_PLAN_STOP ==> is_stop_of(\result, span_begin(plan, section));
+    ensures border: plan->kind == MOTION_PLAN_STOP && section + 1 < plan->order.sections ==>
         is_step(\result.corner_a, begin_of(&plan->order, section + 1));
     ensures short_ramps: is_short_ramped_at(plan, section) ==> has_short_ramps(\result);
 */
-static struct motion_profile lay_section(const struct motion_plan *plan, unsigned section);
+struct motion_profile motion_legs_fit_section(const struct motion_plan *plan, unsigned section);
 
 #endif

@@ -49,43 +49,44 @@ PLANTED = [
         "HALF_BITS : WORD_BITS) - bits", "HALF_BITS : WORD_BITS) - bits + 1U",
     ),
     (
-        "motion_time", "motion_time_add", "firmware/motion/motion_time.c",
+        "motion_time", "motion_time_add", "firmware/engine/motion/motion_time.c",
         "time.ticks + ticks + (fraction", "time.ticks + ticks + 1U + (fraction",
     ),
     (
-        "motion_plan", "border_cap", "firmware/motion/motion_plan.c",
+        "motion_lookahead", "border_cap", "firmware/engine/motion/motion_lookahead.c",
         "section + 1U < order->sections", "section + 1U <= order->sections",
     ),
     (
-        "motion_plan_look", "look_forward", "firmware/motion/motion_plan.c",
-        "lower(plan->exit_speed2[i], enter + gain)", "plan->exit_speed2[i]",
+        "motion_lookahead_forward", "motion_lookahead_forward",
+        "firmware/engine/motion/motion_lookahead.c",
+        "motion_lower(plan->exit_speed2[i], enter + gain)", "plan->exit_speed2[i]",
     ),
     (
-        "link_receiver", "take_plain", "firmware/link/link_receiver.c",
+        "link_receiver", "take_plain", "firmware/rkm04/link/link_receiver.c",
         "if (place == (uint32_t)", "if (place > (uint32_t)",
     ),
     (
-        "program_memory", "program_memory_find_label", "firmware/program/program_memory.c",
+        "program_memory", "program_memory_find_label", "firmware/rkm04/program/program_memory.c",
         "if (next == 0 || ", "if (",
     ),
     (
-        "interpreter_stacks", "run_call", "firmware/interpreter/interpreter_commands.c",
+        "interpreter_stacks", "run_call", "firmware/rkm04/interpreter/interpreter_commands.c",
         "call_depth == INTERPRETER_CALLS_MAX", "call_depth > INTERPRETER_CALLS_MAX",
     ),
     (
-        "link_sender", "plain_byte", "firmware/link/link_sender.c",
+        "link_sender", "plain_byte", "firmware/rkm04/link/link_sender.c",
         "sender->message[place - PLACE_MESSAGE]", "sender->message[place - PLACE_NUMBER]",
     ),
     (
-        "step_channel", "cursor_begin_segment", "firmware/step/step_channel.c",
+        "step_channel", "cursor_begin_segment", "firmware/engine/step/step_channel.c",
         "cursor->left = segment->steps - 1U", "cursor->left = segment->steps",
     ),
     (
-        "step_generator", "search_shorten", "firmware/step/step_generator.c",
+        "step_generator", "search_shorten", "firmware/engine/step/step_generator.c",
         "search->interval -= ticks;", "search->interval -= ticks + 1U;",
     ),
     (
-        "step_generator", "step_generator_ramp", "firmware/step/step_generator.h",
+        "step_generator", "step_generator_ramp", "firmware/engine/step/step_generator.h",
         "uint64_t slope = middle + gain;", "uint64_t slope = middle;",
     ),
 ]  # fmt: skip

@@ -17,9 +17,9 @@
         keeps_plan{A, B}(plan) && keeps_profile{A, B}(plan) && keeps_place{A, B}(plan) &&
         0 <= \at(plan->first, A) && \at(plan->order.sections, A) <= MOTION_SECTIONS &&
         goes_on{A}(plan) ==> goes_on{B}(plan);
-    lemma leg_of: \forall struct motion_plan *plan; has_laid(plan) && is_placed(plan) && 0 <= plan->progress.leg ==>
+    lemma leg_of: \forall struct motion_plan *plan; has_fitted(plan) && is_placed(plan) && 0 <= plan->progress.leg ==>
         has_leg(&plan->progress);
-    lemma leg_order: \forall struct motion_leg *leg; is_leg_laid(*leg) ==> leg->from.step <= leg->to.step;
+    lemma leg_order: \forall struct motion_leg *leg; is_leg_made(*leg) ==> leg->from.step <= leg->to.step;
     lemma keeps_ready_plan{A, B}: \forall struct motion_plan *plan;
         keeps_plan{A, B}(plan) && 0 <= \at(plan->first, A) && is_ready{A}(plan) ==> is_ready{B}(plan);
     lemma rewound: \forall struct motion_plan *plan;

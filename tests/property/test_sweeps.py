@@ -24,7 +24,7 @@ PAIRS = 10_000 if os.environ.get("RKM04_LONG") else 150
 """So many pairs of pulses and actions of each kind of move are tried, of some 100 000."""
 
 GO_ON_MS = 400
-"""From the last action to the `C75` behind it: longer than any ramp here."""
+"""From the last action to the `C75` after it: longer than any ramp here."""
 
 MOVES = {
     "short": "S100 V900 A9000 F3 R",
@@ -46,7 +46,7 @@ INPUT_BEGIN = (Edge(0, 2, 1), Edge(0, 6, 1))
 
 SETUP = "\\ M1 N2 X3 "
 BEHIND = {move: " U T1 W7 S200 F4 R T2" if move != "jog" else "" for move in MOVES}
-"""The program around each move: guards and a total stop before it, more to do behind it."""
+"""The program around each move: guards and a total stop before it, more to do after it."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ SPEEDS = tuple(Action(f"V{v}", f"V{v}") for v in (1, 60, 100, 101, 300, 16_000))
 SIMULATION = (Action("T41", "T41", motor=2), Action("C41", "C41", motor=2))
 ACTIONS = (*STOPS, *SPEEDS, Action("C75", "C75"), Action("more", "T4 H C100 T6"), *SIMULATION)
 OFFSETS = (0, 1, 40 * MS // 1000)
-"""Ticks behind the pulse: with it, right behind it, while its interrupt has not ended."""
+"""Ticks after the pulse: with it, right after it, while its interrupt has not ended."""
 
 
 def script(move: str, actions: Iterable[tuple[int, Action]]) -> Script:

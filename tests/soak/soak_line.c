@@ -83,7 +83,7 @@ void soak_broadcast(struct soak_master *master, const uint8_t *message, uint32_t
 
 void soak_send(struct soak_master *master, unsigned motor, const char *text, unsigned flag_mask)
 {
-    uint8_t message[SOAK_TEXT_MAX + 2] = {PROTOCOL_SET_COMMAND, (uint8_t)('0' + motor)};
+    uint8_t message[SOAK_TEXT_MAX + 2] = {MESSAGES_SET_COMMAND, (uint8_t)('0' + motor)};
     size_t length = strlen(text);
     soak_require(master, length <= SOAK_TEXT_MAX, "the test's texts fit");
     memcpy(message + 2, text, length);
@@ -96,7 +96,7 @@ void soak_send(struct soak_master *master, unsigned motor, const char *text, uns
 
 void soak_ask_status(struct soak_master *master)
 {
-    const uint8_t message[1] = {PROTOCOL_GET_STATUS};
+    const uint8_t message[1] = {MESSAGES_GET_STATUS};
     soak_request(master, message, sizeof message);
     soak_require(master, master->content_length == 2 + STATUS_BYTES, "the status has its length");
 }

@@ -81,12 +81,12 @@ static void do_look(struct soak_master *master)
     memcpy(states, master->content + 2 + STATUS_STATES, sizeof states);
     for (unsigned motor = 1; motor <= UNIT_MOTORS; motor++) {
         uint8_t state = states[motor - 1U];
-        bool over = (state & (PROTOCOL_STATUS_FAILED | PROTOCOL_STATUS_ENDED)) != 0;
-        if ((state & PROTOCOL_STATUS_STOPPED) != 0) {
+        bool over = (state & (INTERPRETER_STATUS_FAILED | INTERPRETER_STATUS_ENDED)) != 0;
+        if ((state & INTERPRETER_STATUS_STOPPED) != 0) {
             soak_send(master, motor, "C75", FLAG_GOOD);
         } else if (motor == MOTOR_STREAMED && over) {
             soak_send(master, motor, "\\S100V2000A4000", FLAG_GOOD);
-        } else if (motor != MOTOR_STREAMED && (over || (state & PROTOCOL_STATUS_RUNNING) == 0)) {
+        } else if (motor != MOTOR_STREAMED && (over || (state & INTERPRETER_STATUS_RUNNING) == 0)) {
             send_program(master, motor, chance_below(&master->chance, SETS));
         }
     }
@@ -94,8 +94,8 @@ static void do_look(struct soak_master *master)
 
 static void do_question(struct soak_master *master)
 {
-    static const uint8_t numbers[] = {PROTOCOL_VERSION, PROTOCOL_GET_POSITION, PROTOCOL_GET_TABLE,
-                                      PROTOCOL_GET_PROGRESS, PROTOCOL_GET_STATUS};
+    static const uint8_t numbers[] = {MESSAGES_VERSION, MESSAGES_GET_POSITION, MESSAGES_GET_TABLE,
+                                      MESSAGES_GET_PROGRESS, MESSAGES_GET_STATUS};
     uint8_t motor = (uint8_t)('1' + chance_below(&master->chance, UNIT_MOTORS));
     const uint8_t message[2] = {numbers[chance_below(&master->chance, sizeof numbers)], motor};
     soak_request(master, message, sizeof message);
@@ -103,13 +103,13 @@ static void do_question(struct soak_master *master)
 
 static void do_listing(struct soak_master *master)
 {
-    const uint8_t message[2] = {PROTOCOL_GET_COMMAND, (uint8_t)('1' + chance_below(&master->chance, UNIT_MOTORS))};
+    const uint8_t message[2] = {MESSAGES_GET_COMMAND, (uint8_t)('1' + chance_below(&master->chance, UNIT_MOTORS))};
     soak_request(master, message, sizeof message);
 }
 
 static void do_store(struct soak_master *master)
 {
-    const uint8_t message[2] = {PROTOCOL_STORE_FLASH, (uint8_t)('1' + chance_below(&master->chance, PROGRAMMED))};
+    const uint8_t message[2] = {MESSAGES_STORE_FLASH, (uint8_t)('1' + chance_below(&master->chance, PROGRAMMED))};
     soak_request(master, message, sizeof message);
     soak_require(master, master->content_length == 5 && master->content[4] == STORE_OK, "Store Flash stores");
 }
@@ -153,7 +153,7 @@ static void do_broadcast(struct soak_master *master)
 static void do_foreign(struct soak_master *master)
 {
     uint8_t frame[SOAK_FRAME_MAX];
-    const uint8_t message[] = {PROTOCOL_SET_COMMAND, '0', 'K'};
+    const uint8_t message[] = {MESSAGES_SET_COMMAND, '0', 'K'};
     uint8_t address = (uint8_t)(2 + chance_below(&master->chance, 15) + (coin(master, 2) ? 0x80U : 0U));
     soak_hear(master, frame, frame_write(frame, address, 7, message, sizeof message), 0);
     master->tally.foreign++;
@@ -180,7 +180,7 @@ static void turn_bit(struct soak_master *master, uint8_t *frame, uint32_t length
 
 static void do_damaged(struct soak_master *master)
 {
-    static const uint8_t message[] = {PROTOCOL_SET_COMMAND, '0', '\\', 'F', '5', 'R'};
+    static const uint8_t message[] = {MESSAGES_SET_COMMAND, '0', '\\', 'F', '5', 'R'};
     uint8_t right[SOAK_FRAME_MAX];
     uint8_t frame[SOAK_FRAME_MAX];
     uint32_t length = frame_write(right, SOAK_NODE, (uint8_t)chance_next(&master->chance), message, sizeof message);
@@ -229,7 +229,7 @@ static const struct {
 
 static void do_version(struct soak_master *master)
 {
-    const uint8_t message[] = {PROTOCOL_VERSION};
+    const uint8_t message[] = {MESSAGES_VERSION};
     soak_request(master, message, sizeof message);
 }
 
@@ -289,10 +289,10 @@ static void compare_positions(struct soak_master *master)
 void soak_master_end(struct soak_master *master)
 {
     soak_send(master, 0, "\\", FLAG_GOOD);
-    for (unsigned i = 0; i < STAND_MS_MAX && !unit_is_idle(&master->soak->unit); i++) {
+    for (unsigned i = 0; i < STAND_MS_MAX && !rkm04_is_idle(&master->soak->unit); i++) {
         soak_unit_run(master->soak, TICKS_PER_MS);
     }
-    soak_require(master, unit_is_idle(&master->soak->unit), "all motors stand behind a reset");
+    soak_require(master, rkm04_is_idle(&master->soak->unit), "all motors stand after a reset");
     soak_ask_status(master);
     compare_counters(master);
     compare_positions(master);

@@ -4,7 +4,7 @@
 
 enum {
     CANARY = 0xA5,
-    LATE_TICKS = 5 * TICKS_PER_US, /* the tick interrupt behind an edge, as on a board */
+    LATE_TICKS = 5 * TICKS_PER_US, /* the tick interrupt after an edge, as on a board */
 };
 
 #define FNV_START UINT64_C(0xCBF29CE484222325)
@@ -56,18 +56,18 @@ static uint64_t main_pass(void *context)
 /* The pointers and numbers that a unit gets at its start and keeps. */
 static uint64_t digest_constants(const struct soak_unit *soak)
 {
-    const struct unit *unit = &soak->unit;
-    uint64_t digest = digest_bytes(FNV_START, &unit->protocol, sizeof unit->protocol);
-    digest = digest_bytes(digest, &unit->link.answer, sizeof unit->link.answer);
-    digest = digest_bytes(digest, &unit->link.receiver.message, sizeof unit->link.receiver.message);
-    digest = digest_bytes(digest, &unit->link.receiver.node, sizeof unit->link.receiver.node);
+    const struct rkm04 *unit = &soak->unit;
+    uint64_t digest = digest_bytes(FNV_START, &unit->messages, sizeof unit->messages);
+    digest = digest_bytes(digest, &unit->line.link.answer, sizeof unit->line.link.answer);
+    digest = digest_bytes(digest, &unit->line.link.receiver.message, sizeof unit->line.link.receiver.message);
+    digest = digest_bytes(digest, &unit->line.link.receiver.node, sizeof unit->line.link.receiver.node);
     for (unsigned i = 0; i < UNIT_MOTORS; i++) {
         const struct interpreter *interpreter = &unit->interpreter[i];
-        digest = digest_bytes(digest, &interpreter->mover, sizeof interpreter->mover);
-        digest = digest_bytes(digest, &interpreter->io, sizeof interpreter->io);
+        digest = digest_bytes(digest, &interpreter->axis, sizeof interpreter->axis);
+        digest = digest_bytes(digest, &interpreter->shared, sizeof interpreter->shared);
         digest = digest_bytes(digest, &interpreter->motor, sizeof interpreter->motor);
-        digest = digest_bytes(digest, &unit->mover[i].motor, sizeof unit->mover[i].motor);
-        digest = digest_bytes(digest, &unit->mover[i].channel.motor, sizeof unit->mover[i].channel.motor);
+        digest = digest_bytes(digest, &unit->axis[i].motor, sizeof unit->axis[i].motor);
+        digest = digest_bytes(digest, &unit->axis[i].channel.motor, sizeof unit->axis[i].channel.motor);
     }
     return digest;
 }
@@ -84,8 +84,8 @@ void soak_unit_begin(struct soak_unit *soak, uint64_t epoch)
     soak->machine.listener.step = on_step;
     soak->machine.listener.trace = on_trace;
     soak->machine.listener.line = on_line;
-    unit_init(&soak->unit);
-    unit_start(&soak->unit);
+    rkm04_init(&soak->unit);
+    rkm04_start(&soak->unit);
     soak->constants = digest_constants(soak);
 }
 

@@ -10,17 +10,17 @@
 
 #include "host_machine.h"
 #include "judge_unit.h"
-#include "unit.h"
+#include "rkm04.h"
 
 enum {
     SOAK_CANARY_BYTES = 256,
-    SOAK_SENT_MAX = 2 * PROTOCOL_ANSWER_BYTES_MAX + 64,
+    SOAK_SENT_MAX = 2 * MESSAGES_ANSWER_BYTES_MAX + 64,
 };
 
 struct soak_unit {
     struct judged_unit judged;
     uint8_t before[SOAK_CANARY_BYTES];
-    struct unit unit;
+    struct rkm04 unit;
     uint8_t after[SOAK_CANARY_BYTES];
     struct host_machine machine;
     struct judge judge;

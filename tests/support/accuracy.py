@@ -3,7 +3,7 @@
 Every move of `accuracy_moves.py` runs through planner and step generator (`motion_probe.c`) and is
 compared with the exact reference (`reference.py`); each starts at a moment of its own, drawn with
 a seed, so that nothing depends on where the timer stands. Of moves of up to 2000 pulses every pulse
-is compared, behind a change from the pulse before it on; of longer ones the first and the last 200,
+is compared, after a change from the pulse before it on; of longer ones the first and the last 200,
 30 on both sides of every corner, and 500 spread evenly. M1 to M4 are compared whole.
 
     python tests/support/accuracy.py [--json] [--seed N]

@@ -134,7 +134,7 @@ def several_changes(rng: random.Random) -> Moves:
 
 
 def endless_runs(_: random.Random) -> Moves:
-    """Runs without end that are stopped, on the ramp and behind it."""
+    """Runs without end that are stopped, on the ramp and after it."""
     for start, speed, accel in product((1, 2000), (1, 16_000), (1, 60_000)):
         run = Section(ENDLESS, speed, accel)
         for pulse in (1, 2, 1000, 1_000_000):

@@ -1,9 +1,9 @@
 """Instructions a pulse of the step path, counted on the code that the ARM compiler makes.
 
-Compiles firmware/step and firmware/motion for Cortex-M4, runs them in the Unicorn CPU emulator and
-counts every executed instruction of `step_generator_next` (the next tick of one pulse) and of
-`step_channel_pulse_isr` (the whole work of one step interrupt but the timer's registers). These are
-counts, not cycles: exact, and the same on every machine.
+Compiles the stages step and motion of firmware/engine for Cortex-M4, runs them in the Unicorn CPU
+emulator and counts every executed instruction of `step_generator_next` (the next tick of one pulse)
+and of `step_channel_pulse_isr` (the whole work of one step interrupt but the timer's registers).
+These are counts, not cycles: exact, and the same on every machine.
 
     python tests/support/arm_count.py [--json]
 """
@@ -58,9 +58,8 @@ class Missing(Exception):
 
 def build(folder: Path) -> Path:
     """Links the step path without libraries of ours, code at CODE and data at RAM."""
-    stages = [ROOT / "firmware" / name for name in ("base", "step", "motion")]
-    sources = [*stages[0].glob("base_[tw]i*.c"), *stages[1].glob("*.c")]
-    sources += [path for path in stages[2].glob("*.c") if path.name != "mover.c"]
+    stages = [ROOT / "firmware" / name for name in ("base", "engine/step", "engine/motion")]
+    sources = [*stages[0].glob("base_[tw]i*.c"), *stages[1].glob("*.c"), *stages[2].glob("*.c")]
     includes = [f"-I{path}" for path in [*stages, ROOT / "hal" / "include"]]
     target = folder / "arm_bench.elf"
     link = ["-nostartfiles", f"-Wl,-Ttext={CODE:#x},-Tdata={RAM:#x},-e,bench_begin"]

@@ -10,7 +10,7 @@ from elftools.elf.elffile import ELFFile
 
 
 def bare(die: DIE) -> DIE:
-    """A structure behind its other names."""
+    """A structure after its other names."""
     while die.tag in ("DW_TAG_typedef", "DW_TAG_const_type", "DW_TAG_volatile_type"):
         die = die.get_DIE_from_attribute("DW_AT_type")
     return die

@@ -1,7 +1,7 @@
 """Units on a line of their own, with faults on order: the other end for tests of the client.
 
 Framing is that of `frames`, the second implementation, not the client's. A unit answers by the
-rules of firmware/docs/line.md, in memory only: it moves nothing.
+rules of firmware/rkm04/docs/line.md, in memory only: it moves nothing.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def cut_off(answer: bytes) -> bytes:
 
 
 def noisy(answer: bytes) -> bytes:
-    """Noise stands before and behind it."""
+    """Noise stands before and after it."""
     return b"\x00\x55\x7e\xff\x7d\x7d" + answer + b"\x80\x01"
 
 
@@ -54,7 +54,7 @@ def mixed(answer: bytes) -> bytes:
 
 
 def twice(answer: bytes) -> bytes:
-    """Two units answer one behind the other."""
+    """Two units answer one after the other."""
     return answer + answer
 
 

@@ -3,8 +3,8 @@
     frames.py           writes frames.json and the C table made of it
     frames.py --check   says whether both are what this file makes
 
-It is the second implementation of the envelope, written from firmware/docs/line.md: the one in C
-has to agree with it.
+It is the second implementation of the envelope, written from firmware/rkm04/docs/line.md: the one
+in C has to agree with it.
 """
 
 from __future__ import annotations
@@ -122,7 +122,7 @@ def good_frames() -> list[tuple[str, int, int, bytes]]:
         ("the last number", NODE, 255, b"\x040"),
         ("broadcast", 0, 9, b"\x020]"),
         ("another unit", 16, 3, b"\x041"),
-        ("an answer of this unit", 0x80 | NODE, 1, b"\x01\x1001.00,21.11.2026"),
+        ("an answer of this unit", 0x80 | NODE, 1, b"\x01\x1001.01,22.11.2026"),
         ("an answer of another unit", 0x90, 3, b"\x041\x0a         0"),
         ("a refusal", 0xC0 | NODE, 2, b"\x01"),
         ("a node that there is not", 17, 3, b"\x01"),
@@ -174,9 +174,9 @@ def dropped_frames() -> list[tuple[str, bytes, str]]:
 
 def vectors() -> dict[str, object]:
     return {
-        "about": "Frames of the line (firmware/docs/line.md), bytes in hex; written by frames.py. "
-        "'frames' are whole; those for 'node' and for all nodes are requests to it, the others it "
-        "ignores. From 'dropped' it takes nothing and counts what is named.",
+        "about": "Frames of the line (firmware/rkm04/docs/line.md), bytes in hex; written by "
+        "frames.py. 'frames' are whole; those for 'node' and for all nodes are requests to it, the "
+        "others it ignores. From 'dropped' it takes nothing and counts what is named.",
         "node": NODE,
         "fcs": [{"bytes": data.hex(), "fcs": f"{fcs16(data):04x}"} for data in CHECKED],
         "frames": [

@@ -19,7 +19,7 @@ class Memory:
 
     @property
     def end(self) -> int:
-        """The ordinal behind the youngest command."""
+        """The ordinal after the youngest command."""
         return self._written + 1
 
     @property
@@ -50,7 +50,7 @@ class Memory:
         return self._commands[ordinal - self.oldest]
 
     def is_released(self, ordinal: int) -> bool:
-        """Whether a `]` has been stored behind an ordinal."""
+        """Whether a `]` has been stored after an ordinal."""
         return self._released > ordinal
 
     def find_label(self, number: int) -> int | None:

@@ -452,7 +452,7 @@ class Motor:
         self._finish(made, seen)
 
     def _finish(self, made: int, seen: int) -> None:
-        """Go on behind a move as what has stopped it wants."""
+        """Go on after a move as what has stopped it wants."""
         cause, self._cause = self._cause, ""
         if cause == "X":
             self._watch.allow("end", 0, self._clock, self._now.high)

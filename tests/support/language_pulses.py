@@ -66,7 +66,7 @@ class Follower:
         self.made = made
 
     def change(self, tick: int, new: Callable[[Curve, int], Curve]) -> None:
-        """Something comes at a tick, behind a pulse of that tick: `new` makes curves of it."""
+        """Something comes at a tick, after a pulse of that tick: `new` makes curves of it."""
         self.follow(tick)
         curves: dict[Curve, None] = {}
         for curve in self._curves:

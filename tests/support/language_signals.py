@@ -44,7 +44,7 @@ class Moment:
     high: int
 
     def pin(self, tick: int) -> None:
-        """Something was seen to happen at a tick, and what follows comes soon behind it."""
+        """Something was seen to happen at a tick, and what follows comes soon after it."""
         self.low = max(self.low, tick)
         self.high = max(self.low, min(self.high, tick + SEEN_TICKS))
 
@@ -107,7 +107,7 @@ class Variables:
     def level(self, number: int, place: int, next_own: int | None, moment: Moment) -> int:
         """The level of a variable for a motor whose last write had a place, at a moment.
 
-        `next_own` is the place of its next write, which lies behind the moment.
+        `next_own` is the place of its next write, which lies after the moment.
         """
         level, sure = 0, True
         for i, write in enumerate(self._writes[:next_own]):

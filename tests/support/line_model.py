@@ -78,7 +78,7 @@ FAIL = (
     Variant("planted: a push into a closed ring", ("PLANT_CLOSED_NOT_SEEN",), model=RING),
     Variant("planted: a push without hold", ("PLANT_PUSH_WITHOUT_HOLD",), model=RING),
     Variant("planted: closed seen before the hold", ("PLANT_CLOSED_SEEN_BEFORE_HOLD",), model=RING),
-    Variant("planted: a cut behind a brake", ("PLANT_CUT_BEHIND_BRAKE",), model=RING),
+    Variant("planted: a cut after a brake", ("PLANT_CUT_BEHIND_BRAKE",), model=RING),
     Variant("planted: a splice that does not open", ("PLANT_NOT_OPENED",), model=RING),
 )
 

@@ -13,10 +13,10 @@
 
 #include "host_machine.h"
 #include "judge_unit.h"
-#include "unit.h"
+#include "rkm04.h"
 
 enum {
-    LINE_BYTES_MAX = 2 * PROTOCOL_REQUEST_BYTES_MAX + 2,
+    LINE_BYTES_MAX = 2 * MESSAGES_REQUEST_BYTES_MAX + 2,
     RUN_MS_MAX = 3600000
 };
 
@@ -29,7 +29,7 @@ static _Noreturn void complain(const char *what)
 struct probe {
     struct judged_unit judged;
     struct host_machine machine;
-    struct unit unit;
+    struct rkm04 unit;
     struct judge judge;
 };
 
@@ -44,7 +44,7 @@ static void run(struct probe *probe, const char *number)
     host_machine_run(machine, machine->now + (uint64_t)ms * TICKS_PER_MS, judge_unit_pass, NULL, probe);
 }
 
-static uint32_t read_bytes(const char *line, uint8_t bytes[PROTOCOL_REQUEST_BYTES_MAX])
+static uint32_t read_bytes(const char *line, uint8_t bytes[MESSAGES_REQUEST_BYTES_MAX])
 {
     uint32_t length = 0;
     for (; line[2U * length] != '\0'; length++) {
@@ -60,9 +60,9 @@ static uint32_t read_bytes(const char *line, uint8_t bytes[PROTOCOL_REQUEST_BYTE
 
 static void ask(struct probe *probe, const char *line)
 {
-    static uint8_t request[PROTOCOL_REQUEST_BYTES_MAX];
-    static uint8_t answer[PROTOCOL_ANSWER_BYTES_MAX];
-    uint32_t length = unit_message(&probe->unit, request, read_bytes(line, request), answer);
+    static uint8_t request[MESSAGES_REQUEST_BYTES_MAX];
+    static uint8_t answer[MESSAGES_ANSWER_BYTES_MAX];
+    uint32_t length = rkm04_message(&probe->unit, request, read_bytes(line, request), answer);
     for (uint32_t i = 0; i < length; i++) {
         (void)printf("%02x", answer[i]);
     }
@@ -73,9 +73,9 @@ static void begin(struct probe *probe, const char *version, uint64_t epoch)
 {
     probe->judged = (struct judged_unit){.unit = &probe->unit, .judge = &probe->judge, .machine = &probe->machine};
     judge_unit_begin(&probe->judged, epoch);
-    unit_init(&probe->unit);
-    probe->unit.protocol.version = version;
-    unit_start(&probe->unit);
+    rkm04_init(&probe->unit);
+    probe->unit.messages.version = version;
+    rkm04_start(&probe->unit);
 }
 
 int main(int argc, char **argv)
@@ -83,7 +83,7 @@ int main(int argc, char **argv)
     static struct probe probe;
     static char line[LINE_BYTES_MAX];
 
-    begin(&probe, argc > 1 ? argv[1] : UNIT_VERSION, argc > 2 ? strtoull(argv[2], NULL, 10) : 0);
+    begin(&probe, argc > 1 ? argv[1] : RKM04_VERSION, argc > 2 ? strtoull(argv[2], NULL, 10) : 0);
     while (fgets(line, (int)sizeof line, stdin) != NULL) {
         line[strcspn(line, "\n")] = '\0';
         if (line[0] == '+') {

@@ -18,7 +18,7 @@
 
 #include "hal_run.h"
 #include "host_machine.h"
-#include "mover.h"
+#include "axis.h"
 
 enum {
     CHANGES_MAX = 64,
@@ -32,7 +32,7 @@ struct change {
 
 struct probe {
     struct host_machine machine;
-    struct mover mover;
+    struct axis axis;
     struct motion_order order;
     uint64_t epoch;
     struct change changes[CHANGES_MAX];
@@ -61,11 +61,10 @@ static void read_order(struct motion_order *order)
     order->sections = (uint8_t)read_number(MOTION_SECTIONS);
     for (unsigned i = 0; i < order->sections; i++) {
         uint64_t steps = read_number(MOTION_SECTION_STEPS_MAX);
-        order->section[i] = (struct motion_section){
-            .steps = steps != 0 ? steps : MOTION_ENDLESS_STEPS,
-            .speed_steps_per_s = (uint32_t)read_number(UINT32_MAX),
-            .accel_steps_per_s2 = (uint32_t)read_number(UINT32_MAX),
-        };
+        uint32_t speed = (uint32_t)read_number(UINT32_MAX);
+        uint32_t accel = (uint32_t)read_number(UINT32_MAX);
+        order->section[i] =
+            steps != 0 ? (struct motion_section){steps, speed, accel} : motion_order_endless(speed, accel);
     }
 }
 
@@ -93,7 +92,7 @@ static bool read_case(struct probe *probe)
 static bool change_is_due(const struct probe *probe)
 {
     return probe->changes_made < probe->change_count &&
-           probe->changes[probe->changes_made].pulse == mover_steps_made(&probe->mover) + 1U;
+           probe->changes[probe->changes_made].pulse == axis_steps_made(&probe->axis) + 1U;
 }
 
 static void step_seen(void *context, uint64_t tick, unsigned motor, bool backward)
@@ -114,7 +113,7 @@ static bool step_isr(void *context, unsigned motor)
 {
     struct probe *probe = context;
     (void)motor;
-    bool attention = mover_pulse_isr(&probe->mover);
+    bool attention = axis_pulse_isr(&probe->axis);
     return change_is_due(probe) || attention;
 }
 
@@ -135,14 +134,14 @@ static uint64_t main_pass(void *context)
     while (change_is_due(probe)) {
         const struct change *change = &probe->changes[probe->changes_made++];
         if (change->speed_steps_per_s != 0) {
-            mover_change_speed(&probe->mover, change->speed_steps_per_s);
+            axis_change_speed(&probe->axis, change->speed_steps_per_s);
         } else {
-            mover_stop(&probe->mover, HAL_TRACE_STOP_COMMAND);
+            axis_stop(&probe->axis, AXIS_CAUSE_PAUSE);
         }
-        probe->corner_count = mover_corners(&probe->mover, probe->corners);
+        probe->corner_count = axis_corners(&probe->axis, probe->corners);
     }
-    mover_poll(&probe->mover);
-    while (mover_feed(&probe->mover)) {
+    axis_poll(&probe->axis);
+    while (axis_feed(&probe->axis)) {
     }
     return UINT64_MAX;
 }
@@ -150,12 +149,12 @@ static uint64_t main_pass(void *context)
 static bool has_ended(void *context)
 {
     const struct probe *probe = context;
-    return !mover_is_moving(&probe->mover);
+    return !axis_is_moving(&probe->axis);
 }
 
 static void run_case(struct probe *probe)
 {
-    static const struct mover_guards none = {0};
+    static const struct axis_guards none = {0};
     const struct hal_client client = {
         .context = probe, .step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&probe->machine, probe->epoch);
@@ -164,15 +163,15 @@ static void run_case(struct probe *probe)
     hal_run_start(&client);
     probe->changes_made = 0;
     probe->wanted_told = 0;
-    mover_init(&probe->mover, 0);
-    mover_start(&probe->mover, &probe->order, false, probe->epoch, &none);
-    probe->corner_count = mover_corners(&probe->mover, probe->corners);
+    axis_init(&probe->axis, 0);
+    axis_begin(&probe->axis, &probe->order, false, probe->epoch, &none);
+    probe->corner_count = axis_corners(&probe->axis, probe->corners);
     host_machine_run(&probe->machine, UINT64_MAX, main_pass, has_ended, probe);
 }
 
 static void tell_rest(const struct probe *probe)
 {
-    (void)printf("| %" PRIu64 " | %" PRIu64 " |", mover_steps_made(&probe->mover), probe->machine.late_steps);
+    (void)printf("| %" PRIu64 " | %" PRIu64 " |", axis_steps_made(&probe->axis), probe->machine.late_steps);
     for (unsigned i = 0; i < probe->corner_count; i++) {
         (void)printf(" %" PRIu64 ":%" PRIu32, probe->corners[i].step, probe->corners[i].speed_steps_per_s);
     }

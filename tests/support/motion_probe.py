@@ -37,7 +37,7 @@ class Move:
 
     @cached_property
     def curve(self) -> Curve:
-        """The ideal curve; changes at its last pulse and behind it change nothing."""
+        """The ideal curve; changes at its last pulse and after it change nothing."""
         curve = plan(self.sections, self.start_speed)
         for pulse, speed in self.changes:
             curve = changed(curve, pulse, speed)

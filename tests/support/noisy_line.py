@@ -19,7 +19,7 @@ class NoisyLine:
     """Passes bytes on in both directions; each piece comes to harm with a probability.
 
     `restarted_as`: another unit takes the first one's place when that has begun its next answer,
-    which is lost, as if the unit had started anew behind what it has executed.
+    which is lost, as if the unit had started anew after what it has executed.
     """
 
     def __init__(self, host_and_port: str, seed: int, probability: float, echo: bool) -> None:

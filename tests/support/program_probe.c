@@ -23,19 +23,19 @@
 
 #include "host_machine.h"
 #include "judge_unit.h"
-#include "mover.h"
-#include "unit.h"
+#include "axis.h"
+#include "rkm04.h"
 
 enum {
     PULSES_MAX = 400000,
     INPUTS_MAX = 1000,
-    LINE_BYTES_MAX = 2 * PROTOCOL_REQUEST_BYTES_MAX + 64
+    LINE_BYTES_MAX = 2 * MESSAGES_REQUEST_BYTES_MAX + 64
 };
 
 struct probe {
     struct judged_unit judged;
     struct host_machine machine;
-    struct unit unit;
+    struct rkm04 unit;
     struct judge judge;
     struct train {
         int64_t pulse[PULSES_MAX];
@@ -106,8 +106,8 @@ static void run_until(struct probe *probe, uint64_t tick)
 {
     if (!probe->running) {
         host_machine_set_script(&probe->machine, probe->input, probe->input_count);
-        unit_init(&probe->unit);
-        unit_start(&probe->unit);
+        rkm04_init(&probe->unit);
+        rkm04_start(&probe->unit);
         probe->running = true;
     }
     if (tick > probe->machine.now) {
@@ -130,8 +130,8 @@ static void add_input(struct probe *probe, const char *text)
 
 static void send_request(struct probe *probe, const char *text)
 {
-    static uint8_t request[PROTOCOL_REQUEST_BYTES_MAX];
-    static uint8_t answer[PROTOCOL_ANSWER_BYTES_MAX];
+    static uint8_t request[MESSAGES_REQUEST_BYTES_MAX];
+    static uint8_t answer[MESSAGES_ANSWER_BYTES_MAX];
     char *end;
     uint64_t tick = strtoull(text, &end, 10);
     uint32_t length = 0;
@@ -140,7 +140,7 @@ static void send_request(struct probe *probe, const char *text)
         request[length++] = (uint8_t)byte;
     }
     run_until(probe, tick);
-    length = unit_message(&probe->unit, request, length, answer);
+    length = rkm04_message(&probe->unit, request, length, answer);
     judge_exchange(&probe->judge, 1, length != 0 ? 1 : 0);
     (void)printf("answer %" PRIu64 " ", tick);
     for (uint32_t i = 0; i < length; i++) {
@@ -169,7 +169,7 @@ static void report(struct probe *probe)
     }
     (void)printf("end %" PRIu64, probe->machine.late_steps);
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        (void)printf(" %" PRId64, mover_position_steps(&probe->unit.mover[motor]));
+        (void)printf(" %" PRId64, axis_position_steps(&probe->unit.axis[motor]));
     }
     (void)printf("\n");
     (void)fflush(stdout);

@@ -15,7 +15,7 @@ from program_probe import Edge, Request, Script
 
 EPOCH_BITS = 62
 TAIL_MS = 1500
-"""How long a script goes on behind its last message."""
+"""How long a script goes on after its last message."""
 
 LONG_TEXT = 1000
 """Of so many characters and more a program goes without notes, so that it fits a message."""

@@ -60,19 +60,19 @@ interactive = false
 shortcut = "z3-simplex"
 """
 SECONDS = 60  # for a goal and a prover; an idle machine needs 2
-# A proof from what contradicts itself is none: WP tries to prove "false" behind each requirement,
+# A proof from what contradicts itself is none: WP tries to prove "false" after each requirement,
 # call, loop and branch, which counts as one goal each and must fail within this time. That doubles
 # the time of a proof; what is as it was proved has been tried.
 SMOKE = ("-wp-smoke-tests", "-wp-smoke-timeout", "1")
 VERSION = "25."  # of Frama-C: what it leaves to the provers differs from one to the next
 COMMANDS = ("frama-c", "why3", "z3", "cvc4")
-FOLDERS = (*sorted(path for path in (ROOT / "firmware").iterdir() if path.is_dir()),
+FOLDERS = (*sorted(path for path in (ROOT / "firmware").rglob("*") if path.is_dir()),
            ROOT / "hal/include", PROOFS)  # fmt: skip
 
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 LEMMA = re.compile(r"(?<!admit )\blemma (\w+)")
 PROVED = re.compile(r"^\[wp\] Proved goals:\s+(\d+) / (\d+)$", re.MULTILINE)
-# With one prover, what it said stands behind the goal.
+# With one prover, what it said stands after the goal.
 UNPROVED = re.compile(
     r"^\[wp\] \[(?:(?:Failed|Timeout|Unknown|Stepout)|[^]\n]*\] Goal \w+ : (?!Valid))[^\n]*$",
     re.MULTILINE,
@@ -286,6 +286,21 @@ def missing() -> list[str]:
     return absent
 
 
+def tell_stale() -> int:
+    """Says which files are not as they were proved, and proves nothing."""
+    before = recorded()
+    stale = [
+        path.name
+        for path in files()
+        if before.get(path.name, {}).get("digest") != digest(read(path))
+    ]
+    if not stale:
+        print(f"as they were proved: {len(before)} files")
+        return 0
+    print(f"SKIPPED: not as they were proved, tools/test --long proves them: {', '.join(stale)}")
+    return 77
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(prog="prove.py", description="Proves the contracts.")
     parser.add_argument("names", nargs="*", help="files, without .acsl or .h; all if none")
@@ -293,6 +308,9 @@ def main() -> int:
         "--all", action="store_true", help="also what is as it was proved, that without smoke tests"
     )
     parser.add_argument("--record", action="store_true", help="write down what is proved")
+    parser.add_argument(
+        "--stale", action="store_true", help="only say what is not as it was proved; then status 77"
+    )
     parser.add_argument("--seconds", type=int, default=SECONDS, help="for each goal and prover")
     parser.add_argument("--wp", action="append", default=[], help="one more option for Frama-C")
     options = parser.parse_args()
@@ -301,6 +319,8 @@ def main() -> int:
         return 77
     if unknown := set(options.names) - {path.stem for path in files()}:
         parser.error(f"nothing to prove in {', '.join(sorted(unknown))}")
+    if options.stale:
+        return tell_stale()
     good = True
     before, proved = recorded(), {}
     for path in files(options.names):

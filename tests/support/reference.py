@@ -2,7 +2,7 @@
 
 In: sections of a move (steps, top speed in steps/s, acceleration in steps/s²) and the
 start/stop speed. Out: the ideal tick of every pulse, as an exact number with
-`FRACTION_BITS` binary places behind the point.
+`FRACTION_BITS` binary places after the point.
 
 The idea behind it: on a ramp the square of the speed is linear in the position,
 
@@ -34,7 +34,7 @@ TICK_HZ = 84_000_000
 """Rate of the step timer, ticks per second."""
 
 FRACTION_BITS = 64
-"""Binary places of a tick behind the point."""
+"""Binary places of a tick after the point."""
 
 ROOT_BITS = 128
 """Binary places of the speeds from which ticks are computed."""
@@ -163,7 +163,7 @@ class Curve:
         return bisect_left(range(1, end + 1), limit, key=self.tick_scaled)
 
     def speed_squared(self, k: int) -> Fraction:
-        """Square of the speed at pulse k, (steps/s)²; where it jumps, behind the jump.
+        """Square of the speed at pulse k, (steps/s)²; where it jumps, after the jump.
 
         At the last pulse it is the speed at which the motor arrives.
         """
@@ -175,7 +175,7 @@ class Curve:
         """Return the break points: position and speed (steps/s, to float accuracy).
 
         A jump of the speed is two corners at one position. The last corner is the
-        end of the curve, which for a stopped move may lie behind its last pulse.
+        end of the curve, which for a stopped move may lie after its last pulse.
         """
         points = []
         for leg in self.legs:
@@ -200,7 +200,7 @@ class Curve:
 
         A pulse on a border changes the section that begins there. Speeds up to S are
         taken at once, above S the speed changes with the section's acceleration.
-        Everything behind pulse k is looked ahead again.
+        Everything after pulse k is looked ahead again.
         """
         self._require(k, first=1)
         if self.fixed or k == self.last:
@@ -240,7 +240,7 @@ def plan(sections: Sequence[Section], start_speed: int, tick_hz: int = TICK_HZ) 
 
     It starts at min(S, V1), ends at min(S, Vm), and the border speeds between are as
     high as the speeds on both sides and the way to the neighbouring borders allow. A
-    short way lowers the first speed too, when a border behind it is slower than S,
+    short way lowers the first speed too, when a border after it is slower than S,
     and the last one, when the way up to S is too short.
     """
     if start_speed < 1 or not sections:
@@ -273,7 +273,7 @@ def _root(numerator: int, denominator: int) -> int:
 
 
 def _stretches(sections: Sequence[Section], x: int) -> list[Stretch]:
-    """Return what is left of the sections behind position x."""
+    """Return what is left of the sections after position x."""
     ends = accumulate(section.steps for section in sections)
     return [
         Stretch(end, section.speed, section.accel)
@@ -283,7 +283,7 @@ def _stretches(sections: Sequence[Section], x: int) -> list[Stretch]:
 
 
 def _with_speed(sections: tuple[Section, ...], x: int, speed: int) -> tuple[Section, ...]:
-    """Replace the speed of the section in which the way behind position x lies."""
+    """Replace the speed of the section in which the way after position x lies."""
     ends = list(accumulate(section.steps for section in sections))
     i = bisect_right(ends, x)
     return (*sections[:i], replace(sections[i], speed=speed), *sections[i + 1 :])
@@ -305,7 +305,7 @@ def _bounds(stretches: Sequence[Stretch], start_speed: int) -> list[int]:
 
 
 def _taken_at_once(x: int, w: Fraction, stretches: Sequence[Stretch], start_speed: int) -> Fraction:
-    """Speed squared behind a start or a speed change: speeds up to S need no ramp.
+    """Speed squared after a start or a speed change: speeds up to S need no ramp.
 
     Upward it jumps no higher than what can still be braked to the bound.
     """
@@ -334,7 +334,7 @@ def _lay(x: int, w: Fraction, stretches: Sequence[Stretch], start_speed: int) ->
 def _slow_down(
     x: Fraction, w: Fraction, stretch: Stretch, slow: int
 ) -> tuple[list[Leg], Fraction, Fraction]:
-    """Brake to the stretch's speed when above it: legs, position and w behind them.
+    """Brake to the stretch's speed when above it: legs, position and w after them.
 
     A speed below S is taken at once where S (`slow` = S²) is reached. Where the
     stretch ends before, so does the braking.

@@ -1,6 +1,7 @@
 """Answers to Get Status that the C side and the Python side both read: what is told, and its bytes.
 
-Written from firmware/docs/messages.md alone. `statuses.py` writes both files, `--check` compares.
+Written from firmware/rkm04/docs/messages.md alone. `statuses.py` writes both files,
+`--check` compares.
 """
 
 from __future__ import annotations
@@ -25,11 +26,11 @@ C_HEAD = """\
 #ifndef STATUS_VECTORS_H
 #define STATUS_VECTORS_H
 
-#include "protocol_status.h"
+#include "messages_status.h"
 
 struct status_vector {
     const char *name;
-    struct protocol_status status;
+    struct messages_status status;
     const char *answer; /* what follows the message number */
     uint32_t length;
 };
@@ -76,7 +77,7 @@ class Vector:
 VECTORS = [
     Vector("just switched on"),
     Vector("input 1 and output 8", inputs=0x01, outputs=0x80, line_counts=[1] + [0] * 11),
-    Vector("behind the watchdog", cause=2, switches=0x02),
+    Vector("after the watchdog", cause=2, switches=0x02),
     Vector("after a reset, no crystal", cause=1, switches=0x11, motors=[0, 16, 0, 0],
            errors=[0, 10, 0, 0]),
     Vector("at work", inputs=0xA5, outputs=0x3C, switches=0x0C, motors=[3, 6 + 64, 9 + 64, 32 + 64],
@@ -124,7 +125,7 @@ def c_row(vector: Vector) -> str:
 
 def contents() -> dict[Path, str]:
     about = (
-        "Answers to Get Status (firmware/docs/messages.md), written by statuses.py: "
+        "Answers to Get Status (firmware/rkm04/docs/messages.md), written by statuses.py: "
         "numbers as they are told, and the whole answer in hex."
     )
     rows = [{**asdict(each), "answer": each.whole.hex()} for each in VECTORS]

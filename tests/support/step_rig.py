@@ -50,7 +50,7 @@ WRAP = 1 << 32
 MOTORS = 4
 
 TICK_HZ = 84_000_000
-QUANTA = 2 * TICK_HZ * TICK_HZ << 7  # of a step: firmware/step/step_scale.h
+QUANTA = 2 * TICK_HZ * TICK_HZ << 7  # of a step: firmware/engine/step/step_scale.h
 SEGMENT_LAYOUT = "<QQiIII?7x"  # struct step_segment
 
 
@@ -64,7 +64,7 @@ class Timer:
 
     now: int = 0
     at_once: bool = False
-    behind: int = 0  # ticks from a look at the counter to what the driver does next
+    after: int = 0  # ticks from a look at the counter to what the driver does next
     registers: dict[int, int] = field(default_factory=dict)
     pins: list[bool] = field(default_factory=lambda: [False] * MOTORS)
     edges: list[tuple[int, int, bool]] = field(default_factory=list)  # tick, motor, level
@@ -117,7 +117,7 @@ class Timer:
         if offset == CNT:
             self.advance(1)
             counter = self.counter
-            self.advance(self.behind)
+            self.advance(self.after)
             return counter
         return self.registers.get(offset, 0)
 
@@ -147,7 +147,7 @@ def _offset(image: Path, name: str, member: str) -> int:
 
 
 class StepRig:
-    """The driver and four step channels. Ticks go on behind the counter's wrap, at 2^32."""
+    """The driver and four step channels. Ticks go on after the counter's wrap, at 2^32."""
 
     def __init__(self, image: Path, now: int = 1000, at_once: bool = False) -> None:
         self.symbols = symbols(image)
@@ -257,7 +257,7 @@ class StepRig:
         self.timer.advance(tick - self.timer.now)
 
     def run(self, ticks: int, delay: int = 0) -> None:
-        """Let time go by; each interrupt comes `delay` ticks behind what raises it."""
+        """Let time go by; each interrupt comes `delay` ticks after what raises it."""
         end = self.timer.now + ticks
         while self.timer.now < end:
             self.timer.advance(end - self.timer.now, until_interrupt=True)

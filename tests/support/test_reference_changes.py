@@ -211,7 +211,7 @@ def test_a_change_agrees_with_a_walk_through_time(speed: int) -> None:
 
 
 def assert_lawful(before: Curve, after: Curve, k: int) -> None:
-    """Check what must hold of every curve behind a change at pulse k.
+    """Check what must hold of every curve after a change at pulse k.
 
     Above both the speed in force and S it brakes as hard as it can; speeds change
     with the acceleration in force except by jumps up to S; the target is met.

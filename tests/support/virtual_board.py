@@ -61,7 +61,7 @@ class Script:
 
 
 def script(messages: Sequence[Message]) -> Script:
-    """Send messages one behind the other, with time for the answers."""
+    """Send messages one after the other, with time for the answers."""
     at = READY_MS
     lines, come = [], []
     for message in messages:

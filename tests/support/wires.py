@@ -9,8 +9,8 @@ import re
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from checks.board_pins import Board, Pin
 from rkm04_tools import board, virtual_board
+from rkm04_tools.board_header import Board, Pin
 
 ROW = re.compile(r"^\| (\w+) \| P([A-K]\d+) \|(.*)\|$", re.MULTILINE)
 LEVEL = re.compile(r"active (high|low)|(high|low) = ")

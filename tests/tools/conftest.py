@@ -45,7 +45,7 @@ class Result:
 
 Tool = Callable[..., Result]
 
-SHORT, LONG = "rkm04-f405", "f407-discovery"  # boards of short and of long pulses
+SHORT, LONG = "f405", "f407-discovery"  # boards of short and of long pulses
 STEP_WIDTH = {SHORT: 42, LONG: 210}  # 0.5 us and 2.5 us in ticks, high and low alike
 
 

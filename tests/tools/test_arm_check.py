@@ -51,7 +51,7 @@ def test_a_planted_violation_is_named(
 ) -> None:
     planted = compile_c(tmp_path, source)
 
-    status = arm_check.main(["--stage", "step", str(planted)])
+    status = arm_check.main(["--stage", "engine/step", str(planted)])
 
     assert status == 1
     assert complaint in capsys.readouterr().err
@@ -64,7 +64,7 @@ def test_a_division_in_another_stage_counts_if_the_step_stage_calls_it(
     step = compile_c(tmp_path, "uint64_t d(uint64_t, uint64_t); int f(void) { return !d(9, 2); }")
 
     alone = arm_check.main(["--stage", "base", str(base)])
-    called = arm_check.main(["--stage", "base", str(base), "--stage", "step", str(step)])
+    called = arm_check.main(["--stage", "base", str(base), "--stage", "engine/step", str(step)])
 
     assert (alone, called) == (0, 1)
     assert "step: 64-bit division: f -> d -> __aeabi_uldivmod" in capsys.readouterr().err

@@ -115,6 +115,8 @@ def test_lines_may_end_in_any_way(tool, write, end):
             "\N{ACUTE ACCENT}81",
             "\N{ACUTE ACCENT} (call a subroutine) takes a number from 1 to 80, found 81",
         ),
+        ("`81", "` (call a subroutine) takes a number from 1 to 80, found 81"),
+        ('"x', '" (call a subroutine) takes a number from 1 to 80, found no number'),
         ("Q", 'unknown command "Q"'),
         ("r", 'unknown command "r"; commands are upper case: R'),
         ("q", 'unknown command "q"'),

@@ -245,7 +245,7 @@ def test_errors_are_found_before_anything_is_sent(motor, unit):
 def test_a_refusal_of_the_unit_is_given_its_place(motor, unit):
     unit.flag = b"\x01V"
 
-    with pytest.raises(UnitRefused, match=r"the program:2:4: the unit refuses the value behind V"):
+    with pytest.raises(UnitRefused, match=r"the program:2:4: the unit refuses the value after V"):
         motor.send("F100\nR  V500")
 
 

@@ -154,13 +154,13 @@ def position(port: str) -> int:
 
 
 def test_a_unit_that_restarts_behind_an_execution_does_not_execute_again(serve):
-    before, behind = (serve("--node", str(NODE), "--unpaced") for _ in range(2))
+    before, after = (serve("--node", str(NODE), "--unpaced") for _ in range(2))
     line = NoisyLine(before, seed=4, probability=0.0, echo=False)
     try:
         with open_line(line.port) as client:
             motor = client.unit(NODE).motor(2)
             motor.command("S1000 F1 R")
-            line.restarted_as = behind
+            line.restarted_as = after
             with pytest.raises(UnitRestarted) as restarted:
                 motor.command("F1R")
             assert restarted.value.repeated
@@ -171,7 +171,7 @@ def test_a_unit_that_restarts_behind_an_execution_does_not_execute_again(serve):
         line.close()
 
     assert position(before) == 2
-    assert position(behind) == 1
+    assert position(after) == 1
 
 
 def test_what_the_unit_refuses_is_typed(motor):

@@ -108,8 +108,8 @@ def test_every_shared_answer_is_read_as_what_it_says(vector):
 
 
 def test_errors_and_counters_are_those_of_the_firmware():
-    errors = header_texts("interpreter/interpreter.h", "INTERPRETER_ERRORS")
-    counts = header_texts("link/link_receiver.h", "LINK_COUNTS")
+    errors = header_texts("rkm04/interpreter/interpreter.h", "INTERPRETER_ERRORS")
+    counts = header_texts("rkm04/link/link_receiver.h", "LINK_COUNTS")
 
     assert tuple(text for _, text in errors) == ERRORS
     assert [(name.lower(), text) for name, text in counts] == list(LINE_COUNTS.items())

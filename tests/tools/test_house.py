@@ -43,6 +43,34 @@ def test_a_planted_fault_is_found_at_its_line(
     assert text.count("\n", 0, offset) + 1 == line
 
 
+@pytest.mark.parametrize(
+    ("name", "include", "complaint"),
+    [
+        ("a.c", "../../engine/axis/axis.h", "a source includes by a path"),
+        ("a.h", "../../engine/step/step_channel.h", "from engine/step, which is not"),
+        ("a.h", "../messages/messages.h", "from rkm04/messages, which is not"),
+        ("a.h", "../../../hal/include/hal_io.h", "from ../hal/include, which is not"),
+    ],
+)
+def test_an_include_by_path_is_a_headers_and_of_a_stage_in_its_deps(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, include: str, complaint: str
+) -> None:
+    stage = tmp_path / "firmware" / "rkm04" / "interpreter"
+    stage.mkdir(parents=True)
+    (stage / "CMakeLists.txt").write_text("firmware_add_stage(a DEPS rkm04_program engine_axis)\n")
+    good = stage / "good.h"
+    good.write_text('#include "../../engine/axis/axis.h"\n#include "../program/program.h"\n')
+    wrong = stage / name
+    wrong.write_text(f'#include "base.h"\n#include "{include}"\n')
+    monkeypatch.setattr(house, "ROOT", tmp_path)
+
+    [(offset, what)] = house.check_file(wrong)
+
+    assert complaint in what
+    assert wrong.read_text().count("\n", 0, offset) + 1 == 2
+    assert not list(house.check_file(good))
+
+
 def test_a_flat_switch_that_says_so_may_be_long() -> None:
     marked = f"/* One case an opcode. {house.EXEMPTION} */\n{LONG_FUNCTION}"
 

@@ -95,10 +95,10 @@ int g(int a)
 def keys(source: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """How the mutants of a source are listed."""
     monkeypatch.setattr(mutation, "ROOT", tmp_path)
-    path = tmp_path / "firmware/link/a.c"
+    path = tmp_path / "firmware/rkm04/link/a.c"
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(source)
-    module = mutation.Module("link", "link", ("a.c",), ())
+    module = mutation.Module("link", "rkm04/link", ("a.c",), ())
     return [str(mutation.key_of(module, "a.c", one)) for one in mutants(source)]
 
 
@@ -108,11 +108,11 @@ def test_a_mutant_is_named_by_function_and_expression(
     named = keys(SOURCE, tmp_path, monkeypatch)
 
     assert len(set(named)) == len(named)
-    assert named[0] == "firmware/link/a.c\n- MANY = 3\n+ MANY = 4"
-    assert "firmware/link/a.c f 1\n- a + 1\n+ a - 1" in named
-    assert "firmware/link/a.c f 2\n- a + 1\n+ a + 0" in named
-    assert "firmware/link/a.c f\n- call(b);\n+ ;" in named
-    assert "firmware/link/a.c g\n- a + 1\n+ a - 1" in named
+    assert named[0] == "firmware/rkm04/link/a.c\n- MANY = 3\n+ MANY = 4"
+    assert "firmware/rkm04/link/a.c f 1\n- a + 1\n+ a - 1" in named
+    assert "firmware/rkm04/link/a.c f 2\n- a + 1\n+ a + 0" in named
+    assert "firmware/rkm04/link/a.c f\n- call(b);\n+ ;" in named
+    assert "firmware/rkm04/link/a.c g\n- a + 1\n+ a - 1" in named
 
 
 def test_the_name_of_a_mutant_outlives_what_does_not_concern_it(
@@ -149,7 +149,7 @@ def test_a_mutant_that_is_listed_is_not_tried(
     monkeypatch.setattr(mutation, "EQUIVALENT", tmp_path / "list.txt")
     monkeypatch.setattr(mutation, "Bench", NoBench)
     listed = {change.key() for change in mutation.equivalents()}
-    module = mutation.Module("link", "link", ("a.c",), ())
+    module = mutation.Module("link", "rkm04/link", ("a.c",), ())
 
     score = mutation.mutate(module, mutation.mutants_of(module, 1), math.inf, 1, listed)
 

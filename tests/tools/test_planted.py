@@ -32,8 +32,9 @@ def test_a_planted_bug_still_fits_the_sources(bug: planted.Bug) -> None:
 @pytest.mark.parametrize("bug", BUGS, ids=lambda bug: str(bug.name))
 def test_a_planted_bug_names_a_test_that_there_is(bug: planted.Bug) -> None:
     if bug.runner == "ctest":
-        stage, _, module = bug.test.partition(".")
-        folders = [ROOT / "tests" / "unit" / stage, ROOT / "tests" / stage]
+        library, _, module = bug.test.partition(".")
+        folder = library.replace("_", "/")
+        folders = [ROOT / "tests" / "unit" / folder, ROOT / "tests" / "system" / folder]
         assert any((folder / f"test_{module}.c").exists() for folder in folders)
     else:
         file, _, function = bug.test.partition("::")

@@ -1,11 +1,14 @@
-"""What tools/test counts from one C test program."""
+"""What tools/test counts from one C test program, and how it tells of what runs side by side."""
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 import xml.etree.ElementTree as ElementTree
 
 import pytest
-from checks.run_all import Count, count_program
+from checks.run_all import NICENESS, Count, count_program
 
 
 @pytest.mark.parametrize(
@@ -24,3 +27,60 @@ def test_a_program_counts_its_tests_and_its_crash(status: str, output: str, coun
     ElementTree.SubElement(case, "system-out").text = output
 
     assert count_program(case) == count
+
+
+SIDE_BY_SIDE = """
+import os, sys, time
+from checks import run_all
+from checks.run_all import Count
+
+def says(words, count):
+    def step(*_):
+        time.sleep(0.2 * (words == "tests"))
+        print(words, os.nice(0))
+        return count
+    return step
+
+run_all.c_tests_once = says("C", Count(2))
+run_all.python_tests = says("tests", Count(3, 0, 1))
+run_all.begin_proofs = lambda *_: says("proofs", Count(1))
+run_all.build = lambda preset: True
+run_all.fuzzers = says("fuzzers", Count(1))
+run_all.steps_beside = lambda: {"Good": says("good", Count(1)), "Bad": says("bad", Count(0, 1))}
+sys.argv = ["tools/test", *sys.argv[1:]]
+sys.exit(run_all.main())
+"""
+
+
+def side_by_side(*options: str) -> tuple[int, list[str]]:
+    """The status of a run of such steps, and what it prints without titles and times."""
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", SIDE_BY_SIDE, *options], capture_output=True, text=True
+    )
+    assert done.stderr == ""
+    lines = [line.strip().split(";")[0] for line in done.stdout.splitlines()]
+    return done.returncode, [line for line in lines if line and not line.startswith("==")]
+
+
+def test_what_runs_beside_is_told_in_its_place_and_counts() -> None:
+    nice = os.nice(0)
+    yielding = min(19, nice + NICENESS)
+    status, lines = side_by_side()
+
+    assert status == 1
+    assert lines == [
+        f"C {nice}", "2 passed, 0 failed, 0 skipped",
+        f"tests {nice}", "3 passed, 0 failed, 1 skipped",
+        f"good {yielding}", "1 passed, 0 failed, 0 skipped",
+        f"bad {yielding}", "0 passed, 1 failed, 0 skipped",
+        f"proofs {nice}", f"proofs {nice}", "2 passed, 0 failed, 0 skipped",
+        f"fuzzers {nice}", "1 passed, 0 failed, 0 skipped",
+        "9 passed, 1 failed, 1 skipped",
+    ]  # fmt: skip
+
+
+def test_nothing_runs_beside_a_quick_run() -> None:
+    assert side_by_side("--quick") == (
+        0,
+        [*side_by_side()[1][:4], "5 passed, 0 failed, 1 skipped"],
+    )

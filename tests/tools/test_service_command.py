@@ -154,6 +154,9 @@ def test_a_port_that_is_taken_is_an_error_in_one_line(build, tool):
         (["--listen", "x"], "--help"),
         (["--node", "0"], "name one, 1 to 16"),
         (["--node", "17"], "1 to 16"),
+        (["--static", "x", "--listen", "0"], "leave out the other options"),
+        (["--static", ""], "name a file"),
+        (["--static", "x"], "start the command as tools/rkm04"),
     ],
 )
 def test_a_wrong_option_is_an_error_in_one_line(build, tool, arguments, part):

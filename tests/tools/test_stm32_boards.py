@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 from checks import board_pins
-from rkm04_tools import board
+from rkm04_tools import board, board_header
 from wires import wires
 
-GOOD = (board.BOARDS / "rkm04-f405" / "board.h").read_text()
+GOOD = (board.BOARDS / "f405" / "board.h").read_text()
 
 
 @pytest.mark.parametrize("name", board.names())
@@ -21,7 +21,7 @@ def test_a_board_has_nothing_wrong(name: str) -> None:
 
 @pytest.mark.parametrize("name", board.names())
 def test_the_table_of_a_board_has_the_pins_of_its_header(name: str) -> None:
-    pins = board_pins.read_board((board.BOARDS / name / "board.h").read_text()).pins
+    pins = board_header.read_board((board.BOARDS / name / "board.h").read_text()).pins
 
     assert [(w.signal, w.pin) for w in wires(name)] == [(p.signal, p.pin) for p in pins]
 

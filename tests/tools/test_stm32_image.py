@@ -7,10 +7,10 @@ import shutil
 from pathlib import Path
 
 import pytest
-from checks import board_size, ram_code
-from checks.arm_check import Stage, binutil
-from rkm04_tools import board
+from checks import ram_code
+from rkm04_tools import board, board_size
 from rkm04_tools.failure import NO_CONNECTION, NOT_SO
+from rkm04_tools.objects import Graph, binutil
 
 STACK_MARGIN_BYTES = 256
 
@@ -104,8 +104,8 @@ def test_references_of_other_sections_do_not_count():
     assert list(ram_code.find_errors([*GOOD, *other], ENTRIES)) == []
 
 
-def graph(**calls: set[str]) -> Stage:
-    return Stage("test", frames=dict.fromkeys(calls, 8), calls=dict(calls))
+def graph(**calls: set[str]) -> Graph:
+    return Graph(frames=dict.fromkeys(calls, 8), calls=dict(calls))
 
 
 def test_the_deepest_chain_counts():
@@ -132,7 +132,7 @@ def test_a_stack_that_cannot_be_known_is_an_error(calls, complaint):
 
 
 def test_a_call_through_a_pointer_counts_as_the_table_says():
-    calls = {"stm32_tick_interrupt": {board_size.INDIRECT}, "unit.c:unit_tick_isr": set()}
+    calls = {"stm32_tick_interrupt": {board_size.INDIRECT}, "rkm04.c:rkm04_tick_isr": set()}
 
     assert board_size.deepest("stm32_tick_interrupt", graph(**calls)) == 16
 
@@ -144,6 +144,21 @@ def test_build_names_the_files_and_the_version(tool):
     assert result.json["version"] == board.version()
     assert [Path(name).suffix for name in result.json["files"]] == [".elf", ".hex", ".bin"]
     assert all((board.ROOT / name).is_file() for name in result.json["files"])
+
+
+def test_a_build_is_set_up_anew_only_when_the_presets_have_changed(image, tmp_path, monkeypatch):
+    presets = tmp_path / "CMakePresets.json"
+    presets.touch()
+    os.utime(presets, (1e10, 1e10))  # later than any build
+    called = []
+    monkeypatch.setattr(board, "PRESETS", presets)
+    monkeypatch.setattr(board, "_call", lambda command, *_: called.append(command[1]))
+
+    board.build(image.board)
+    os.utime(presets, (0, 0))
+    board.build(image.board)
+
+    assert called == ["--preset", "--build", "--build"]
 
 
 def test_size_shows_the_budgets(tool):
@@ -312,7 +327,7 @@ def test_a_flasher_that_is_not_installed_is_told(tool, monkeypatch):
 def test_an_unknown_board_is_told_which_there_are(tool):
     result = tool("board", "build", "--board", "nucleo")
 
-    assert "nucleo: no such board; there are f407-discovery, rkm04-f405" in result.complaint
+    assert "nucleo: no such board; there are f405, f407-discovery" in result.complaint
 
 
 def test_stm32flash_needs_a_port(tool):

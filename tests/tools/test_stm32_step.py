@@ -155,10 +155,10 @@ def test_a_rested_channel_goes_on_with_what_was_queued_late(make_rig):
 
 def test_a_channel_is_armed_while_its_last_pulse_is_high(make_rig, width):
     tried = 0
-    for behind in range(2, 3 * width, 7):
+    for after in range(2, 3 * width, 7):
         rig = make_rig()
         rig.start(1, [START + 500])
-        rig.run(500 + behind)
+        rig.run(500 + after)
         if rig.is_running(1):
             continue
         tried += 1
@@ -167,7 +167,7 @@ def test_a_channel_is_armed_while_its_last_pulse_is_high(make_rig, width):
         rig.go(1)
         rig.run(5000)
 
-        assert rig.rises(1) == [START + 500, START + 3000], behind
+        assert rig.rises(1) == [START + 500, START + 3000], after
         assert rig.late == 0
     assert tried > 10
 

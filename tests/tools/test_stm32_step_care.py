@@ -74,10 +74,10 @@ def test_the_counter_may_wrap_between_an_edge_and_its_late_interrupt(make_rig):
 # Late edges
 
 
-@pytest.mark.parametrize("behind", [0, 1, 500, 100_000])
-def test_a_tick_that_is_past_is_made_good_at_once_and_counted(make_rig, width, behind):
+@pytest.mark.parametrize("after", [0, 1, 500, 100_000])
+def test_a_tick_that_is_past_is_made_good_at_once_and_counted(make_rig, width, after):
     rig = make_rig()
-    rig.start(0, [START + 200_000, START + 200_000 - behind])
+    rig.start(0, [START + 200_000, START + 200_000 - after])
 
     rig.run(210_000)
 
@@ -120,13 +120,13 @@ def test_late_pulses_one_after_the_other_are_all_made_good(make_rig):
     assert rig.late == 5
 
 
-@pytest.mark.parametrize("behind", [0, 4, 8])
-def test_an_edge_that_comes_soon_is_in_time_or_made_good_but_never_lost(make_rig, width, behind):
+@pytest.mark.parametrize("after", [0, 4, 8])
+def test_an_edge_that_comes_soon_is_in_time_or_made_good_but_never_lost(make_rig, width, after):
     """However long the driver takes from its look at the counter to its write."""
     lates = []
     for gap in range(2 * width - 8, 2 * width + 100, 3):
         rig = make_rig()
-        rig.timer.behind = behind
+        rig.timer.after = after
         rig.start(0, [START + 900, START + 900 + gap, START + 5000])
 
         rig.run(8000)
@@ -180,7 +180,7 @@ def test_an_edge_behind_the_wrap_may_come_together_with_plain_ones(make_rig, edg
     rig = make_rig(WRAP - 6000)
     ticks = [WRAP + edge + 3000 * i for i in range(-1, 3)]
     rig.start_steady(0, ticks[0], 3000, 4)
-    rig.run(8000)  # motor 0 has been armed before the wrap, the others will be behind it
+    rig.run(8000)  # motor 0 has been armed before the wrap, the others will be after it
     for motor in range(1, MOTORS):
         rig.start_steady(motor, ticks[2], 3000, 2)
 
@@ -241,7 +241,7 @@ def test_a_stale_match_is_no_pulse(make_rig):
 
 @pytest.mark.parametrize("wrap", [False, True])
 def test_a_halt_at_any_tick_counts_what_the_pin_has_shown(make_rig, width, wrap):
-    """Just before, at and behind the match, and while the pulse lasts."""
+    """Just before, at and after the match, and while the pulse lasts."""
     start = WRAP - 2020 if wrap else START
     counts = []
     for offset in itertools.chain(range(-36, 6), range(6, width + 60, 9)):

@@ -1,7 +1,7 @@
 """The image of the reference board makes the pulses that the simulator makes, tick for tick.
 
 Ticks are compared from the first pulse of a run. Where a program waits for an input, or a guard
-acts, the board may see the edge a little later, up to 50 us if it comes behind another; what is
+acts, the board may see the edge a little later, up to 50 us if it comes after another; what is
 compared then is told by each test.
 """
 
@@ -317,9 +317,9 @@ def test_a_guard_acts_within_a_millisecond_at_full_speed(unit, motors):
     modelled = unit.run(sent.lines, edge_ms / 1000 + 0.02, f"{edge_ms:.6f},3,1\n")
 
     edge = round(edge_ms * TICKS_PER_MS) - first_tick(modelled.steps)
-    behind = []
+    after = []
     for motor in range(1, motors + 1):
         ticks, _ = of_motor(modelled.steps, motor)
         changed = (ticks[1:] > edge) & (ticks[1:] - ticks[:-1] != interval)
-        behind.append(int(ticks[:-1][changed][0]) - edge)
-    assert max(behind) <= TICKS_PER_MS
+        after.append(int(ticks[:-1][changed][0]) - edge)
+    assert max(after) <= TICKS_PER_MS

@@ -41,7 +41,7 @@ class Case:
 
 
 def nearly_full() -> bytes:
-    """An area with so many texts of motor 1 that no other one fits behind them."""
+    """An area with so many texts of motor 1 that no other one fits after them."""
     records = [record(2, 2, OTHER)]
     size = len(record(1, 0, OLD))
     count = (AREA_BYTES - len(record(1, 0, b"")) - len(records[0])) // size

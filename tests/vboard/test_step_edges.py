@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 from rkm04_tools import board, virtual_board
 
-SHORT, LONG = "rkm04-f405", "f407-discovery"
+SHORT, LONG = "f405", "f407-discovery"
 WIDTH_US = {SHORT: 0.5, LONG: 2.5}
 """High and low alike."""
 SEED = 20261122
@@ -46,9 +46,9 @@ def try_edges(program: Path, tmp_path: Path):
     """Run so many trials of one kind on a board."""
 
     def run(name: str, trials: int, kind: tuple[int, int], *options: str) -> Tried:
-        image = board.build(name, "rkm04_disarm")
+        image = board.build(name, "disarm_image")
         (tmp_path / "pins").write_text(virtual_board.board_pins(name))
-        elf = image.file("elf").with_name(f"{name}-disarm.elf")
+        elf = image.file("elf").with_name(f"{image.name}-disarm.elf")
         setting = struct.pack("<4I", trials, SEED, *kind).hex()
         arguments = ["--elf", str(elf), "--pins", str(tmp_path / "pins"), "--for", str(SECONDS_MAX)]
         arguments += ["--end-at", "disarm_done", "--set", f"disarm_setting={setting}"]

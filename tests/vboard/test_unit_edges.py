@@ -52,7 +52,7 @@ def interrupts(modelled: Modelled) -> int:
     return sum(v["count"] for v in vectors if v["name"].startswith("EXTI"))
 
 
-@pytest.mark.parametrize("options", [[], ["--exti-mask-first"]], ids=["mask behind", "in front"])
+@pytest.mark.parametrize("options", [[], ["--exti-mask-first"]], ids=["mask after", "in front"])
 @pytest.mark.parametrize("before_us", [REACTION_US, 20.0, 60.0])
 def test_a_guard_acts_from_the_next_pulse_on(unit, pulse_ms, before_us, options):
     edge = (pulse_ms - before_us / 1000, GUARD, 1)
@@ -60,12 +60,12 @@ def test_a_guard_acts_from_the_next_pulse_on(unit, pulse_ms, before_us, options)
     assert reaction(unit, [edge], options) == pytest.approx(before_us, abs=0.02)
 
 
-@pytest.mark.parametrize("options", [[], ["--exti-mask-first"]], ids=["mask behind", "in front"])
+@pytest.mark.parametrize("options", [[], ["--exti-mask-first"]], ids=["mask after", "in front"])
 @pytest.mark.parametrize("apart_us", [0.05, 0.3, 1.0, 10.0, 49.0, 51.0])
 def test_an_edge_shortly_behind_another_waits_for_the_end_of_the_hold(
     unit, pulse_ms, apart_us, options
 ):
-    """The second one comes 2 us behind a pulse: it acts at the latest at the next but one."""
+    """The second one comes 2 us after a pulse: it acts at the latest at the next but one."""
     second = pulse_ms + 0.002
     edges = [(second - apart_us / 1000, OTHER, 1), (second, GUARD, 1)]
 
@@ -89,7 +89,7 @@ def test_edges_at_the_same_moment_are_one_interrupt(unit, pulse_ms):
     assert interrupts(run(unit, edges, pulse_ms + 1)) == 1
 
 
-@pytest.mark.parametrize("options", [[], ["--exti-mask-first"]], ids=["mask behind", "in front"])
+@pytest.mark.parametrize("options", [[], ["--exti-mask-first"]], ids=["mask after", "in front"])
 @pytest.mark.parametrize("apart_us", [2.0, 10.0, 37.0, 50.0])
 def test_however_many_edges_there_are_one_hold_has_one_interrupt(unit, pulse_ms, apart_us, options):
     count = round(20_000 / apart_us)

@@ -86,7 +86,7 @@ def told_status(unit: VirtualBoard) -> Status:
 def assert_stands_until_told(
     unit: VirtualBoard, modelled: Modelled, told_ms: float, cause: str
 ) -> None:
-    """Safe behind the reset, no program by itself; tells why; then does what it is told."""
+    """Safe after the reset, no program by itself; tells why; then does what it is told."""
     assert pulses(modelled, 100, FAULT_MS) > 3 * 50 * SPEED // 1000, "the motors did not run"
     assert pulses(modelled, reset_ms(modelled), told_ms) == 0
     assert modelled.summary["outputs"] == 0
@@ -100,7 +100,7 @@ def assert_stands_until_told(
 @pytest.mark.parametrize(
     ("fault", "silent_ms"),
     [
-        ("hold=unit_poll", MAIN_MS),
+        ("hold=rkm04_poll", MAIN_MS),
         ("hold=stm32_tick_interrupt", 0.0),
         ("hold=stm32_step_interrupt", 0.0),
         (f"lose={SYSTICK}", 0.0),

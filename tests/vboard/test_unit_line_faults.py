@@ -29,7 +29,7 @@ def run(unit: VirtualBoard, script: str, end_ms: float, *options: str) -> Modell
 
 
 def counts(unit: VirtualBoard, modelled: Modelled) -> dict[str, int]:
-    at = offset(unit.image.file("elf"), "unit", ("link", "receiver", "counts"))
+    at = offset(unit.image.file("elf"), "rkm04", ("line", "link", "receiver", "counts"))
     words = modelled.summary["watch"]["unit.0"][at // 4 :]
     return dict(zip(COUNTS, words[: len(COUNTS)], strict=True))
 
@@ -99,7 +99,7 @@ def test_random_bytes_on_the_line_are_never_executed(unit):
 def test_an_answer_that_nobody_continues_lets_the_line_go(unit):
     request = frame(1, 0, VERSION)
     stuck_ms = READY_MS + len(request) * BYTE_MS + 4  # in the middle of the answer
-    faults = [f"{stuck_ms:.3f}:lose={USART1}", f"{stuck_ms:.3f}:hold=unit_poll"]
+    faults = [f"{stuck_ms:.3f}:lose={USART1}", f"{stuck_ms:.3f}:hold=rkm04_poll"]
     options = [word for fault in faults for word in ("--fault", fault)]
 
     modelled = unit.run(f"{READY_MS} {request.hex()}\n", 0.1, "", *options)

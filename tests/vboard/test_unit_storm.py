@@ -21,7 +21,7 @@ MOTORS = range(1, 5)
 FLOOD_MS, FLOOD_END_MS, END_MS = 30.0, 1100.0, 1200.0
 STORM_KHZ = 100
 CHARACTER_US = 1000 * BYTE_MS
-"""Until then the unit lets the line go, firmware/docs/line.md."""
+"""Until then the unit lets the line go, firmware/rkm04/docs/line.md."""
 REQUESTS = [b"\x040", b"\x051", b"\x062", b"\x073", b"\x040"]
 
 

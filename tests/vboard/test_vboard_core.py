@@ -120,7 +120,7 @@ def test_enabled_faults_go_to_their_handlers(run_image):
 
 
 def go_astray(run_image, place: int) -> tuple[list[int], list[int], list[int]]:
-    """What the fault in main and that in a handler have told, and who went on behind them."""
+    """What the fault in main and that in a handler have told, and who went on after them."""
     result = run_image("astray", defines=[f"PLACE={place:#x}"]).result
     return result[0:4], result[8:12], result[16:19]
 

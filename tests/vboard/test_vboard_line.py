@@ -1,4 +1,4 @@
-"""The USART of the virtual board and the RS-485 line behind it."""
+"""The USART of the virtual board and the RS-485 line after it."""
 
 from __future__ import annotations
 

@@ -141,7 +141,7 @@ def test_pwm_2_is_high_from_the_value_on_and_low_as_soon_as_it_lies_ahead(run_im
 
     assert result[0:4] == [LOW, LOW, HIGH, FLAG]
     assert result[4:7] == [LOW, LOW, HIGH]  # moved ahead, waiting, reached
-    assert result[7:10] == [LOW, HIGH, 0]  # ahead, then behind: high without a match
+    assert result[7:10] == [LOW, HIGH, 0]  # ahead, then after: high without a match
     assert result[10:12] == [HIGH, flag]  # equal
     assert result[12:14] == [LOW, HIGH]  # the counter set back
     assert result[14:16] == [HIGH, LOW]  # and turning over

@@ -39,7 +39,7 @@ MOTOR_MS = 80.0
 END_MS = MOTORS_MS + MOTOR_MS * len(MOTORS)
 
 PULSES_US = {
-    "rkm04-f405": {"width_min": 0.5, "gap_min": 0.5},
+    "f405": {"width_min": 0.5, "gap_min": 0.5},
     "f407-discovery": {"width_min": 2.5, "gap_min": 2.5},
 }
 """As the README of each board says."""
@@ -271,7 +271,7 @@ def test_the_direction_stands_still_around_pulses_when_simulation_begins_and_end
     assert len(modelled.edges("m1_dir")) > TURNS_MIN
     assert motor["dir_setup_min"] >= DIR_US["dir_setup_min"]
     assert motor["dir_hold_min"] >= DIR_US["dir_hold_min"]
-    assert motor["width_min"] >= PULSES_US["rkm04-f405"]["width_min"]
+    assert motor["width_min"] >= PULSES_US["f405"]["width_min"]
 
 
 def test_the_readme_tells_the_level_of_every_kind_of_wire(name):

@@ -1,6 +1,6 @@
 """Looks into the Cortex-M4 objects of the firmware for what must not be there.
 
-    arm_check.py --stage step a.obj b.obj --stage base c.obj ... [--report FILE]
+    python -m checks.arm_check --stage step a.obj b.obj --stage base c.obj ... [--report FILE]
 
 It fails on floating point (helper calls and instructions), on the heap, on mutable file-level
 state, on recursion, and on 64-bit division helpers in whatever the step stage may call. The table
@@ -14,10 +14,11 @@ from __future__ import annotations
 
 import argparse
 import re
-import subprocess
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
+
+from rkm04_tools.objects import Graph, binutil, short
 
 FLOAT_HELPER = re.compile(
     r"__aeabi_(c?[fd]|u?[il]2[fd]|h2)\w*|__\w+([sd]f|[sd]c)\w*"
@@ -29,20 +30,16 @@ DIVISION_64 = re.compile(r"__aeabi_u?ldivmod|__u?(div|mod|divmod)di[34]")
 FLOAT_INSTRUCTION = re.compile(r"\s+[0-9a-f]+:\t(v[\w.]+)")
 FUNCTION_HEADING = re.compile(r"[0-9a-f]+ <(.+)>:")
 MUTABLE_SYMBOL = re.compile(r"[0-9a-f]+ (?:[0-9a-f]+ )?[bBdDCgGsS] (.+)")
-CI_FRAME = re.compile(r'node: { title: "([^"]+)" label: "[^"]*\\n(\d+) bytes \(')
-CI_CALL = re.compile(r'edge: { sourcename: "([^"]+)" targetname: "([^"]+)"')
 
 
 @dataclass
-class Stage:
+class Stage(Graph):
     """What the objects of one stage hold, and what is wrong with them."""
 
     name: str
     text: int = 0
     rodata: int = 0
     ram: int = 0
-    frames: dict[str, int] = field(default_factory=dict)  # function -> bytes of stack
-    calls: dict[str, set[str]] = field(default_factory=dict)  # function -> what it calls
     errors: list[str] = field(default_factory=list)
 
     def add_object(self, path: Path) -> None:
@@ -77,24 +74,6 @@ class Stage:
             elif kind in ("data", "bss", "COMMON"):
                 self.ram += int(rest[0])
 
-    def add_calls(self, path: Path) -> None:
-        graph = path.read_text()
-        for function, size in CI_FRAME.findall(graph):
-            self.frames[function] = int(size)
-            self.calls.setdefault(function, set())
-        for caller, callee in CI_CALL.findall(graph):
-            self.calls.setdefault(caller, set()).add(callee)
-
-
-def binutil(tool: str, *arguments: str | Path) -> list[str]:
-    command = [f"arm-none-eabi-{tool}", *map(str, arguments)]
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
-
-
-def short(function: str) -> str:
-    """The name alone; gcc puts the path of the source before that of a static function."""
-    return function.rsplit(":", 1)[-1]
-
 
 def paths_from(function: str, calls: dict[str, set[str]]) -> dict[str, list[str]]:
     """Everything that a function may call, each with a shortest chain of calls that leads there."""
@@ -124,7 +103,7 @@ def call_errors(stages: list[Stage]) -> list[str]:
             if function in found and function not in reported:
                 reported.update(found[function])
                 errors.append(f"{stage.name}: recursion: {chain(found[function])}")
-            if stage.name == "step":
+            if stage.name == "engine/step":
                 for callee in filter(DIVISION_64.fullmatch, found):
                     errors.append(f"step: 64-bit division: {chain(found[callee])}")
     return errors

@@ -8,15 +8,11 @@ packages its table 7.
 
 from __future__ import annotations
 
-import re
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
-PIN = re.compile(r"\bX\((\w+), ([A-K]), (\d+), (\w+)\)")
-TAKEN = re.compile(r'\bX\(([A-K]), (\d+), "([^"]+)"\)')
-DEFINE = re.compile(r'^#define (BOARD_\w+) "?([\w.]+)"?$', re.MULTILINE)
+from rkm04_tools.board_header import Pin, read_board
 
 # Which pins can be a channel of the step timer (alternate function 1) or the line (7).
 TIMER_CHANNELS = {
@@ -49,30 +45,6 @@ INPUTS = {"BI", "S1"}
 # set them up. What must be safe meanwhile cannot be there.
 PULLED_UP = {"A15": "JTDI", "B4": "NJTRST"}
 SAFE_AT_RESET = {"STEP", "DIR", "BO", "LINE"}
-
-
-@dataclass(frozen=True)
-class Pin:
-    """A row of BOARD_PINS; `pin` is as in A15."""
-
-    signal: str
-    pin: str
-    use: str
-
-
-@dataclass(frozen=True)
-class Board:
-    """What a board header says."""
-
-    pins: list[Pin]
-    taken: dict[str, str]
-    values: dict[str, str]
-
-
-def read_board(text: str) -> Board:
-    pins = [Pin(m[1], m[2] + m[3], m[4]) for m in PIN.finditer(text)]
-    taken = {m[1] + m[2]: m[3] for m in TAKEN.finditer(text)}
-    return Board(pins, taken, dict(DEFINE.findall(text)))
 
 
 def use_errors(pin: Pin, line: str) -> Iterator[str]:

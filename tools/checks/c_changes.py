@@ -1,6 +1,6 @@
 """Small changes of sources, listed by function and expression.
 
-    firmware/step/step_channel.c step_channel_init
+    firmware/engine/step/step_channel.c step_channel_init
     - .direction = 1
     + .direction = 0
 

@@ -1,12 +1,14 @@
 """Checks the limits of the house on every file of the project; prints FILE:LINE: what is wrong.
 
 Functions have at most 60 lines, sources at most 500, lines 120 columns. A flat opcode switch may be
-longer if the comment above its function says `house: flat switch`.
+longer if the comment above its function says `house: flat switch`. In firmware/ a header may
+include by a path, and only from a stage in the DEPS of its own.
 """
 
 from __future__ import annotations
 
 import ast
+import os
 import re
 import subprocess
 import sys
@@ -23,6 +25,8 @@ LONG_LINE = re.compile(rf"^.{{{COLUMNS + 1},}}$", re.MULTILINE)
 C_COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 C_FUNCTION = re.compile(r"^\{\n(.*?)^\}", re.DOTALL | re.MULTILINE)
 C_FLOAT = re.compile(r"\b(?:float|double)\b")
+C_PATH_INCLUDE = re.compile(r'^#include "([^"\n]*/)[^"/\n]*"', re.MULTILINE)
+STAGE_DEPS = re.compile(r"\bDEPS\b([^)]*)")
 C_TYPEDEF = re.compile(r"\btypedef (?:struct|enum|union)\b")
 # A path of somebody's machine, or a link that only works from one.
 MACHINE_PATH = re.compile(rf"{re.escape(str(ROOT))}\b|(?<![\w.])/(?:home|Users|root|mnt)/\w")
@@ -63,6 +67,21 @@ def check_firmware(text: str) -> Iterator[Finding]:
         yield match.start(), "a typedef hides what kind of type it is"
 
 
+def check_path_includes(path: Path, text: str) -> Iterator[Finding]:
+    """A path leads past the include folders that a stage was given."""
+    rules = path.parent / "CMakeLists.txt"
+    deps = STAGE_DEPS.search(rules.read_text(encoding="utf-8")) if rules.is_file() else None
+    for match in C_PATH_INCLUDE.finditer(text):
+        stage = os.path.relpath(path.parent / match[1], ROOT / "firmware")
+        if path.suffix != ".h":
+            yield match.start(), "a source includes by a path"
+        elif deps is None or stage.replace("/", "_") not in deps[1].split():
+            yield (
+                match.start(),
+                f"the header includes from {stage}, which is not in the stage's DEPS",
+            )
+
+
 def check_python(text: str) -> Iterator[Finding]:
     starts = [0, *(match.end() for match in re.finditer("\n", text))]
     for node in ast.walk(ast.parse(text)):
@@ -86,6 +105,8 @@ def check_file(path: Path) -> Iterator[Finding]:
         yield from check_c(text)
     if path.suffix in (".c", ".h") and name.startswith(("firmware/", "hal/include/")):
         yield from check_firmware(text)
+    if path.suffix in (".c", ".h") and name.startswith("firmware/"):
+        yield from check_path_includes(path, text)
     if path.suffix == ".py":
         yield from check_python(text)
 

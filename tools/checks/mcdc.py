@@ -16,7 +16,7 @@ import subprocess
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from checks.c_source import source, words
@@ -24,7 +24,7 @@ from checks.c_source import source, words
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build/mcdc"
 PROFILES = BUILD / "profiles"
-IMAGE_ONLY = ROOT / "firmware/main.c"  # what the tests have a main of their own for
+IMAGE_ONLY = ROOT / "firmware/rkm04/main.c"  # what the tests have a main of their own for
 LIST = Path(__file__).with_name("unreachable.txt")
 MCDC_PERCENT = 95.0
 VERSION = 19  # of clang and llvm
@@ -108,8 +108,8 @@ def read_files(merged: Path) -> list[dict[str, Any]]:
 
 
 def stage_of(name: str) -> str:
-    """The folder of a source; what stands above them all puts the unit together."""
-    return name.split("/")[0] if "/" in name else "unit"
+    """The folder of a source."""
+    return str(PurePosixPath(name).parent)
 
 
 def collect(files: Iterable[dict[str, Any]], sources: dict[str, str]) -> dict[str, Stage]:

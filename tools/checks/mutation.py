@@ -47,26 +47,35 @@ class Module:
     files: tuple[str, ...]
     programs: tuple[str, ...]  # none named: all of the folder
 
+    @property
+    def library(self) -> str:
+        return self.folder.replace("/", "_")
+
 
 MODULES = (
     Module(
-        "parser", "program", ("program_parser.c",),
+        "parser", "rkm04/program", ("program_parser.c",),
         ("program_parser", "program_check", "program_ranges"),
     ),
     Module(
-        "link", "link",
+        "link", "rkm04/link",
         ("link.c", "link_fcs.c", "link_frame.h", "link_receiver.c", "link_sender.c"),
         ("link", "link_errors", "link_fcs", "link_receiver", "link_sender"),
     ),
     Module(
-        "step", "step",
+        "step", "engine/step",
         ("step_generator.c", "step_generator.h", "step_channel.c", "step_channel.h"), (),
     ),
     Module(
-        "motion", "motion",
-        ("motion_leg.c", "motion_plan.c", "motion_point.c", "motion_profile.c", "motion_time.c",
-         "mover.c"), (),
+        "motion", "engine/motion",
+        (
+            "motion_corners.c", "motion_leg.c", "motion_legs.c", "motion_lookahead.c",
+            "motion_order.c", "motion_plan.c", "motion_point.c", "motion_profile.c",
+            "motion_replan.c", "motion_time.c",
+        ),
+        (),
     ),
+    Module("axis", "engine/axis", ("axis.c", "axis_state.c", "axis_stop.c"), ()),
 )  # fmt: skip
 
 
@@ -93,7 +102,7 @@ class Bench:
             path.stem.removeprefix("test_")
             for path in sorted((ROOT / "tests/unit" / module.folder).glob("test_*.c"))
         )
-        self.programs = [f"{module.folder}.{name}" for name in names]
+        self.programs = [f"{module.library}.{name}" for name in names]
         self.link = {name: self.link_command(name) for name in self.programs}
         self.original: dict[str, bytes] = {}
         self.restore()
@@ -119,8 +128,8 @@ class Bench:
 
     def test_source(self, program: str) -> Path:
         """The source of a test program."""
-        stage, _, name = program.partition(".")
-        return ROOT / "tests" / "unit" / stage / f"test_{name}.c"
+        name = program.partition(".")[2]
+        return ROOT / "tests" / "unit" / self.module.folder / f"test_{name}.c"
 
     def compile_one(self, original: Path, source: Path) -> Path | None:
         """Compile a source as the build does its original; None where that fails."""

@@ -155,7 +155,7 @@ def build(targets: set[str]) -> str:
 
 def target(bug: Bug) -> str:
     """What must be built for the test of a bug."""
-    return bug.test if bug.runner == "ctest" else "rkm04-programs"
+    return bug.test if bug.runner == "ctest" else "programs"
 
 
 def test_fails(bug: Bug) -> bool | None:

@@ -13,7 +13,7 @@ import re
 import sys
 from collections.abc import Iterator
 
-from checks.arm_check import binutil
+from rkm04_tools.objects import binutil
 
 SECTION = ".rel.ram"
 FLASH = range(0x0800_0000, 0x0810_0000)
@@ -24,7 +24,7 @@ REFERENCES_MIN = 100  # fewer mean that the image was linked without them
 ENTRIES = [
     *(f"stm32_{name}_interrupt" for name in ("step", "tick", "edge", "line", "plan")),
     *("stm32_fault_entry", "stm32_fault_stop"),
-    *("unit_tick_isr", "unit_plan_isr"),
+    *("rkm04_tick_isr", "rkm04_plan_isr"),
     *("hal_flash_read", "hal_flash_write_word", "hal_flash_erase"),
 ]
 

@@ -1,20 +1,26 @@
 """Runs every test and check of the project; tools/test prepares the machine and calls this.
 
 A C test counts once, from its run in the first preset; its runs in the other presets are one check
-each.
+each. The Python tests wait for most of their time, so the checks that need nothing from them run
+beside them.
 """
 
 from __future__ import annotations
 
 import argparse
+import io
 import os
 import re
+import signal
 import subprocess
 import sys
 import time
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Mapping
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import redirect_stdout
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 
@@ -23,6 +29,7 @@ BUILD = ROOT / "build"
 FUZZ_SECONDS = 10  # of exploration, each fuzzer
 LONG_MINUTES = 4  # the same with --long
 SOAK_MINUTES = 24 * 60  # of unit time, with --long
+NICENESS = 10  # of what runs beside the Python tests
 SWEEPS = {"RKM04_LONG": "1", "RKM04_PROGRAMS": "11000"}  # with --long; 10 000 compared
 
 UNITY_SUMMARY = re.compile(r"^(\d+) Tests (\d+) Failures (\d+) Ignored", re.MULTILINE)
@@ -126,11 +133,13 @@ def arm_check() -> Count:
 
 
 def python_tests() -> Count:
+    """One process more than there are cores, as they mostly wait."""
     results = BUILD / "pytest.xml"
     results.unlink(missing_ok=True)
     command = [
         *PYTHON, "pytest", "-q", "-c", CONFIG, "--rootdir", str(ROOT), "--junitxml", str(results),
-        "--hypothesis-profile", "ci", "--numprocesses", "logical", "--dist", "loadfile", "tests",
+        "--hypothesis-profile", "ci", "--numprocesses", str((os.cpu_count() or 1) + 1),
+        "--dist", "loadfile", "tests",
     ]  # fmt: skip
     status = subprocess.run(command, cwd=ROOT, env=ENVIRONMENT, stdin=subprocess.DEVNULL).returncode
     suite = ElementTree.parse(results).getroot().find("testsuite") if results.exists() else None
@@ -167,7 +176,7 @@ def sweeps() -> Count:
     stored = ["ctest", "--preset", "host", "-V", "-R", "power_cut|store_sweep|line_splits"]
     random = [
         *PYTHON, "pytest", "-q", "-rP", "-c", CONFIG, "--rootdir", str(ROOT),
-        "--numprocesses", "logical", "tests/property", "tests/proofs",
+        "--numprocesses", "logical", "tests/property", "tests/proofs", "tests/wasm",
     ]  # fmt: skip
     count = Count()
     for command in (stored, random):
@@ -226,32 +235,90 @@ def has_tiny_limits() -> bool:
     return any("RKM04_TINY_LIMITS" in path.read_text() for path in ROOT.glob("firmware/**/*.h"))
 
 
-def steps(quick: bool, fuzz_seconds: int = FUZZ_SECONDS) -> dict[str, Callable[[], Count]]:
+def steps_beside() -> dict[str, Callable[[], Count]]:
+    """The checks that need no more than the sources."""
     chosen: dict[str, Callable[[], Count]] = {
+        "House limits": lambda: check(sys.executable, "tools/checks/house.py"),
+        "Layout of C (clang-format)": c_layout,
+        "Python style and types": python_style,
+        "Static analysis (clang-tidy, complexity, MISRA)": lambda: (
+            check(*PYTHON, "checks.static") + check(*PYTHON, "checks.misra")
+        ),
+        "Objects for Cortex-M4 (arm-check)": arm_check,
+        "C tests under sanitizers (host-asan)": lambda: c_tests_again("host-asan"),
+    }
+    if has_tiny_limits():
+        chosen["C tests with tiny limits (tiny)"] = lambda: c_tests_again("tiny")
+    chosen["C tests from the second compiler, branches and decisions (mcdc)"] = mcdc
+    return chosen
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a step counted, what it has not printed yet, and how long it took."""
+
+    count: Count
+    text: str
+    seconds: float
+
+
+def take(step: Callable[[], Count]) -> Outcome:
+    started = time.monotonic()
+    count = step()
+    return Outcome(count, "", time.monotonic() - started)
+
+
+def taken(chosen: Mapping[str, Callable[[], Count]]) -> dict[str, Callable[[], Outcome]]:
+    return {title: partial(take, step) for title, step in chosen.items()}
+
+
+def take_beside(title: str) -> Outcome:
+    """A step in a process of its own, whose words are kept."""
+    with redirect_stdout(io.StringIO()) as text:
+        outcome = take(steps_beside()[title])
+    return Outcome(outcome.count, text.getvalue(), outcome.seconds)
+
+
+def stand_back() -> None:
+    """A process beside leaves the cores to the Python tests, and ends at Ctrl+C."""
+    os.nice(NICENESS)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def begin_beside(pool: ProcessPoolExecutor) -> dict[str, Callable[[], Outcome]]:
+    """Starts these checks, one after the other; what it returns waits for each."""
+    return {title: pool.submit(take_beside, title).result for title in steps_beside()}
+
+
+def build_fuzzers() -> bool:
+    """Called in the process beside."""
+    return build("fuzz")
+
+
+def steps(
+    pool: ProcessPoolExecutor, quick: bool, fuzz_seconds: int = FUZZ_SECONDS
+) -> dict[str, Callable[[], Outcome]]:
+    first: dict[str, Callable[[], Count]] = {
         "C tests (host)": lambda: c_tests_once("host"),
         "Python tests": python_tests,
     }
     if quick:
-        return chosen
-    every = ["--all"] if fuzz_seconds > FUZZ_SECONDS else []
+        return taken(first)
+    every = ["--all"] if fuzz_seconds > FUZZ_SECONDS else ["--stale"]
     contracts, models = begin_proofs("prove.py", *every), begin_proofs("line_model.py")
-    chosen["House limits"] = lambda: check(sys.executable, "tools/checks/house.py")
-    chosen["Layout of C (clang-format)"] = c_layout
-    chosen["Python style and types"] = python_style
-    chosen["Static analysis (clang-tidy, complexity, MISRA)"] = lambda: (
-        check(*PYTHON, "checks.static") + check(*PYTHON, "checks.misra")
-    )
-    chosen["Objects for Cortex-M4 (arm-check)"] = arm_check
-    chosen["C tests under sanitizers (host-asan)"] = lambda: c_tests_again("host-asan")
-    if has_tiny_limits():
-        chosen["C tests with tiny limits (tiny)"] = lambda: c_tests_again("tiny")
-    chosen["Proofs"] = lambda: contracts() + models()
-    chosen["C tests from the second compiler, branches and decisions (mcdc)"] = mcdc
+    last: dict[str, Callable[[], Count]] = {"Proofs": lambda: contracts() + models()}
     if fuzz_seconds > FUZZ_SECONDS:
-        chosen["Sweeps at every place"] = sweeps
-        chosen["A day of a unit"] = lambda: soak(SOAK_MINUTES)
-    chosen["Fuzzers (fuzz)"] = lambda: fuzzers(fuzz_seconds)
-    return chosen
+        last["Sweeps at every place"] = sweeps
+        last["A day of a unit"] = lambda: soak(SOAK_MINUTES)
+    beside = begin_beside(pool)
+    built = pool.submit(build_fuzzers)  # they explore by the clock: once the cores are theirs
+
+    def explore() -> Count:
+        built.result()
+        return fuzzers(fuzz_seconds)
+
+    last["Fuzzers (fuzz)"] = explore
+    return taken(first) | beside | taken(last)
 
 
 def long_steps() -> dict[str, Callable[[], Count]]:
@@ -277,13 +344,17 @@ def main() -> int:
     options = parser.parse_args()
     total = Count()
     fuzz_seconds = options.long * 60 if options.long else FUZZ_SECONDS
-    more = long_steps() if options.long and not options.quick else {}
-    for title, step in (steps(options.quick, fuzz_seconds) | more).items():
-        print(f"== {title}", flush=True)
-        started = time.monotonic()
-        count = step()
-        print(f"   {count}; {time.monotonic() - started:.1f} s\n", flush=True)
-        total += count
+    more = taken(long_steps()) if options.long and not options.quick else {}
+    pool = ProcessPoolExecutor(1, initializer=stand_back)
+    try:
+        for title, step in (steps(pool, options.quick, fuzz_seconds) | more).items():
+            print(f"== {title}", flush=True)
+            outcome = step()
+            print(outcome.text, end="")
+            print(f"   {outcome.count}; {outcome.seconds:.1f} s\n", flush=True)
+            total += outcome.count
+    finally:
+        pool.shutdown(cancel_futures=True)
     print(total)
     return 1 if total.failed else 0
 

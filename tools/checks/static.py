@@ -4,7 +4,7 @@
 
 Cyclomatic complexity is at most 10, a switch counting once however many cases it has: the flat
 switches of opcodes, states and registers are read case by case. MISRA has a ratchet of its own, in
-misra.py; recursion and stack are proved from the objects (arm_check.py, board_size.py).
+misra.py; recursion and stack are proved from the objects (arm_check.py, rkm04_tools/board_size.py).
 """
 
 from __future__ import annotations
@@ -21,13 +21,20 @@ import lizard
 
 ROOT = Path(__file__).resolve().parents[2]
 COMPLEXITY_MAX = 10
-BOARD = "rkm04-f405"
+BOARD = "f405"
 
-FIRMWARE = ("firmware/*.c", "firmware/*/*.c")
-HOST = ("hal/host/*.c", "tools/simulator/*.c", "tools/vboard/*.c")
+FIRMWARE = ("firmware/**/*.c",)
+HOST = (
+    "hal/host/*.c",
+    "tools/common/*.c",
+    "tools/simulator/*.c",
+    "tools/simulator/wasm/*.c",
+    "tools/vboard/*.c",
+)
 ARM = ("hal/stm32/*.c",)
-FOLDERS = ("firmware", "firmware/*/", "hal/include", "hal/host", "tools/simulator")
-ARM_FOLDERS = ("firmware", "firmware/*/", "hal/include", "hal/stm32", f"hal/stm32/boards/{BOARD}")
+STAGES = ("firmware/*/", "firmware/*/*/")
+FOLDERS = (*STAGES, "hal/include", "hal/host", "tools/common", "tools/simulator")
+ARM_FOLDERS = (*STAGES, "hal/include", "hal/stm32", f"hal/stm32/boards/{BOARD}")
 ARM_TARGET = ("--target=arm-none-eabi", "-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=soft")
 NEWLIB = "/usr/include/newlib"
 
@@ -38,16 +45,16 @@ FINDING = re.compile(
 LEFT: dict[tuple[str, str], str] = {
     (
         "bugprone-implicit-widening-of-multiplication-result",
-        "firmware/motion/motion_leg.c",
+        "firmware/engine/motion/motion_leg.c",
     ): "2 * A is at most 120 000",
     (
         "bugprone-implicit-widening-of-multiplication-result",
-        "firmware/motion/motion_point.c",
+        "firmware/engine/motion/motion_point.c",
     ): "2 * STEP_ACCEL_PER_ACCEL is small",
     ("clang-analyzer-optin.core.EnumCastOutOfRange", "tools/vboard/cost.c"): "flags of capstone",
     ("clang-analyzer-optin.core.EnumCastOutOfRange", "tools/vboard/cpu.c"): "flags of Unicorn",
     ("clang-analyzer-optin.core.EnumCastOutOfRange", "tools/vboard/run.c"): "flags of Unicorn",
-    ("clang-analyzer-unix.Stream", "tools/simulator/infile.c"): "the end is looked for by reading",
+    ("clang-analyzer-unix.Stream", "tools/common/infile.c"): "the end is looked for by reading",
 }
 
 

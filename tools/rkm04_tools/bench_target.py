@@ -16,9 +16,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from checks import board_size
-
-from rkm04_tools import profile, target_figures, target_reactions, target_run
+from rkm04_tools import board_size, profile, target_figures, target_reactions, target_run
 from rkm04_tools.bar import Bar
 from rkm04_tools.failure import DONE
 from rkm04_tools.table import rounded, table

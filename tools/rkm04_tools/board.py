@@ -14,15 +14,15 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from checks import board_size
-
-from rkm04_tools import board_part
+from rkm04_tools import board_part, board_size
 from rkm04_tools.failure import DONE, NO_CONNECTION, NOT_SO, Failure
 from rkm04_tools.table import table, thousands
 
 ROOT = Path(__file__).resolve().parents[2]
+PRESETS = ROOT / "CMakePresets.json"
 BOARDS = ROOT / "hal" / "stm32" / "boards"
-DEFAULT_BOARD = "rkm04-f405"
+UNIT = "rkm04"
+DEFAULT_BOARD = "f405"
 COMPILER = "arm-none-eabi-gcc"
 FLASH_ADDRESS = "0x08000000"
 SECTOR_BYTES = 16 * 1024
@@ -44,9 +44,14 @@ class Image:
     board: str
     folder: Path
 
+    @property
+    def name(self) -> str:
+        """Unit and board."""
+        return f"{UNIT}-{self.board}"
+
     def file(self, suffix: str) -> Path:
         """The file of one kind: elf, hex, bin."""
-        return self.folder / "bin" / f"{self.board}.{suffix}"
+        return self.folder / "bin" / f"{self.name}.{suffix}"
 
 
 @dataclass(frozen=True)
@@ -84,7 +89,7 @@ def names() -> list[str]:
 
 def version() -> str:
     """The version that the image answers with."""
-    match = re.search(r'UNIT_VERSION "([^"]+)"', (ROOT / "firmware" / "unit.h").read_text())
+    match = re.search(r'RKM04_VERSION "([^"]+)"', (ROOT / "firmware/rkm04/rkm04.h").read_text())
     return match[1] if match else ""
 
 
@@ -101,12 +106,19 @@ def build(board: str, target: str = "all") -> Image:
     image = image_of(board)
     if not shutil.which(COMPILER):
         _call([str(ROOT / "tools" / "setup"), "board"], "the compiler cannot be installed")
-    configure = ["cmake", "--preset", "stm32", "-B", str(image.folder), f"-DRKM04_BOARD={board}"]
+    configure = ["cmake", "--preset", "stm32", "-B", str(image.folder), f"-DFIRMWARE_BOARD={board}"]
     with _alone_in(image.folder) as lock:
-        _call(configure, "the build cannot be set up", lock)
+        if not _is_set_up(image.folder):
+            _call(configure, "the build cannot be set up", lock)
         building = ["cmake", "--build", str(image.folder), "--target", target]
         _call(building, "the image does not build", lock)
     return image
+
+
+def _is_set_up(folder: Path) -> bool:
+    """Whether a build knows the presets as they are; it looks after its other sources itself."""
+    made = folder / "build.ninja"
+    return made.exists() and made.stat().st_mtime > PRESETS.stat().st_mtime
 
 
 @contextmanager
@@ -135,7 +147,7 @@ def run_build(options: Namespace) -> int:
     if options.json:
         print(json.dumps({"board": image.board, "version": version(), "files": files}))
     else:
-        print(f"{image.board}, version {version()}")
+        print(f"{image.name}, version {version()}")
         print("\n".join(files))
     return DONE
 
@@ -187,7 +199,7 @@ def run_flash(options: Namespace) -> int:
     if options.json:
         print(json.dumps({"flashed": image.board, "flash_kb": kilobytes}))
     else:
-        print(f"{image.board} is flashed")
+        print(f"{image.name} is flashed")
         if kilobytes is None:
             print(f"{options.tool} does not tell the size of the flash: {SMALL_SIGN}")
     return DONE

@@ -9,9 +9,8 @@ import shlex
 import sys
 from argparse import ArgumentParser, Namespace
 
-from checks.board_pins import read_board
-
 from rkm04_tools import board
+from rkm04_tools.board_header import read_board
 from rkm04_tools.board_part import openocd
 from rkm04_tools.failure import DONE, NOT_SO, Failure
 

@@ -8,10 +8,9 @@ from argparse import Namespace
 from dataclasses import dataclass
 from typing import Any, TextIO
 
-from rkm04_tools.complaint import describe, without_comments
+from rkm04_tools import host
 from rkm04_tools.failure import DONE, NOT_SO, Failure
-from rkm04_tools.host import Parsed, opcode_rows, parse, program_path
-from rkm04_tools.lint import Remark, lint, stored
+from rkm04_tools.host import Parsed, Problem, program_path, stored
 from rkm04_tools.source import Place, Source, read_source
 
 SHOWN_MAX = 50
@@ -19,13 +18,17 @@ SHOWN_MAX = 50
 
 @dataclass(frozen=True)
 class Diagnostic:
-    """An error or a warning about a place of a file. Errors have the unit's flag, 1 or 2."""
+    """An error or a warning about a place of a file. Errors have the unit's flag, 1 or 2.
+
+    `end_column` is that after the command.
+    """
 
     place: Place
     severity: str
     rule: str
     message: str
     flag: int = 0
+    end_column: int = 0
 
     def as_json(self) -> dict[str, Any]:
         """For scripts."""
@@ -50,30 +53,13 @@ class Checked:
     @property
     def is_good(self) -> bool:
         """Whether the unit accepts it."""
-        return not self.parsed.errors
+        return self.parsed.is_good
 
 
-def check_source(source: Source, described: int | None = None) -> Checked:
-    """Parse a text; warnings are for texts without errors only.
-
-    Only the first of many errors are put into words if a number to be `described` is given.
-    """
-    parsed = parse(source.message)
-    if parsed.errors:
-        rows = opcode_rows()
-        errors = without_comments(source.text, parsed.errors)
-        found = [
-            Diagnostic(
-                source.place(error.offset),
-                "error",
-                "value" if error.flag == 1 else "command",
-                describe(source.text, error, rows),
-                error.flag,
-            )
-            for error in errors[:described]
-        ]
-        return Checked(source, parsed, found)
-    return Checked(source, parsed, [_warning(source, remark) for remark in lint(parsed.commands)])
+def check_source(source: Source) -> Checked:
+    """Check a text; warnings are for texts without errors only."""
+    parsed = host.check(source.text)
+    return Checked(source, parsed, [_diagnostic(problem) for problem in parsed.problems])
 
 
 def show(source: Source, diagnostic: Diagnostic, stream: TextIO) -> None:
@@ -91,7 +77,7 @@ def show_all(checked: Checked, stream: TextIO, but: str = "") -> None:
     for diagnostic in told[:SHOWN_MAX]:
         show(checked.source, diagnostic, stream)
     if (more := len(told) - SHOWN_MAX + checked.parsed.more) > 0:
-        what = "error" if checked.parsed.errors else "warning"
+        what = "warning" if checked.is_good else "error"
         print(f"{checked.source.name}: and {_count(more, f'more {what}')}", file=stream)
 
 
@@ -116,13 +102,14 @@ def run(options: Namespace) -> int:
     return status
 
 
-def _warning(source: Source, remark: Remark) -> Diagnostic:
-    return Diagnostic(source.place(remark.offset), "warning", remark.rule, remark.message)
+def _diagnostic(told: Problem) -> Diagnostic:
+    place = Place(told.line, told.column)
+    return Diagnostic(place, told.severity, told.rule, told.message, told.flag, told.end_column)
 
 
 def _report(checked: Checked) -> None:
     show_all(checked, sys.stdout)
-    errors = len(checked.diagnostics) + checked.parsed.more if checked.parsed.errors else 0
+    errors = 0 if checked.is_good else len(checked.diagnostics) + checked.parsed.more
     commands = len(stored(checked.parsed.commands))
     verdict = _count(errors, "error") if errors else _count(commands, "command")
     warnings = 0 if errors else len(checked.diagnostics)

@@ -13,6 +13,7 @@ from typing import Any, NoReturn, TypeAlias
 from rkm04_tools import bench, board, board_options, check, completion, serve
 from rkm04_tools.client_options import NODE_HELP, PORT_HELP, add_client_commands
 from rkm04_tools.failure import DONE, INTERRUPTED, NOT_SO, Failure
+from rkm04_tools.source import named
 
 SIM_NOTES = """\
 INPUTS has lines ms,input,level such as 350.5,3,1: BI3 becomes 1 at 350.5 ms.
@@ -132,9 +133,13 @@ def _bench(options: argparse.Namespace) -> int:
 
 def _service(options: argparse.Namespace) -> int:
     """Import the server only when it is needed: others have not even installed it."""
-    from rkm04_tools.service import command
+    from rkm04_tools.service import command, static
 
-    return command.run(options)
+    if options.static is None:
+        return command.run(options)
+    if (options.port, options.node, options.listen) != (None, None, None):
+        raise Failure("--static writes a page without a service; leave out the other options")
+    return static.write(named(options.static))
 
 
 def make_parser() -> Parser:
@@ -235,6 +240,7 @@ def _add_serve(commands: Commands) -> None:
 def _add_service(commands: Commands) -> None:
     title = "the service program: a page in the browser to write, see and run programs"
     example = "rkm04 service\n  rkm04 service --port COM5 --node 3 --no-browser"
+    example += "\n  rkm04 service --static build/page"
     command = _add(commands, "service", _service, title, f"{example}\n\n{SERVICE_NOTES}")
     command.add_argument("--port", metavar="PORT", help=f"connect there first; {PORT_HELP}")
     command.add_argument("--node", metavar="N", help=NODE_HELP)
@@ -245,6 +251,11 @@ def _add_service(commands: Commands) -> None:
     command.add_argument(
         "--no-browser", dest="browser", action="store_false", help="only print the address"
     )
+    command.add_argument(
+        "--static", metavar="DIR",
+        help="write the page into a folder instead, as one file that checks and simulates programs "
+        "by itself, without a service and so without a unit",
+    )  # fmt: skip
 
 
 def _add_bench(commands: Commands) -> None:

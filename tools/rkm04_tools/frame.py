@@ -1,4 +1,6 @@
-"""Frames of the line (firmware/docs/line.md): a message with address, number and FCS between flags.
+"""Frames of the line: a message with address, number and FCS between flags.
+
+The rules are those of firmware/rkm04/docs/line.md.
 
 The receiver takes any bytes and gives the good frames among them; what it drops it counts, by the
 same names as the unit.
@@ -126,7 +128,7 @@ class Receiver:
         self._content.append(byte)
 
     def _close(self) -> Frame | None:
-        """Judge what stands before a flag, and begin anew behind it."""
+        """Judge what stands before a flag, and begin anew after it."""
         content, fault = bytes(self._content), self._fault
         if self._escaping:
             fault = "ABORT"

@@ -13,7 +13,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -34,7 +34,7 @@ class Command:
 
     `offset` is that of its letter; `opcode` the name of its row in program_opcodes.def; `io` the
     input or variable of a conditional jump, else 0; `value` its number, else 0; `text` its
-    canonical form.
+    canonical form; `ordinal` its place in program memory, 0 if it is not stored.
     """
 
     offset: int
@@ -42,23 +42,37 @@ class Command:
     io: int
     value: int
     text: str
+    ordinal: int = 0
 
 
 @dataclass(frozen=True)
-class ParseError:
-    """What the parser refused: `flag` 1 = wrong value, 2 = unknown command, at `offset`."""
+class Problem:
+    """An error or a warning about a command. Errors have the unit's flag, 1 or 2."""
 
-    offset: int
+    line: int
+    column: int
+    end_column: int
+    severity: str
+    rule: str
     flag: int
+    message: str
 
 
 @dataclass(frozen=True)
 class Parsed:
-    """All commands and all errors of a text, in its order; `more` errors are not listed."""
+    """All commands of a text, and its errors or else its warnings, in its order.
+
+    `more` errors are not listed.
+    """
 
     commands: list[Command]
-    errors: list[ParseError]
+    problems: list[Problem]
     more: int = 0
+
+    @property
+    def is_good(self) -> bool:
+        """Whether the unit accepts it."""
+        return not any(problem.flag for problem in self.problems)
 
 
 @dataclass(frozen=True)
@@ -70,24 +84,31 @@ class OpcodeRow:
     form: str
     min: int
     max: int
+    meaning: str
 
 
-def parse(message: bytes) -> Parsed:
-    """Parse a text as the unit does."""
-    answer = _answer(["check", "-"], message)
+def check(text: str) -> Parsed:
+    """Parse a text as the unit does; what is wrong with it, in words."""
+    answer = _answer(["check", "-"], text.encode("utf-8", "surrogatepass"))
     commands = [
-        Command(c["offset"], c["opcode"], c["io"], c["value"], c["text"])
+        Command(c["offset"], c["opcode"], c["io"], c["value"], c["text"], c["ordinal"])
         for c in answer["commands"]
     ]
-    errors = [ParseError(e["offset"], e["flag"]) for e in answer["errors"]]
-    return Parsed(commands, errors, answer["more"])
+    names = [field.name for field in fields(Problem)]
+    problems = [Problem(*(told[name] for name in names)) for told in answer["problems"]]
+    return Parsed(commands, problems, answer["more"])
+
+
+def stored(commands: Sequence[Command]) -> list[Command]:
+    """The commands that program memory keeps of a text, in the order of their ordinals from 1."""
+    return [command for command in commands if command.ordinal]
 
 
 @cache
 def opcode_rows() -> list[OpcodeRow]:
     """The table of all commands."""
     rows = _answer(["opcodes"])["opcodes"]
-    return [OpcodeRow(r["name"], r["letter"], r["form"], r["min"], r["max"]) for r in rows]
+    return [OpcodeRow(**row) for row in rows]
 
 
 def simulate(arguments: Sequence[str], pipes: Sequence[int] = ()) -> dict[str, Any]:

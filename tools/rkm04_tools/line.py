@@ -7,8 +7,8 @@
 
 Every call ends: with an answer, or with an error of `line_errors` that says what to do. A request
 that gets no answer is repeated with the same number, so that the unit executes it once at most,
-and a unit that has restarted refuses it (firmware/docs/line.md). Calls from several threads take
-turns.
+and a unit that has restarted refuses it (firmware/rkm04/docs/line.md). Calls from several
+threads take turns.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The messages of firmware/docs/messages.md: requests as bytes, answers as types."""
+"""The messages of firmware/rkm04/docs/messages.md: requests as bytes, answers as types."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def parse_set_command(answer: bytes, motor: int) -> bool:
         raise WrongAnswer(NAMES[SET_COMMAND], answer)
     flag, character = content[0], content[1:].decode("ascii", "backslashreplace")
     if flag in (FLAG_VALUE, FLAG_UNKNOWN):
-        what = "the value behind" if flag == FLAG_VALUE else "the command"
+        what = "the value after" if flag == FLAG_VALUE else "the command"
         shown = character if character.isprintable() else f"code {content[1]}"
         raise UnitRefused(
             f"the unit refuses {what} {shown} (flag {flag}); nothing of it was stored or run",

@@ -14,8 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from checks.arm_check import binutil
-
+from rkm04_tools.objects import binutil
 from rkm04_tools.table import table
 
 TIMER = range(0x4000_0000, 0x4000_0400)

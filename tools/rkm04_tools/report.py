@@ -8,8 +8,7 @@ from functools import cached_property
 from typing import Any, TextIO
 
 from rkm04_tools.check import Checked, Diagnostic, show
-from rkm04_tools.host import Command
-from rkm04_tools.lint import stored
+from rkm04_tools.host import Command, stored
 from rkm04_tools.source import Place
 from rkm04_tools.table import rounded, table, thousands
 

@@ -1,7 +1,7 @@
 """How a program goes to a motor: which messages, in which order, so that none of it runs too early.
 
 Programs go in canonical form, cut at borders of commands. What needs several messages must not run
-before all of it has arrived. So `[` goes before it and `]` behind. Where that would change the
+before all of it has arrived. So `[` goes before it and `]` after. Where that would change the
 program, because it has brackets of its own (one `]` releases every `[`) or leaves no room for two
 more, the motor is reset, held by `[`, and stopped by K; `]` is the first command after that, and
 C75 follows the last message. (K alone does nothing to a motor at rest.)
@@ -21,9 +21,8 @@ from typing import TYPE_CHECKING
 from rkm04_tools.check import Checked, check_source
 from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.frame import BROADCAST
-from rkm04_tools.host import Command, parse
+from rkm04_tools.host import Command, check, stored
 from rkm04_tools.line_errors import UnitRefused, UnitRestarted, UnknownMessage
-from rkm04_tools.lint import ALONE, COMMANDS_MAX, stored
 from rkm04_tools.messages import ALL_MOTORS, MOTORS
 from rkm04_tools.source import Source
 
@@ -34,6 +33,7 @@ FRAME_BYTES_MAX = 1024
 ENVELOPE_BYTES_MAX = 2 + 1 + 2 + 2 + 4
 """Flags, address, number, message number and motor, FCS; number and FCS may be escaped."""
 TEXT_BYTES_MAX = FRAME_BYTES_MAX - ENVELOPE_BYTES_MAX
+COMMANDS_MAX = 700
 STAND_SECONDS = 30.0
 POLL_SECONDS = 0.05
 
@@ -113,10 +113,10 @@ def without_hold(held: Sequence[str]) -> list[str]:
 def plan_program(checked: Checked) -> Plan:
     """Choose the messages for a program without errors."""
     alone = checked.parsed.commands
-    if len(alone) == 1 and alone[0].opcode in ALONE:
+    if len(alone) == 1 and alone[0].opcode in SENT_BY:
         return Plan(checked, [], Hold.NOTHING, [alone[0].text], [])
-    before, reset, behind = _at_last_reset(checked.parsed.commands)
-    left_out = [command for command in behind if command.opcode in ALONE]
+    before, reset, after = _at_last_reset(checked.parsed.commands)
+    left_out = [command for command in after if command.opcode in SENT_BY]
     commands = stored(checked.parsed.commands)
     notes = [_left_out_note(checked.source, command) for command in left_out]
     if before:
@@ -142,8 +142,8 @@ def plan_program(checked: Checked) -> Plan:
 
 def held_commands(motor: Motor) -> list[str]:
     """The commands in the memory of a motor, in canonical form."""
-    parsed = parse(motor.program().encode("ascii"))
-    if parsed.errors:
+    parsed = check(motor.program())
+    if not parsed.is_good:
         raise Failure(
             f"motor {motor.number} of unit {motor.unit.node} holds a program that this tool does "
             "not understand; does the unit have other software?",
@@ -183,7 +183,7 @@ def _send_texts(motor: Motor, plan: Plan, tell: Tell, session: int | None = None
     for done, text in enumerate(plan.texts):
         tell(done, len(plan.texts))
         if session is not None and session != _session(motor):
-            # A question in between has begun a new one, behind which the unit may be another.
+            # A question in between has begun a new one, after which the unit may be another.
             raise UnitRestarted(f"unit {motor.unit.node}", repeated=False)
         try:
             overflow = motor.command(text) or overflow
@@ -196,7 +196,7 @@ def _send_texts(motor: Motor, plan: Plan, tell: Tell, session: int | None = None
 
 
 def _at_last_reset(commands: Sequence[Command]) -> tuple[list[Command], bool, list[Command]]:
-    """The commands before the last `\\`, whether there is one, and those behind it."""
+    """The commands before the last `\\`, whether there is one, and those after it."""
     resets = [index for index, command in enumerate(commands) if command.opcode == "RESET"]
     if not resets:
         return [], False, list(commands)

@@ -48,7 +48,7 @@ class Files:
 
 
 def message(checked: Checked, alone: bool) -> bytes:
-    """The text of a program; one that is not alone is held behind its last reset."""
+    """The text of a program; one that is not alone is held after its last reset."""
     text = checked.source.message
     resets = [c.offset for c in checked.parsed.commands if c.opcode == "RESET"]
     at = resets[-1] + 1 if resets else 0

@@ -1,6 +1,6 @@
 """Get Status (message 200): what a unit is like, in one answer of fixed layout.
 
-The layout is that of firmware/docs/messages.md. Later ones only add bytes behind it, and new bits
+The layout is that of firmware/rkm04/docs/messages.md. Later ones only add bytes, and new bits
 and numbers, which are passed by or told as numbers here.
 """
 

@@ -13,14 +13,12 @@ from collections.abc import Callable, Sequence
 
 from rkm04_tools.check import Checked
 from rkm04_tools.failure import NOT_SO, Failure
-from rkm04_tools.flow import JUMPS
 from rkm04_tools.frame import BROADCAST
-from rkm04_tools.host import Command
+from rkm04_tools.host import Command, stored
 from rkm04_tools.line import Motor
 from rkm04_tools.line_errors import UnitRefused, UnitRestarted, UnknownMessage
-from rkm04_tools.lint import COMMANDS_MAX, stored
 from rkm04_tools.messages import ALL_MOTORS
-from rkm04_tools.sending import Plan, Sent, Tell, placed
+from rkm04_tools.sending import COMMANDS_MAX, Plan, Sent, Tell, placed
 from rkm04_tools.source import Source
 from rkm04_tools.status import MotorStatus
 
@@ -31,6 +29,7 @@ SPAN_MAX = 600
 POLL_SECONDS = 0.05
 LOCK = 40
 """The function with which a full memory ignores what comes."""
+JUMPS = frozenset({"JUMP", "JUMP_IF_HIGH", "JUMP_IF_LOW"})
 
 Say = Callable[[str], None]
 

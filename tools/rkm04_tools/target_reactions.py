@@ -1,6 +1,6 @@
 """How soon an edge at an input changes the pulses of the image: for `bench --target stm32`.
 
-A stop takes effect at a pulse: up to it all pulses come as if nothing had been, behind it the ramp
+A stop takes effect at a pulse: up to it all pulses come as if nothing had been, after it the ramp
 down begins. So two times belong to each edge: until the pulse at which the ramp begins (0 if that
 was before the edge), and until the first pulse that comes at another time. The edges come at random
 phases to the pulses.
@@ -90,7 +90,7 @@ def braking(ticks: np.ndarray, edge: int, interval: int) -> tuple[float, float]:
     changed = (ticks[1:] > edge) & (np.diff(ticks) != interval)
     first = int(changed.argmax())
     if not changed[first]:
-        raise ValueError("no pulse has changed behind the edge")
+        raise ValueError("no pulse has changed after the edge")
     return max(int(ticks[first]) - edge, 0) / TICKS_PER_US, (
         int(ticks[first + 1]) - edge
     ) / TICKS_PER_US
@@ -98,8 +98,8 @@ def braking(ticks: np.ndarray, edge: int, interval: int) -> tuple[float, float]:
 
 def halting(ticks: np.ndarray, edge: int, until: int) -> float:
     """How long after an edge the last pulse of a limit run came, in us; 0 if none came."""
-    behind = ticks[(ticks > edge) & (ticks <= until)]
-    return (int(behind[-1]) - edge) / TICKS_PER_US if len(behind) else 0.0
+    after = ticks[(ticks > edge) & (ticks <= until)]
+    return (int(after[-1]) - edge) / TICKS_PER_US if len(after) else 0.0
 
 
 def measure(rig: Rig) -> list[Reaction]:
@@ -150,7 +150,7 @@ def _run(
 
 
 def guard(rig: Rig, speed: int, motors: int, *, busy: bool = False) -> Reaction:
-    """Moves that a guard stops, one behind the other."""
+    """Moves that a guard stops, one after the other."""
     reaction = Reaction("guard", speed, motors, busy=busy)
     text = GUARD % (START_SPEED, speed, ACCEL, round(PAUSE_MS))
     line = programs(

@@ -163,7 +163,7 @@ class Rig:
     @property
     def bench_elf(self) -> Path:
         """The bench image."""
-        return self.elf.with_name(f"{self.image.board}-bench.elf")
+        return self.elf.with_name(f"{self.image.name}-bench.elf")
 
     def beside(self, name: str, model: Model) -> Rig:
         """The same in a folder of its own."""

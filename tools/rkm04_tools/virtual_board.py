@@ -12,10 +12,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from checks.board_pins import Board, read_board
-
 from rkm04_tools import child, host
 from rkm04_tools.board import BOARDS
+from rkm04_tools.board_header import Board, read_board
 from rkm04_tools.failure import NOT_SO, Failure
 
 PROGRAM = "rkm04-vboard"

@@ -1,4 +1,5 @@
-// Bundles the page into the directory $RKM04_SERVICE_OUT: index.html, page.js, page.css and icon.svg, nothing else.
+// Bundles the page into the directory $RKM04_SERVICE_OUT: index.html, page.js, page.css, engine.js (the
+// worker of a page without a service) and icon.svg, nothing else.
 import { build } from "esbuild";
 import { copyFile, mkdir } from "node:fs/promises";
 import { join } from "node:path";
@@ -15,6 +16,16 @@ await build({
     bundle: true,
     minify: true,
     format: "esm",
+    target: ["chrome109", "firefox115", "safari16"],
+    legalComments: "eof",
+    logLevel: "warning",
+});
+await build({
+    entryPoints: [{ in: "src/engine_worker.ts", out: "engine" }],
+    outdir: out,
+    bundle: true,
+    minify: true,
+    format: "iife",
     target: ["chrome109", "firefox115", "safari16"],
     legalComments: "eof",
     logLevel: "warning",

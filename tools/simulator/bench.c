@@ -142,9 +142,9 @@ static void print_simulation(struct run *run)
 {
     static const char request[] = "\x02"
                                   "0S2000 V16000 A60000 G+";
-    uint8_t answer[PROTOCOL_ANSWER_BYTES_MAX];
+    uint8_t answer[MESSAGES_ANSWER_BYTES_MAX];
     run_begin(run, 0);
-    (void)unit_message(&run->unit, (const uint8_t *)request, (uint32_t)strlen(request), answer);
+    (void)rkm04_message(&run->unit, (const uint8_t *)request, (uint32_t)strlen(request), answer);
     run_until(run, (uint64_t)SIMULATED_SECONDS * TICK_HZ);
     (void)printf("\"simulation\":{\"program\":\"%s\",\"motors\":%d,\"seconds\":%d,\"pulses\":%" PRIu64 ",\"ratio\":",
                  request + 2, UNIT_MOTORS, SIMULATED_SECONDS, run->machine.pulses);

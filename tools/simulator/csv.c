@@ -14,9 +14,9 @@ static const char *const event_texts[] = {
 #undef X
 };
 
-static const char *const stop_texts[] = {
-#define X(name, text) text,
-    HAL_TRACE_STOPS(X)
+static const char *const stop_texts[AXIS_CAUSES] = {
+#define X(name, text) [AXIS_CAUSE_##name] = (text),
+    INTERPRETER_CAUSES(X)
 #undef X
 };
 

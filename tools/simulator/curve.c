@@ -17,7 +17,7 @@ enum {
 
 static_assert(CURVE_POINTS_MIN - THIN_POINTS_PER_COLUMN >= 0, "a line has a column at least");
 
-/* Keeps a point if it belongs to the part, or is the one before or behind it. */
+/* Keeps a point if it belongs to the part, or is the one before or after it. */
 static void put_point(const struct curve *curve, struct curve_motor *motor, uint64_t tick, int64_t milli_speed)
 {
     motor->tick = tick > motor->tick ? tick : motor->tick;

@@ -48,7 +48,7 @@ struct curve_motor {
     int64_t steps_before;     /* the position at the beginning of the part */
     struct thin_point before; /* the last point before the part */
     bool has_before;
-    bool is_over; /* a point behind the part has been taken */
+    bool is_over; /* a point after the part has been taken */
     bool moving;
     bool fresh;    /* a move has begun and made no step yet */
     uint64_t tick; /* of the last point; of events that come too late as well */

@@ -5,10 +5,11 @@
 #include "complain.h"
 #include "program_listing.h"
 #include "program_parser.h"
+#include "source.h"
 
 enum {
     HEAD_BYTES = 2, /* message number and motor */
-    TEXT_BYTES_MAX = PROTOCOL_REQUEST_BYTES_MAX - HEAD_BYTES,
+    TEXT_BYTES_MAX = MESSAGES_REQUEST_BYTES_MAX - HEAD_BYTES,
     ANSWER_BYTES = 4, /* message number, motor, flag, character */
     FLAG_VALUE = 1,
     FLAG_UNKNOWN = 2,
@@ -18,17 +19,35 @@ enum {
 /* A Set Command message on its way. */
 struct part {
     struct feed *feed;
-    struct unit *unit;
+    struct rkm04 *unit;
     unsigned motor;
     uint32_t length; /* of the text so far */
-    uint8_t request[PROTOCOL_REQUEST_BYTES_MAX];
+    uint8_t request[MESSAGES_REQUEST_BYTES_MAX];
 };
+
+/* From UTF-8 to one byte for each character, as the line carries it. False after a complaint. */
+static bool decode(struct infile *program)
+{
+    struct source text;
+    if (!source_read(&text, program)) {
+        return false;
+    }
+    memcpy(program->bytes, text.message, text.length + 1U);
+    program->length = text.length;
+    source_discard(&text);
+    return true;
+}
+
+static bool read_program(struct infile *program, const char *path)
+{
+    return infile_read(program, path) && decode(program);
+}
 
 bool feed_read(struct feed *feed, const char *const paths[UNIT_MOTORS])
 {
     *feed = (struct feed){.overflow = {false}};
     for (unsigned i = 0; i < UNIT_MOTORS; i++) {
-        if (paths[i] != NULL && !infile_read(&feed->programs[i], paths[i])) {
+        if (paths[i] != NULL && !read_program(&feed->programs[i], paths[i])) {
             feed_discard(feed);
             return false;
         }
@@ -52,10 +71,10 @@ static void complain_of(const struct infile *program, unsigned motor, uint8_t fl
 /* Sends the message and begins a new one. False after a complaint. */
 static bool part_send(struct part *part)
 {
-    uint8_t answer[PROTOCOL_ANSWER_BYTES_MAX] = {0};
-    part->request[0] = PROTOCOL_SET_COMMAND;
+    uint8_t answer[MESSAGES_ANSWER_BYTES_MAX] = {0};
+    part->request[0] = MESSAGES_SET_COMMAND;
     part->request[1] = (uint8_t)('1' + part->motor);
-    uint32_t length = unit_message(part->unit, part->request, HEAD_BYTES + part->length, answer);
+    uint32_t length = rkm04_message(part->unit, part->request, HEAD_BYTES + part->length, answer);
     part->length = 0;
     if (length != ANSWER_BYTES || answer[2] == FLAG_VALUE || answer[2] == FLAG_UNKNOWN) {
         complain_of(&part->feed->programs[part->motor], part->motor, answer[2], answer[3]);
@@ -104,7 +123,7 @@ static bool fits_when_listed(const struct infile *program)
     return length <= TEXT_BYTES_MAX;
 }
 
-/* A `\` forgets what came before it, the `[` too: behind it stands another. */
+/* A `\` forgets what came before it, the `[` too: another follows. */
 static bool part_append_command(struct part *part, const struct program_instruction *instruction)
 {
     uint8_t text[PROGRAM_COMMAND_BYTES_MAX];
@@ -148,7 +167,7 @@ static bool send_program(struct part *part, const struct infile *program)
     return part_append(part, program->bytes, program->length) && part_send(part);
 }
 
-bool feed_send(struct feed *feed, struct unit *unit)
+bool feed_send(struct feed *feed, struct rkm04 *unit)
 {
     struct part part = {.feed = feed, .unit = unit};
     for (part.motor = 0; part.motor < UNIT_MOTORS; part.motor++) {

@@ -36,7 +36,7 @@ static const char *skip_blanks(const char *at, const char *end)
     return at;
 }
 
-/* Reads one field and what must stand behind it: a comma, or with `last` the end of the line. */
+/* Reads one field and what must follow: a comma, or with `last` the end of the line. */
 static bool read_field(const char **at, const char *end, unsigned decimals, uint64_t max, bool last, uint64_t *value)
 {
     *at = skip_blanks(*at, end);

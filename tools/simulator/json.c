@@ -26,6 +26,18 @@ void json_print_string(const char *string)
     json_print_text(string, strlen(string));
 }
 
+void json_print_utf8(const char *string)
+{
+    (void)putchar('"');
+    for (; *string != '\0'; string++) {
+        if (*string == '"' || *string == '\\') {
+            (void)putchar('\\');
+        }
+        (void)putchar(*string);
+    }
+    (void)putchar('"');
+}
+
 void json_print_fixed(uint64_t value, unsigned decimals)
 {
     char text[LINE_NUMBER_BYTES_MAX];

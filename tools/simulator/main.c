@@ -12,14 +12,14 @@
 #include "opcodes.h"
 #include "options.h"
 #include "parent.h"
-#include "run.h"
 #include "serve.h"
+#include "sim.h"
 
 static enum exit_status command_sim(int count, char *const arguments[])
 {
     struct options options;
     enum exit_status status = options_read(&options, count, arguments);
-    return status == EXIT_DONE ? run_simulation(&options) : status;
+    return status == EXIT_DONE ? sim_run(&options) : status;
 }
 
 static bool is_help(const char *argument)
@@ -55,7 +55,7 @@ static enum exit_status command_check(int count, char *const arguments[])
 static enum exit_status command_alone(const char *name, int count, enum exit_status (*command)(void))
 {
     if (count != 0) {
-        complain("%s wants nothing behind it; write rkm04-host %s", name, name);
+        complain("%s wants nothing after it; write rkm04-host %s", name, name);
         return EXIT_USAGE;
     }
     return command();
@@ -88,9 +88,7 @@ static enum exit_status run_command(const char *name, int count, char *const arg
 int main(int argc, char *argv[])
 {
     parent_bind();
-    if (argc > 0) {
-        complain_as(argv[0]);
-    }
+    complain_as(argc > 0 ? argv[0] : "rkm04-host");
     if (argc < 2) {
         complain("nothing to do; write sim, serve, check, opcodes, bench or --help");
         return EXIT_USAGE;

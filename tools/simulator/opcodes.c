@@ -8,9 +8,11 @@
 #include "json.h"
 #include "program_instruction.h"
 #include "program_memory.h"
-#include "protocol.h"
+#include "messages.h"
 #include "summary.h"
-#include "unit.h"
+#include "rkm04.h"
+#include "interpreter.h"
+#include "words.h"
 
 struct name {
     const char *name;
@@ -25,9 +27,14 @@ static const char *const form_names[] = {
 
 #define X(name, text) {#name, text},
 static const struct name events[] = {HAL_TRACE_EVENTS(X)};
-static const struct name stops[] = {HAL_TRACE_STOPS(X)};
 static const struct name errors[] = {INTERPRETER_ERRORS(X)};
 #undef X
+
+static const struct name stops[AXIS_CAUSES] = {
+#define X(name, text) [AXIS_CAUSE_##name] = {#name, text},
+    INTERPRETER_CAUSES(X)
+#undef X
+};
 
 static void print_opcodes(void)
 {
@@ -35,8 +42,8 @@ static void print_opcodes(void)
         const struct program_row *row = program_opcode_row(i);
         (void)printf("%s{\"name\":\"%s\",\"letter\":", i == 0 ? "\n" : ",\n", row->name);
         json_print_text((const char *)&row->letter, 1);
-        (void)printf(",\"form\":\"%s\",\"min\":%" PRId32 ",\"max\":%" PRId32 "}", form_names[row->form], row->min,
-                     row->max);
+        (void)printf(",\"form\":\"%s\",\"min\":%" PRId32 ",\"max\":%" PRId32 ",\"meaning\":\"%s\"}",
+                     form_names[row->form], row->min, row->max, words_meaning(i));
     }
 }
 
@@ -67,7 +74,7 @@ static void print_messages(void)
 #define X(name, number)                                                                                                \
     (void)printf("%s\"%s\":%d", before, #name, (number));                                                              \
     before = ",";
-    PROTOCOL_MESSAGES(X)
+    MESSAGES_MESSAGES(X)
 #undef X
     (void)putchar('}');
     (void)before;
@@ -84,6 +91,6 @@ enum exit_status opcodes_print(void)
     print_states();
     print_messages();
     (void)printf(",\n\"tick_hz\":%" PRIu32 ",\"commands_max\":%d,\"message_bytes_max\":%d,\"version\":\"%s\"}\n",
-                 TICK_HZ, PROGRAM_COMMANDS_MAX, PROTOCOL_REQUEST_BYTES_MAX, UNIT_VERSION);
+                 TICK_HZ, PROGRAM_COMMANDS_MAX, MESSAGES_REQUEST_BYTES_MAX, RKM04_VERSION);
     return finish_output();
 }

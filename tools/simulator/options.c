@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "line.h"
+#include "arguments.h"
 #include "units.h"
 
 enum {
@@ -25,7 +25,7 @@ const char options_usage[] =
     "       rkm04-host bench\n"
     "\n"
     "sim      runs programs on the simulated unit and prints a summary (JSON)\n"
-    "         --motor N=FILE  the program of motor 1 to 4, as the line carries it; once per motor\n"
+    "         --motor N=FILE  the program of motor 1 to 4 (UTF-8); once per motor\n"
     "         --inputs FILE   levels of the inputs over time: lines ms,input,level\n"
     "         --for SECONDS   ends after so much of the unit's time if not before (60)\n"
     "         --steps, --trace, --vcd  write pulses, events, waveforms\n"
@@ -41,8 +41,9 @@ const char options_usage[] =
     "\n"
     "example: rkm04-host sim --motor 1=loop.rks --for 2.5 --steps steps.csv\n";
 
-static bool read_motor(struct options *options, const char *value)
+static bool read_motor(void *target, const char *value)
 {
+    struct options *options = target;
     if (value[0] < '1' || value[0] > '0' + UNIT_MOTORS || value[1] != '=' || value[2] == '\0') {
         complain("--motor %s: not a motor and its program; write 1= to 4= and a file, as 1=loop.rks", value);
         return false;
@@ -56,16 +57,11 @@ static bool read_motor(struct options *options, const char *value)
     return true;
 }
 
-static bool read_number(const char *value, unsigned decimals, uint64_t max, uint64_t *number)
+static bool read_duration(void *target, const char *value)
 {
-    const char *at = value;
-    const char *end = value + strlen(value);
-    return line_read_fixed(&at, end, decimals, max, number) && at == end;
-}
-
-static bool read_duration(struct options *options, const char *value)
-{
-    if (!read_number(value, SECONDS_DECIMALS, DURATION_NS_MAX, &options->duration_ns) || options->duration_ns == 0) {
+    const struct argument_number range = {.decimals = SECONDS_DECIMALS, .least = 1, .most = DURATION_NS_MAX};
+    struct options *options = target;
+    if (!arguments_read_number(value, range, &options->duration_ns)) {
         complain("--for %s: not a time; write seconds above 0 with up to 9 decimals, as 2.5", value);
         return false;
     }
@@ -74,43 +70,50 @@ static bool read_duration(struct options *options, const char *value)
 
 static bool read_seconds(const char *name, const char *value, uint64_t *ns)
 {
-    if (!read_number(value, SECONDS_DECIMALS, DURATION_NS_MAX, ns)) {
+    const struct argument_number range = {.decimals = SECONDS_DECIMALS, .most = DURATION_NS_MAX};
+    if (!arguments_read_number(value, range, ns)) {
         complain("%s %s: not a time; write seconds with up to 9 decimals, as 2.5", name, value);
         return false;
     }
     return true;
 }
 
-static bool read_from(struct options *options, const char *value)
+static bool read_from(void *target, const char *value)
 {
+    struct options *options = target;
     uint64_t ns = 0;
     bool good = read_seconds("--from", value, &ns);
     options->paths.range.from_tick = units_ticks_of_ns(ns);
     return good;
 }
 
-static bool read_to(struct options *options, const char *value)
+static bool read_to(void *target, const char *value)
 {
+    struct options *options = target;
     uint64_t ns = 0;
     bool good = read_seconds("--to", value, &ns);
     options->paths.range.to_tick = units_ticks_of_ns(ns);
     return good;
 }
 
-static bool read_real(struct options *options, const char *value)
+static bool read_real(void *target, const char *value)
 {
+    struct options *options = target;
     return read_seconds("--real", value, &options->real_ns);
 }
 
-static bool read_progress(struct options *options, const char *value)
+static bool read_progress(void *target, const char *value)
 {
+    struct options *options = target;
     return read_seconds("--progress", value, &options->progress_ns);
 }
 
-static bool read_points(struct options *options, const char *value)
+static bool read_points(void *target, const char *value)
 {
+    struct options *options = target;
+    const struct argument_number range = {.least = CURVE_POINTS_MIN, .most = CURVE_POINTS_MAX};
     uint64_t points = 0;
-    if (!read_number(value, 0, CURVE_POINTS_MAX, &points) || points < CURVE_POINTS_MIN) {
+    if (!arguments_read_number(value, range, &points)) {
         complain("--points %s: write how many points a curve may have, %d to %d", value, CURVE_POINTS_MIN,
                  CURVE_POINTS_MAX);
         return false;
@@ -119,70 +122,38 @@ static bool read_points(struct options *options, const char *value)
     return true;
 }
 
-static bool read_epoch(struct options *options, const char *value)
+static bool read_epoch(void *target, const char *value)
 {
-    if (!read_number(value, 0, EPOCH_MAX, &options->epoch)) {
+    struct options *options = target;
+    if (!arguments_read_number(value, (struct argument_number){.most = EPOCH_MAX}, &options->epoch)) {
         complain("--epoch %s: not a time; write ticks from 0 to 10^18, as 4294967295", value);
         return false;
     }
     return true;
 }
 
-/* The option that is a path only; null if there is none of this name. */
-static const char **find_path(struct options *options, const char *name)
-{
-    if (strcmp(name, "--inputs") == 0) {
-        return &options->inputs;
-    }
-    if (strcmp(name, "--steps") == 0) {
-        return &options->paths.steps;
-    }
-    if (strcmp(name, "--trace") == 0) {
-        return &options->paths.trace;
-    }
-    if (strcmp(name, "--curve") == 0) {
-        return &options->paths.curve;
-    }
-    return strcmp(name, "--vcd") == 0 ? &options->paths.vcd : NULL;
-}
+static const struct argument rows[] = {
+    ARGUMENT_TEXT_ROW(options, "--inputs", inputs),
+    ARGUMENT_TEXT_ROW(options, "--steps", paths.steps),
+    ARGUMENT_TEXT_ROW(options, "--trace", paths.trace),
+    ARGUMENT_TEXT_ROW(options, "--curve", paths.curve),
+    ARGUMENT_TEXT_ROW(options, "--vcd", paths.vcd),
+    ARGUMENT_OTHER_ROW("--motor", read_motor),
+    ARGUMENT_OTHER_ROW("--for", read_duration),
+    ARGUMENT_OTHER_ROW("--epoch", read_epoch),
+    ARGUMENT_OTHER_ROW("--real", read_real),
+    ARGUMENT_OTHER_ROW("--progress", read_progress),
+    ARGUMENT_OTHER_ROW("--points", read_points),
+    ARGUMENT_OTHER_ROW("--from", read_from),
+    ARGUMENT_OTHER_ROW("--to", read_to),
+};
 
-typedef bool read_option(struct options *options, const char *value);
-
-static read_option *find_reader(const char *name)
-{
-    static const struct {
-        const char *name;
-        read_option *read;
-    } readers[] = {
-        {"--motor", read_motor},       {"--for", read_duration},  {"--epoch", read_epoch}, {"--real", read_real},
-        {"--progress", read_progress}, {"--points", read_points}, {"--from", read_from},   {"--to", read_to},
-    };
-    for (size_t i = 0; i < sizeof readers / sizeof readers[0]; i++) {
-        if (strcmp(name, readers[i].name) == 0) {
-            return readers[i].read;
-        }
-    }
-    return NULL;
-}
-
-static bool read_pair(struct options *options, const char *name, const char *value)
-{
-    const char **path = find_path(options, name);
-    read_option *reader = find_reader(name);
-    if (path == NULL && reader == NULL) {
-        complain("%s: no such option of sim; rkm04-host --help lists them", name);
-        return false;
-    }
-    if (value == NULL || value[0] == '\0') {
-        complain("%s: its value is missing; rkm04-host --help shows it", name);
-        return false;
-    }
-    if (path != NULL) {
-        *path = value;
-        return true;
-    }
-    return reader(options, value);
-}
+static const struct argument_table table = {
+    .rows = rows,
+    .count = sizeof rows / sizeof rows[0],
+    .unknown = "no such option of sim; rkm04-host --help lists them",
+    .missing = "its value is missing; rkm04-host --help shows it",
+};
 
 static bool is_same(const char *a, const char *b)
 {
@@ -220,10 +191,8 @@ enum exit_status options_read(struct options *options, int count, char *const ar
         .duration_ns = OPTIONS_DURATION_NS,
         .paths.range = {.points = CURVE_POINTS_DEFAULT, .to_tick = TICK_NEVER},
     };
-    for (int i = 0; i < count; i += 2) {
-        if (!read_pair(options, arguments[i], i + 1 < count ? arguments[i + 1] : NULL)) {
-            return EXIT_USAGE;
-        }
+    if (arguments_read(&table, options, count, arguments) != EXIT_DONE) {
+        return EXIT_USAGE;
     }
     return has_program(options) && paths_differ(&options->paths) ? EXIT_DONE : EXIT_USAGE;
 }

@@ -26,7 +26,7 @@ struct options {
 /* The usage of the whole program. */
 extern const char options_usage[];
 
-/* Reads what stands behind `sim`. EXIT_DONE, or EXIT_USAGE after a complaint. */
+/* Reads what follows `sim`. EXIT_DONE, or EXIT_USAGE after a complaint. */
 enum exit_status options_read(struct options *options, int count, char *const arguments[]);
 
 #endif

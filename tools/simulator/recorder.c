@@ -13,7 +13,7 @@ static void recorder_write(void *context, const struct timeline_event *event)
         csv_put_trace(&recorder->trace, event);
     }
     if (outfile_is_open(&recorder->waves)) {
-        vcd_put(&recorder->vcd, event);
+        waves_put(&recorder->drawing, event);
     }
     if (outfile_is_open(&recorder->line)) {
         curve_put(&recorder->curve, event);
@@ -29,7 +29,7 @@ static bool recorder_begin(struct recorder *recorder, const struct curve_range *
         csv_begin_trace(&recorder->trace);
     }
     if (outfile_is_open(&recorder->waves)) {
-        vcd_begin(&recorder->vcd, &recorder->waves);
+        waves_begin(&recorder->drawing, &recorder->waves);
     }
     return !outfile_is_open(&recorder->line) || curve_begin(&recorder->curve, &recorder->line, range);
 }
@@ -67,7 +67,7 @@ bool recorder_finish(struct recorder *recorder, uint64_t end_tick)
 {
     timeline_flush(&recorder->timeline);
     if (outfile_is_open(&recorder->waves)) {
-        vcd_end(&recorder->vcd, end_tick);
+        waves_end(&recorder->drawing, end_tick);
     }
     if (outfile_is_open(&recorder->line)) {
         curve_end(&recorder->curve, end_tick);

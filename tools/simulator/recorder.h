@@ -11,7 +11,7 @@
 #include "curve.h"
 #include "outfile.h"
 #include "timeline.h"
-#include "vcd.h"
+#include "waves.h"
 
 /* Where to; null: not wanted. */
 struct recorder_paths {
@@ -27,7 +27,7 @@ struct recorder {
     struct outfile steps;
     struct outfile trace;
     struct outfile waves;
-    struct vcd vcd;
+    struct waves drawing;
     struct outfile line;
     struct curve curve;
     bool active; /* there is a file */

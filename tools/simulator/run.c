@@ -4,9 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "feed.h"
-#include "inputs.h"
-#include "summary.h"
 #include "units.h"
 
 enum {
@@ -34,7 +31,7 @@ static void tell_progress(struct run *run, uint64_t real_ns, uint64_t tick)
 static void hear_step(void *context, uint64_t tick, unsigned motor, bool backward)
 {
     struct run *run = context;
-    int64_t position = mover_position_steps(&run->unit.mover[motor]) + (backward ? -1 : 1);
+    int64_t position = axis_position_steps(&run->unit.axis[motor]) + (backward ? -1 : 1);
     run->positions[motor] = position;
     if (run->progress_ns != 0 && ++run->steps % STEPS_PER_LOOK == 0) {
         tell_progress(run, units_real_ns(), tick); /* a long run makes many pulses in few passes */
@@ -72,7 +69,7 @@ static void hear_output(void *context, uint64_t tick, uint8_t levels)
 /* A position that a command has written; those that pulses make are recorded with the pulses. */
 static void record_position(struct run *run, unsigned motor, uint64_t tick)
 {
-    int64_t position = mover_position_steps(&run->unit.mover[motor - 1U]);
+    int64_t position = axis_position_steps(&run->unit.axis[motor - 1U]);
     if (position != run->positions[motor - 1U]) {
         run->positions[motor - 1U] = position;
         record(run, &(struct timeline_event){
@@ -85,7 +82,7 @@ static void hear_trace(void *context, uint64_t tick, unsigned motor, enum hal_tr
     struct run *run = context;
     if (event == HAL_TRACE_MOVE) {
         record_position(run, motor, tick);
-        tally_begin_move(&run->tally[motor - 1U], tick, mover_position_steps(&run->unit.mover[motor - 1U]));
+        tally_begin_move(&run->tally[motor - 1U], tick, axis_position_steps(&run->unit.axis[motor - 1U]));
     } else if (event == HAL_TRACE_DONE) {
         tally_end_move(&run->tally[motor - 1U], tick);
     }
@@ -98,7 +95,7 @@ static void hear_trace(void *context, uint64_t tick, unsigned motor, enum hal_tr
 static void record_positions(struct run *run)
 {
     for (unsigned motor = 1; motor <= UNIT_MOTORS; motor++) {
-        if (!mover_is_moving(&run->unit.mover[motor - 1U])) {
+        if (!axis_is_moving(&run->unit.axis[motor - 1U])) {
             record_position(run, motor, run->machine.now);
         }
     }
@@ -107,7 +104,7 @@ static void record_positions(struct run *run)
 static uint64_t run_pass(void *context)
 {
     struct run *run = context;
-    uint64_t wake = unit_poll(&run->unit);
+    uint64_t wake = rkm04_poll(&run->unit);
     if (run->recorder.active) {
         record_positions(run);
     }
@@ -123,7 +120,7 @@ static void look_at_limit(struct run *run, uint64_t real_ns)
 static bool run_is_over(void *context)
 {
     struct run *run = context;
-    run->idle = unit_is_idle(&run->unit);
+    run->idle = rkm04_is_idle(&run->unit);
     if (++run->passes % PASSES_PER_LOOK == 0 && (run->limit_ns != 0 || run->progress_ns != 0)) {
         uint64_t real_ns = units_real_ns();
         look_at_limit(run, real_ns);
@@ -157,8 +154,8 @@ void run_begin(struct run *run, uint64_t epoch)
     run->real_ns = 0;
     run->idle = false;
     run->cut = false;
-    unit_init(&run->unit);
-    unit_start(&run->unit);
+    rkm04_init(&run->unit);
+    rkm04_start(&run->unit);
 }
 
 /* In a long move there are no passes: with a limit the clock is asked between parts of the time, too. */
@@ -173,54 +170,4 @@ void run_until(struct run *run, uint64_t until_tick)
         look_at_limit(run, units_real_ns());
     } while (!run->idle && !run->cut && run->machine.now < until_tick);
     run->real_ns += units_real_ns() - run->begin_ns;
-}
-
-/* With everything read and all output files open. The unit gets its programs before its first pass. */
-static enum exit_status run_programs(struct run *run, struct feed *feed, uint64_t duration_ns)
-{
-    if (!feed_send(feed, &run->unit)) {
-        return EXIT_REFUSED;
-    }
-    run_until(run, units_ticks_of_ns(duration_ns));
-    if (!recorder_finish(&run->recorder, run->machine.now)) {
-        return EXIT_REFUSED;
-    }
-    summary_print(run, feed);
-    return finish_output();
-}
-
-static enum exit_status run_with(const struct options *options, struct feed *feed, const struct inputs *inputs)
-{
-    struct run *run = malloc(sizeof *run);
-    if (run == NULL) {
-        complain("there is not memory enough for a unit; close other programs");
-        return EXIT_REFUSED;
-    }
-    enum exit_status status = EXIT_REFUSED;
-    run_begin(run, options->epoch);
-    run->limit_ns = options->real_ns;
-    run->progress_ns = options->progress_ns;
-    host_machine_set_script(&run->machine, inputs->script, inputs->length);
-    if (recorder_open(&run->recorder, &options->paths)) {
-        status = run_programs(run, feed, options->duration_ns);
-        recorder_discard(&run->recorder);
-    }
-    free(run);
-    return status;
-}
-
-enum exit_status run_simulation(const struct options *options)
-{
-    struct feed feed;
-    struct inputs inputs;
-    enum exit_status status = EXIT_REFUSED;
-    if (!feed_read(&feed, options->programs)) {
-        return status;
-    }
-    if (inputs_read(&inputs, options->inputs)) {
-        status = run_with(options, &feed, &inputs);
-        inputs_discard(&inputs);
-    }
-    feed_discard(&feed);
-    return status;
 }

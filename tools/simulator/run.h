@@ -7,16 +7,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "complain.h"
 #include "host_machine.h"
-#include "options.h"
 #include "recorder.h"
 #include "tally.h"
-#include "unit.h"
+#include "rkm04.h"
 
 struct run {
     struct host_machine machine;
-    struct unit unit;
+    struct rkm04 unit;
     struct recorder recorder;
     struct tally tally[UNIT_MOTORS];
     int64_t positions[UNIT_MOTORS]; /* as recorded last */
@@ -36,8 +34,5 @@ void run_begin(struct run *run, uint64_t epoch);
 
 /* Lets the unit run until all motors are idle or for so many ticks from the start. */
 void run_until(struct run *run, uint64_t until_tick);
-
-/* Does what `rkm04-host sim` does. */
-enum exit_status run_simulation(const struct options *options);
 
 #endif

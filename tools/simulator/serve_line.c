@@ -3,7 +3,7 @@
 #include <assert.h>
 #include <string.h>
 
-/* Main has a pass behind each byte: else bytes that come on the same tick overrun it. */
+/* Main has a pass after each byte: else bytes that come on the same tick overrun it. */
 enum {
     UNPACED_TICKS = 1
 };

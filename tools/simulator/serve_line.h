@@ -32,7 +32,7 @@ void serve_line_init(struct serve_line *line, struct serve_port *port, bool pace
 /* Forgets the bytes that all units have heard: those before `now`. Returns the room for more. */
 uint32_t serve_line_room(struct serve_line *line, uint64_t now);
 
-/* Puts bytes of a client on the line, now or behind what is there. There must be room; the machines are then to be
+/* Puts bytes of a client on the line, now or after what is there. There must be room; the machines are then to be
  * given `heard` as their script. */
 void serve_line_put(struct serve_line *line, uint64_t now, const uint8_t *bytes, uint32_t count);
 

@@ -31,7 +31,7 @@ struct serve_options {
     uint8_t nodes[SERVE_UNITS_MAX];
 };
 
-/* Reads what stands behind `serve`. EXIT_DONE, or EXIT_USAGE after a complaint. */
+/* Reads what follows `serve`. EXIT_DONE, or EXIT_USAGE after a complaint. */
 enum exit_status serve_options_read(struct serve_options *options, int count, char *const arguments[]);
 
 #endif

@@ -22,8 +22,8 @@ enum exit_status serve_unit_begin(struct serve_unit *unit, uint8_t node, const c
     host_machine_select(&unit->machine);
     host_machine_set_node(&unit->machine, node);
     enum exit_status status = serve_flash_open(&unit->flash, &unit->machine, flash_path);
-    unit_init(&unit->unit);
-    unit_start(&unit->unit);
+    rkm04_init(&unit->unit);
+    rkm04_start(&unit->unit);
     return status;
 }
 
@@ -48,7 +48,7 @@ void serve_unit_attach(struct serve_unit *unit, struct serve_line *line)
 
 static uint64_t run_pass(void *context)
 {
-    return unit_poll(context);
+    return rkm04_poll(context);
 }
 
 void serve_unit_run(struct serve_unit *unit, uint64_t until_tick)
@@ -58,11 +58,11 @@ void serve_unit_run(struct serve_unit *unit, uint64_t until_tick)
 
 bool serve_unit_has_work(const struct serve_unit *unit)
 {
-    const struct link *link = &unit->unit.link;
+    const struct link *link = &unit->unit.line.link;
     if (unit->machine.line.next_tick != TICK_NEVER || link->waiting || link_is_sending(link)) {
         return true;
     }
-    return !unit_is_idle(&unit->unit) && host_machine_next_tick(&unit->machine) != TICK_NEVER;
+    return !rkm04_is_idle(&unit->unit) && host_machine_next_tick(&unit->machine) != TICK_NEVER;
 }
 
 static bool write_file(struct serve_unit *unit)
@@ -89,7 +89,7 @@ typedef char *put_item(const struct serve_unit *unit, unsigned index, char *at);
 
 static char *put_position(const struct serve_unit *unit, unsigned index, char *at)
 {
-    return line_put_signed(at, mover_position_steps(&unit->unit.mover[index]));
+    return line_put_signed(at, axis_position_steps(&unit->unit.axis[index]));
 }
 
 static char *put_travel(const struct serve_unit *unit, unsigned index, char *at)
@@ -99,7 +99,7 @@ static char *put_travel(const struct serve_unit *unit, unsigned index, char *at)
 
 static char *put_moving(const struct serve_unit *unit, unsigned index, char *at)
 {
-    return line_put_string(at, mover_is_moving(&unit->unit.mover[index]) ? "true" : "false");
+    return line_put_string(at, axis_is_moving(&unit->unit.axis[index]) ? "true" : "false");
 }
 
 static char *put_led(const struct serve_unit *unit, unsigned index, char *at)
@@ -136,7 +136,7 @@ char *serve_unit_put_status(const struct serve_unit *unit, char *at)
     at = line_put_string(at, ", \"seconds\": ");
     at = line_put_fixed(at, units_ns_of_ticks(unit->machine.now) / 1000000U, SECONDS_DECIMALS);
     at = line_put_string(at, ", \"idle\": ");
-    at = line_put_string(at, unit_is_idle(&unit->unit) ? "true" : "false");
+    at = line_put_string(at, rkm04_is_idle(&unit->unit) ? "true" : "false");
     at = put_list(unit, "positions", put_position, UNIT_MOTORS, at);
     at = put_list(unit, "travel", put_travel, UNIT_MOTORS, at);
     at = put_list(unit, "moving", put_moving, UNIT_MOTORS, at);

@@ -12,7 +12,7 @@
 #include "host_machine.h"
 #include "serve_flash.h"
 #include "serve_line.h"
-#include "unit.h"
+#include "rkm04.h"
 
 enum {
     SERVE_STATUS_BYTES_MAX = 768
@@ -20,7 +20,7 @@ enum {
 
 struct serve_unit {
     struct host_machine machine;
-    struct unit unit;
+    struct rkm04 unit;
     struct serve_flash flash;
     uint32_t saved_operations; /* flash operations that the file has, or that it could not be given */
     bool unsaved;              /* the last writing has failed */

@@ -44,7 +44,7 @@ static void print_motor(const struct run *run, const struct feed *feed, unsigned
 
     (void)printf("{\"motor\":%u,\"program\":%s,", motor + 1U, feed->programs[motor].path != NULL ? "true" : "false");
     (void)printf("\"moves\":%" PRIu64 ",\"pulses\":%" PRIu64 ",\"position\":%" PRId64 ",\"peak_speed\":", tally->moves,
-                 tally->pulses, mover_position_steps(&run->unit.mover[motor]));
+                 tally->pulses, axis_position_steps(&run->unit.axis[motor]));
     json_print_fixed(units_milli_speed(tally->shortest_ticks), MILLI_DECIMALS);
     (void)putchar(',');
     print_seconds("seconds_moving", units_ns_of_ticks(tally_moving_ticks(tally, run->machine.now)));
@@ -77,5 +77,5 @@ void summary_print(const struct run *run, const struct feed *feed)
         print_motor(run, feed, i);
     }
     (void)printf("],\n\"outputs\":%u,\"variables\":%u}\n", (unsigned)run->unit.io.outputs,
-                 (unsigned)run->unit.io.variables);
+                 (unsigned)run->unit.shared.variables);
 }

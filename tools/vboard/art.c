@@ -1,7 +1,5 @@
 #include "art.h"
 
-#include "board.h"
-
 enum {
     LINE_BYTES = 16
 };
@@ -25,12 +23,12 @@ static bool take_line(struct art *art, unsigned first, unsigned lines, uint32_t 
 
 bool art_fetch(struct art *art, uint32_t address)
 {
-    return take_line(art, 0, CPU_ART_LINES, address);
+    return take_line(art, 0, ART_LINES, address);
 }
 
 bool art_has(const struct art *art, uint32_t address)
 {
-    for (unsigned i = 0; i < CPU_ART_LINES; i++) {
+    for (unsigned i = 0; i < ART_LINES; i++) {
         if (art->tag[i] == address / LINE_BYTES + 1U) {
             return true;
         }
@@ -38,15 +36,11 @@ bool art_has(const struct art *art, uint32_t address)
     return false;
 }
 
-/* A literal lies behind its function: its own place is taken for that of the instruction, which keeps it apart from
- * the literals of other functions as well. */
-uint32_t art_literal_wait(struct board *board, uint32_t address)
+/* A literal lies at the end of its function: its own place is taken for that of the instruction, which keeps it apart
+ * from the literals of other functions as well. */
+bool art_fetch_literal(struct art *art, uint32_t address)
 {
-    struct cpu *cpu = &board->cpu;
-    if (cpu->art_modelled && flash_data_cache_is_on(&board->flash)) {
-        return take_line(&cpu->art, CPU_ART_LINES, CPU_ART_DATA_LINES, address) ? 0 : cpu->wait_states;
-    }
-    return cpu->wait_states;
+    return take_line(art, ART_LINES, ART_DATA_LINES, address);
 }
 
 void art_reset(struct art *art)

@@ -9,7 +9,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "cpu.h"
+enum {
+    ART_LINES = 64,
+    ART_DATA_LINES = 8,
+};
+
+struct art {
+    uint32_t tag[ART_LINES + ART_DATA_LINES];
+    uint64_t used[ART_LINES + ART_DATA_LINES];
+    uint64_t clock;
+};
 
 /* Whether the line of an instruction is there; it is from now on. */
 bool art_fetch(struct art *art, uint32_t address);
@@ -17,8 +26,8 @@ bool art_fetch(struct art *art, uint32_t address);
 /* Whether it is there; nothing changes. */
 bool art_has(const struct art *art, uint32_t address);
 
-/* The wait states of a literal read by the instruction at an address. */
-uint32_t art_literal_wait(struct board *board, uint32_t address);
+/* Whether the literal of the instruction at an address is there; it is from now on. */
+bool art_fetch_literal(struct art *art, uint32_t address);
 
 void art_reset(struct art *art);
 

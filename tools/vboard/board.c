@@ -1,191 +1,158 @@
 #include "board.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "complain.h"
 
-uint64_t board_now_ps(const struct board *board)
+#define HZ_BEFORE_RESET 1000000U /* at cycle 0, where the first reset sets another rate */
+
+static void wire_processor(struct board *board)
 {
-    return vtime_ps_of_cycle(&board->time, board->cpu.now);
+    struct clock *clock = &board->clock;
+    struct report *report = &board->report;
+    const struct options *options = board->options;
+    nvic_init(&board->nvic, (struct nvic_wires){.clock = clock, .cpu = &board->cpu, .report = report});
+    scb_init(&board->scb,
+             (struct scb_wires){
+                 .clock = clock, .cpu = &board->cpu, .nvic = &board->nvic, .report = report, .reset = &board->reset});
+    core_init(&board->core,
+              (struct core_wires){.clock = clock, .nvic = &board->nvic, .scb = &board->scb, .idcode = options->idcode});
+    board->fetch = (struct fetch){.clock = clock, .flash = &board->flash, .art_modelled = options->art};
+    board->exceptions = (struct exceptions){.clock = clock,
+                                            .cpu = &board->cpu,
+                                            .fetch = &board->fetch,
+                                            .memory = &board->memory,
+                                            .flash = &board->flash,
+                                            .nvic = &board->nvic,
+                                            .scb = &board->scb,
+                                            .bus = &board->bus,
+                                            .iwdg = &board->iwdg,
+                                            .stats = &board->stats,
+                                            .profile = &board->profile,
+                                            .report = report};
+    board->stats.wires = (struct stats_wires){.clock = clock, .cpu = &board->cpu, .nvic = &board->nvic};
+    board->profile.wires = (struct profile_wires){.clock = clock, .report = report, .stats = &board->stats};
+    board->cpu.refill = options->refill;
 }
 
-void board_finish(struct board *board, enum board_end end, const char *text)
+/* Clocks, supply and flash: what the part needs to run at all. */
+static void wire_system(struct board *board)
 {
-    if (board->end == BOARD_RUNS) {
-        board->end = end;
-        (void)snprintf(board->text, sizeof board->text, "%s", text);
+    struct clock *clock = &board->clock;
+    struct report *report = &board->report;
+    const struct options *options = board->options;
+    board->conditions = (struct conditions){.clock = clock, .report = report};
+    flash_init(&board->flash, (struct flash_wires){.clock = clock,
+                                                   .report = report,
+                                                   .reset = &board->reset,
+                                                   .nvic = &board->nvic,
+                                                   .conditions = &board->conditions,
+                                                   .memory = &board->memory,
+                                                   .costs = &board->cpu.cost,
+                                                   .settings = &options->flash_settings,
+                                                   .wait_states = options->wait_states,
+                                                   .prefetch_works = options->idcode != CORE_IDCODE_A});
+    supply_init(&board->supply, (struct supply_wires){.clock = clock,
+                                                      .report = report,
+                                                      .reset = &board->reset,
+                                                      .conditions = &board->conditions,
+                                                      .flash = &board->flash});
+    rcc_init(&board->rcc, (struct rcc_wires){.clock = clock,
+                                             .report = report,
+                                             .nvic = &board->nvic,
+                                             .conditions = &board->conditions,
+                                             .outlet = board_clock_outlet(board),
+                                             .crystal_hz = options->crystal_hz,
+                                             .has_crystal = !options->no_crystal});
+    iwdg_init(
+        &board->iwdg,
+        (struct iwdg_wires){
+            .clock = clock, .report = report, .reset = &board->reset, .rcc = &board->rcc, .lsi_hz = options->lsi_hz});
+}
+
+static void wire_peripherals(struct board *board)
+{
+    struct clock *clock = &board->clock;
+    struct report *report = &board->report;
+    const struct options *options = board->options;
+    exti_init(&board->exti,
+              (struct exti_wires){.nvic = &board->nvic, .report = report, .mask_first = options->exti_mask_first});
+    board->syscfg.exti = &board->exti;
+    gpio_init(&board->gpio, (struct gpio_wires){.clock = clock,
+                                                .report = report,
+                                                .exti = &board->exti,
+                                                .watcher = {.note = recorder_note_edge, .model = &board->recorder}});
+    for (unsigned i = 0; i < TIMERS; i++) {
+        timer_init(&board->timer[i], (struct timer_wires){.number = i,
+                                                          .clock = clock,
+                                                          .report = report,
+                                                          .nvic = &board->nvic,
+                                                          .conditions = &board->conditions,
+                                                          .gpio = &board->gpio,
+                                                          .settings = &options->timer_settings});
     }
-    cpu_poke(&board->cpu);
-}
-
-/* Time, place and function of what the processor does. */
-static void put_place(const struct board *board, char *text, size_t bytes)
-{
-    uint64_t ns = board_now_ps(board) / VTIME_PS_PER_NS;
-    (void)snprintf(text, bytes, " (pc %08x in %s, at %u.%06u ms)", (unsigned)board->cpu.at,
-                   image_function_at(&board->image, board->cpu.at), (unsigned)(ns / 1000000U),
-                   (unsigned)(ns % 1000000U));
-}
-
-static void put_message(const struct board *board, char text[BOARD_TEXT_BYTES_MAX], const char *format,
-                        va_list arguments) __attribute__((format(printf, 3, 0)));
-
-static void put_message(const struct board *board, char text[BOARD_TEXT_BYTES_MAX], const char *format,
-                        va_list arguments)
-{
-    (void)vsnprintf(text, BOARD_TEXT_BYTES_MAX, format, arguments);
-    size_t length = strlen(text);
-    put_place(board, text + length, BOARD_TEXT_BYTES_MAX - length);
-}
-
-void board_fail(struct board *board, const char *format, ...)
-{
-    char text[BOARD_TEXT_BYTES_MAX];
-    va_list arguments;
-    if (board->end != BOARD_RUNS) {
-        return;
-    }
-    va_start(arguments, format);
-    put_message(board, text, format, arguments);
-    va_end(arguments);
-    complain("%s", text);
-    board_finish(board, BOARD_FAILED, text);
-}
-
-void board_warn(struct board *board, const char *format, ...)
-{
-    char text[BOARD_TEXT_BYTES_MAX];
-    va_list arguments;
-    if (board->warnings++ >= BOARD_WARNINGS_SHOWN) {
-        return;
-    }
-    va_start(arguments, format);
-    put_message(board, text, format, arguments);
-    va_end(arguments);
-    complain("warning: %s", text);
-}
-
-void board_request_reset(struct board *board, enum reset_cause cause)
-{
-    if (board->wanted_reset == RESET_NONE || cause == RESET_HELD) {
-        board->wanted_reset = cause;
-    }
-    cpu_poke(&board->cpu);
-}
-
-void board_reset(struct board *board, enum reset_cause cause)
-{
-    board->wanted_reset = RESET_NONE;
-    board->reset_ps = board_now_ps(board);
-    board->reset_steps = recorder_active(board, SIGNAL_STEP, PINS_MOTORS);
-    board->reset_outputs = recorder_active(board, SIGNAL_OUTPUT, PINS_OUTPUTS);
-    if (cause == RESET_POWER) {
-        memory_forget(&board->memory);
-    }
-    board->resets[cause]++;
-    board->stats.depth = 0;
-    board->cpu.stalled_forever = board->supply.held;
-    faults_reset(board);
-    bus_reset(board);
-    nvic_reset(board);
-    scb_reset(board);
-    core_reset(board);
-    iwdg_reset(board);
-    flash_reset(board);
-    timers_reset(board);
-    usarts_reset(board);
-    plain_reset(board);
-    supply_reset(board);
-    exti_reset(board);
-    gpio_reset(board);
-    rcc_reset(board, cause);
-    art_reset(&board->cpu.art);
-    if (!board->cpu.wait_states_fixed) {
-        board->cpu.wait_states = 0;
-    }
-    cpu_reset(board);
-    if (cause == RESET_POWER && board->options->left_by_loader) {
-        loader_leave(board);
+    for (unsigned i = 0; i < USARTS; i++) {
+        usart_init(&board->usart[i], (struct usart_wires){.number = i,
+                                                          .clock = clock,
+                                                          .report = report,
+                                                          .nvic = &board->nvic,
+                                                          .conditions = &board->conditions,
+                                                          .gpio = &board->gpio});
     }
 }
 
-static void reset_peripheral(struct board *board, uint32_t offset, unsigned bit)
+/* What stands around the part; the pins have been read. */
+static void wire_surroundings(struct board *board)
 {
-    enum {
-        AHB1 = 0x10,
-        APB1 = 0x20,
-        APB2 = 0x24
-    };
-    if (offset == AHB1 && bit < GPIO_PORTS) {
-        gpio_reset_port(board, bit);
-    } else if (offset == APB1 && bit < TIMERS) {
-        timer_reset(board, bit);
-    } else if (offset == APB1 && (bit == 17 || bit == 18)) {
-        usart_reset(board, bit - 16U);
-    } else if (offset == APB2 && bit == 4) {
-        usart_reset(board, 0);
-    }
+    struct clock *clock = &board->clock;
+    const struct options *options = board->options;
+    tty_init(&board->tty, clock, &board->line);
+    rs485_init(&board->line, (struct rs485_wires){.clock = clock,
+                                                  .pins = &board->pins,
+                                                  .usart = &board->usart[board->pins.usart],
+                                                  .listener = {.model = &board->tty, .hear = tty_send},
+                                                  .baud = options->baud});
+    board->recorder.wires = (struct recorder_wires){.clock = clock,
+                                                    .report = &board->report,
+                                                    .pins = &board->pins,
+                                                    .timer = &board->timer[0],
+                                                    .line = &board->line,
+                                                    .ticks_from_timer = options->ticks_from_timer};
+    inputs_init(&board->inputs, (struct inputs_wires){.clock = clock, .pins = &board->pins, .gpio = &board->gpio});
+    faults_init(&board->faults, (struct faults_wires){.clock = clock,
+                                                      .cpu = &board->cpu,
+                                                      .memory = &board->memory,
+                                                      .flash = &board->flash,
+                                                      .nvic = &board->nvic,
+                                                      .reset = &board->reset,
+                                                      .image = &board->image});
 }
 
-void board_reset_peripherals(struct board *board, uint32_t offset, uint32_t bits)
+static void on_measure(void *model, uint64_t cycle)
 {
-    for (unsigned i = 0; i < 32; i++) {
-        if ((bits >> i & 1U) != 0) {
-            reset_peripheral(board, offset, i);
-        }
-    }
-}
-
-void board_lock_up(struct board *board)
-{
-    board->lockups++;
-    board->cpu.stalled_forever = true;
-    if (!board->iwdg.started) {
-        board_fail(board, "lockup: a fault inside HardFault, and no watchdog that would reset; CFSR %08x, HFSR %08x",
-                   (unsigned)board->scb.cfsr, (unsigned)board->scb.hfsr);
-    }
-}
-
-void board_stop_clock(struct board *board)
-{
-    static const enum event clocked[] = {EVENT_TIM2,   EVENT_TIM3,   EVENT_TIM4,   EVENT_TIM5, EVENT_SYSTICK,
-                                         EVENT_USART1, EVENT_USART2, EVENT_USART3, EVENT_BUS};
-    for (unsigned i = 0; i < sizeof clocked / sizeof *clocked; i++) {
-        events_set(board, clocked[i], VTIME_NEVER);
-    }
-    board->cpu.stalled_forever = true;
-    if (!board->iwdg.started) {
-        board_fail(board, "the crystal has stopped and with it the processor; no watchdog runs that would reset it");
-    }
-}
-
-void board_sleep(struct board *board)
-{
-    struct cpu *cpu = &board->cpu;
-    events_run(board, cpu->now);
-    while (!nvic_can_wake(board) && !board_wants_stop(board)) {
-        uint64_t next = board->events.next;
-        if (next > cpu->now) {
-            cpu->asleep_cycles += next - cpu->now;
-            cpu->now = next;
-        }
-        events_run(board, cpu->now);
-    }
-}
-
-void board_measure_event(struct board *board, uint64_t cycle)
-{
+    struct board *board = model;
     (void)cycle;
-    stats_reset(board);
-    profile_reset(board);
+    stats_reset(&board->stats);
+    profile_reset(&board->profile);
 }
 
-void board_end_event(struct board *board, uint64_t cycle)
+static void on_end(void *model, uint64_t cycle)
 {
+    struct board *board = model;
     (void)cycle;
-    board_finish(board, BOARD_TIME, "");
+    report_finish(&board->report, REPORT_TIME, "");
+}
+
+static void wire(struct board *board)
+{
+    clock_init(&board->clock, HZ_BEFORE_RESET);
+    clock_attach(&board->clock, EVENT_MEASURE, on_measure, board);
+    clock_attach(&board->clock, EVENT_END, on_end, board);
+    board->report = (struct report){.clock = &board->clock, .image = &board->image, .at = &board->cpu.at};
+    board->reset = (struct reset){.clock = &board->clock};
+    wire_processor(board);
+    wire_system(board);
+    wire_peripherals(board);
 }
 
 static bool find_end(struct board *board)
@@ -207,62 +174,83 @@ static bool set_constants(struct board *board)
 {
     bool good = true;
     for (unsigned i = 0; good && i < board->options->sets; i++) {
-        good = image_set(board, board->options->set[i]);
+        good = image_set(&board->image, &board->memory, board->options->set[i]);
     }
     return good;
 }
 
-static void set_cycle_model(struct board *board)
+static bool open_line(struct board *board)
 {
     const struct options *options = board->options;
-    board->cpu.refill = options->refill;
-    board->cpu.art_modelled = options->art;
-    board->cpu.wait_states_fixed = options->wait_states >= 0;
-    board->cpu.wait_states = options->wait_states >= 0 ? (uint32_t)options->wait_states : 0;
-    board->bus.apb_wait = options->apb_wait;
+    if (!rs485_open(&board->line, options->line_script, options->line_log)) {
+        return false;
+    }
+    if (options->pty != NULL) {
+        return tty_open_pty(&board->tty, options->pty);
+    }
+    return !options->tcp || tty_open_tcp(&board->tty, options->tcp_port);
 }
 
 static bool open_files(struct board *board)
 {
     const struct options *options = board->options;
-    return pins_read(&board->pins, options->pins) && recorder_open(board) && inputs_open(board) && rs485_open(board) &&
-           tty_open(board) && profile_open(board, options->profile) && faults_open(board) && supply_open(board);
+    return recorder_open(&board->recorder, options->steps, options->vcd) &&
+           inputs_open(&board->inputs, options->node, options->inputs) && open_line(board) &&
+           profile_open(&board->profile, options->profile) &&
+           faults_open(&board->faults, options->fault, options->faults) &&
+           supply_open(&board->supply, options->supply, options->thresholds);
 }
 
 /* What is wired to the part, before power comes. */
 static bool connect(struct board *board)
 {
     const struct options *options = board->options;
+    if (!pins_read(&board->pins, options->pins)) {
+        return false;
+    }
+    wire_surroundings(board);
     if (!open_files(board)) {
         return false;
     }
     for (unsigned i = 0; i < options->stucks; i++) {
-        gpio_set_stuck(board, options->stuck[i].pin, options->stuck[i].level);
+        gpio_set_stuck(&board->gpio, options->stuck[i].pin, options->stuck[i].level);
     }
-    events_set_ps(board, EVENT_END, options->for_ps);
+    clock_set_ps(&board->clock, EVENT_END, options->for_ps);
     if (options->crystal_stops_ps != VTIME_NEVER) {
-        events_set_ps(board, EVENT_CRYSTAL, options->crystal_stops_ps);
+        clock_set_ps(&board->clock, EVENT_CRYSTAL, options->crystal_stops_ps);
     }
     if (options->measure_from_ps > 0) {
-        events_set_ps(board, EVENT_MEASURE, options->measure_from_ps);
+        clock_set_ps(&board->clock, EVENT_MEASURE, options->measure_from_ps);
     }
     return true;
+}
+
+static bool build_processor(struct board *board)
+{
+    uint32_t flash_kb = (uint32_t)board->options->flash_settings.kb;
+    return cpu_open(&board->cpu) && memory_init(&board->memory, board->cpu.engine, flash_kb) &&
+           bus_init(&board->bus, (struct bus_wires){.clock = &board->clock,
+                                                    .cpu = &board->cpu,
+                                                    .report = &board->report,
+                                                    .profile = &board->profile,
+                                                    .rcc = &board->rcc,
+                                                    .conditions = &board->conditions,
+                                                    .core = &board->core,
+                                                    .apb_wait = board->options->apb_wait});
 }
 
 bool board_init(struct board *board, const struct options *options)
 {
     memset(board, 0, sizeof *board);
     board->options = options;
-    events_init(&board->events);
-    board->flash.options = options->option_bytes;
-    vtime_set_hclk(&board->time, 0, 1000000); /* until the reset sets it, at cycle 0 */
-    if (!cpu_init(board) || !memory_init(board) || !bus_init(board)) {
+    wire(board);
+    if (!build_processor(board)) {
         complain("the emulator cannot be set up; is there memory enough?");
         return false;
     }
-    set_cycle_model(board);
-    if (!flash_load(board, options->flash) || !image_load(board, options->elf) || !set_constants(board) ||
-        !find_end(board) || !connect(board)) {
+    board_attach_peripherals(board);
+    if (!flash_load(&board->flash, options->flash) || !image_load(&board->image, &board->memory, options->elf) ||
+        !set_constants(board) || !find_end(board) || !connect(board)) {
         return false;
     }
     board_reset(board, board->supply.held ? RESET_HELD : RESET_POWER);
@@ -271,19 +259,19 @@ bool board_init(struct board *board, const struct options *options)
 
 bool board_close(struct board *board)
 {
-    bool good = recorder_close(board);
-    good = rs485_close(board) && good;
-    good = profile_close(board) && good;
-    return flash_save(board, board->options->flash) && good;
+    bool good = recorder_close(&board->recorder);
+    good = rs485_close(&board->line) && good;
+    good = profile_close(&board->profile) && good;
+    return flash_save(&board->flash, board->options->flash) && good;
 }
 
 void board_discard(struct board *board)
 {
-    tty_close(board);
-    inputs_close(board);
-    recorder_discard(board);
-    rs485_discard(board);
-    profile_discard(board);
+    tty_close(&board->tty);
+    inputs_close(&board->inputs);
+    recorder_discard(&board->recorder);
+    rs485_discard(&board->line);
+    profile_discard(&board->profile);
     image_discard(&board->image);
     cpu_discard(&board->cpu);
     memory_discard(&board->memory);

@@ -8,38 +8,77 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct board;
+#include "clock.h"
+#include "conditions.h"
+#include "core.h"
+#include "cpu.h"
+#include "profile.h"
+#include "rcc.h"
+#include "report.h"
 
-struct block;
+enum {
+    BUS_BLOCKS_MAX = 24
+};
+
+/* How many registers a peripheral has is known by its model: reads and writes answer false for one it does not have.
+ * `mask` has ones where bits are written. */
+typedef bool bus_reader(void *model, uint32_t offset, uint32_t *value);
+typedef bool bus_writer(void *model, uint32_t offset, uint32_t value, uint32_t mask);
+
+/* Whether a register has 32 bits that mean something, so that it must be written by words. */
+typedef bool bus_width(const void *model, uint32_t offset);
+
+/* A row of RM0090 table 1. */
+struct bus_block {
+    const char *name;
+    void *model;
+    bus_reader *read;
+    bus_writer *write;
+    bus_width *is_wide; /* null: half-words will do everywhere */
+    uint32_t base;
+    bool takes_bytes;     /* whether single bytes may be accessed */
+    uint8_t clock_offset; /* of its clock enable register in RCC; 0: always on */
+    uint8_t clock_bit;
+};
 
 /* A write that has left the processor and acts when it arrives. */
 struct bus_write {
-    const struct block *block;
+    const struct bus_block *block;
     uint32_t address;
     uint32_t value;
     uint32_t mask;
     uint32_t at; /* the instruction that wrote */
 };
 
+struct bus_wires {
+    struct clock *clock;
+    struct cpu *cpu;
+    struct report *report;
+    struct profile *profile;
+    const struct rcc *rcc; /* tells whose clock is on */
+    const struct conditions *conditions;
+    struct core *core;
+    uint32_t apb_wait; /* cycles by which an access to an APB at a quarter of HCLK takes longer */
+};
+
 struct bus {
-    uint32_t apb_wait;       /* cycles by which an access to an APB at a quarter of HCLK takes longer */
+    struct bus_wires wires;
+    struct bus_block block[BUS_BLOCKS_MAX];
+    unsigned blocks;
     uint64_t apb_busy_until; /* the write that is on its way has arrived */
     struct bus_write write;  /* there is one at most: the next access to APB waits for it */
 };
 
-/* Maps the peripherals into the processor's addresses. */
-bool bus_init(struct board *board);
+/* Maps the peripherals into the processor's addresses. False: there is not memory enough. */
+bool bus_init(struct bus *bus, struct bus_wires wires);
+
+/* Puts a model at its addresses. */
+void bus_attach(struct bus *bus, struct bus_block block);
 
 /* What is on its way is lost. */
-void bus_reset(struct board *board);
+void bus_reset(struct bus *bus);
 
-/* When the last write has arrived at its peripheral; the arrival. */
-uint64_t bus_idle_cycle(const struct board *board);
-void bus_event(struct board *board, uint64_t cycle);
-
-/* How many registers a peripheral has is known by its model: reads and writes answer false for one it does not have.
- * `mask` has ones where bits are written. */
-typedef bool bus_reader(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);
-typedef bool bus_writer(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask);
+/* When the last write has arrived at its peripheral. */
+uint64_t bus_idle_cycle(const struct bus *bus);
 
 #endif

@@ -1,7 +1,5 @@
 #include "core.h"
 
-#include "board.h"
-
 enum {
     SYSTICK_DIVIDER = 8,
     SYSTICK_ENABLE = 1 << 0,
@@ -26,18 +24,12 @@ enum {
 #define DBGMCU_IDCODE UINT32_C(0xE0042000)
 #define DBGMCU_CR UINT32_C(0xE0042004)
 #define DBGMCU_FREEZE UINT32_C(0xE0042008)
-#define IDCODE_REVISION_A UINT32_C(0x20006411)
 
-bool core_is_revision_a(const struct board *board)
+void core_reset(struct core *core)
 {
-    return board->options->idcode == IDCODE_REVISION_A;
-}
-
-void core_reset(struct board *board)
-{
-    struct debug debug = board->core.debug; /* survives a reset of the system (RM0090 section 38.16.3) */
-    board->core = (struct core){.debug = debug};
-    events_set(board, EVENT_SYSTICK, VTIME_NEVER);
+    struct debug debug = core->debug; /* survives a reset of the system (RM0090 section 38.16.3) */
+    *core = (struct core){.wires = core->wires, .debug = debug};
+    clock_set(core->wires.clock, EVENT_SYSTICK, VTIME_NEVER);
 }
 
 static uint64_t divider(const struct systick *systick)
@@ -46,18 +38,18 @@ static uint64_t divider(const struct systick *systick)
 }
 
 /* The counter goes from LOAD to 0, then to LOAD again: a period of LOAD + 1. An event marks each arrival at 0. */
-static void schedule(struct board *board)
+static void schedule(struct core *core)
 {
-    const struct systick *systick = &board->core.systick;
+    const struct systick *systick = &core->systick;
     uint64_t counts = systick->value == 0 ? (uint64_t)systick->load + 1U : systick->value;
     bool runs = systick->enabled && (systick->value != 0 || systick->load != 0);
-    events_set(board, EVENT_SYSTICK, runs ? systick->anchor_cycle + counts * divider(systick) : VTIME_NEVER);
+    clock_set(core->wires.clock, EVENT_SYSTICK, runs ? systick->anchor_cycle + counts * divider(systick) : VTIME_NEVER);
 }
 
-static uint32_t current_value(struct board *board)
+static uint32_t current_value(struct core *core)
 {
-    const struct systick *systick = &board->core.systick;
-    uint64_t counts = (board->cpu.now - systick->anchor_cycle) / divider(systick);
+    const struct systick *systick = &core->systick;
+    uint64_t counts = (core->wires.clock->now - systick->anchor_cycle) / divider(systick);
     if (!systick->enabled || counts == 0) {
         return systick->value;
     }
@@ -65,80 +57,80 @@ static uint32_t current_value(struct board *board)
     return counts < value ? (uint32_t)(value - counts) : 0;
 }
 
-void systick_event(struct board *board, uint64_t cycle)
+static void on_systick_event(void *model, uint64_t cycle)
 {
-    struct systick *systick = &board->core.systick;
+    struct core *core = model;
+    struct systick *systick = &core->systick;
     systick->value = 0;
     systick->anchor_cycle = cycle;
     systick->counted = true;
     if (systick->interrupt) {
-        nvic_pend(board, NVIC_SYSTICK);
+        nvic_pend(core->wires.nvic, NVIC_SYSTICK);
     }
-    schedule(board);
+    schedule(core);
 }
 
-static uint32_t read_systick_control(struct board *board)
+static uint32_t read_systick_control(struct core *core)
 {
-    struct systick *systick = &board->core.systick;
+    struct systick *systick = &core->systick;
     uint32_t value = (systick->enabled ? SYSTICK_ENABLE : 0U) | (systick->interrupt ? SYSTICK_TICKINT : 0U) |
                      (systick->undivided ? SYSTICK_CLKSOURCE : 0U) | (systick->counted ? SYSTICK_COUNTFLAG : 0U);
     systick->counted = false;
     return value;
 }
 
-static void write_systick_control(struct board *board, uint32_t value)
+static void write_systick_control(struct core *core, uint32_t value)
 {
-    struct systick *systick = &board->core.systick;
-    systick->value = current_value(board);
-    systick->anchor_cycle = board->cpu.now;
+    struct systick *systick = &core->systick;
+    systick->value = current_value(core);
+    systick->anchor_cycle = core->wires.clock->now;
     systick->enabled = (value & SYSTICK_ENABLE) != 0;
     systick->interrupt = (value & SYSTICK_TICKINT) != 0;
     systick->undivided = (value & SYSTICK_CLKSOURCE) != 0;
-    schedule(board);
+    schedule(core);
 }
 
-static void write_systick_load(struct board *board, uint32_t value)
+static void write_systick_load(struct core *core, uint32_t value)
 {
-    struct systick *systick = &board->core.systick;
-    systick->value = current_value(board);
-    systick->anchor_cycle = board->cpu.now;
+    struct systick *systick = &core->systick;
+    systick->value = current_value(core);
+    systick->anchor_cycle = core->wires.clock->now;
     systick->load = value & SYSTICK_MASK;
-    schedule(board);
+    schedule(core);
 }
 
-static void clear_systick(struct board *board)
+static void clear_systick(struct core *core)
 {
-    struct systick *systick = &board->core.systick;
+    struct systick *systick = &core->systick;
     systick->value = 0;
     systick->counted = false;
-    systick->anchor_cycle = board->cpu.now;
-    schedule(board);
+    systick->anchor_cycle = core->wires.clock->now;
+    schedule(core);
 }
 
-static uint32_t cycle_count(const struct board *board)
+static uint32_t cycle_count(const struct core *core)
 {
-    const struct dwt *dwt = &board->core.dwt;
-    return dwt->value + (dwt->counting ? (uint32_t)(board->cpu.now - dwt->anchor_cycle) : 0U);
+    const struct dwt *dwt = &core->dwt;
+    return dwt->value + (dwt->counting ? (uint32_t)(core->wires.clock->now - dwt->anchor_cycle) : 0U);
 }
 
-static void set_cycle_count(struct board *board, uint32_t value, bool counting)
+static void set_cycle_count(struct core *core, uint32_t value, bool counting)
 {
-    bool traced = (board->scb.demcr & SCB_DEMCR_TRCENA) != 0;
-    board->core.dwt = (struct dwt){.counting = counting && traced, .value = value, .anchor_cycle = board->cpu.now};
+    bool traced = (core->wires.scb->demcr & SCB_DEMCR_TRCENA) != 0;
+    core->dwt = (struct dwt){.counting = counting && traced, .value = value, .anchor_cycle = core->wires.clock->now};
 }
 
-bool core_read(struct board *board, uint32_t address, uint32_t *value)
+bool core_read(struct core *core, uint32_t address, uint32_t *value)
 {
-    struct core *core = &board->core;
     switch (address) {
     case SYSTICK_CTRL:
-        *value = read_systick_control(board);
+        *value = read_systick_control(core);
         return true;
     case SYSTICK_LOAD:
         *value = core->systick.load;
         return true;
     case SYSTICK_VAL:
-        *value = current_value(board);
+        *value = current_value(core);
         return true;
     case SYSTICK_CALIB:
         *value = SYSTICK_CALIBRATION;
@@ -147,13 +139,13 @@ bool core_read(struct board *board, uint32_t address, uint32_t *value)
         *value = DWT_CTRL_FIXED | (core->dwt.counting ? 1U : 0U);
         return true;
     case DWT_CYCCNT:
-        *value = cycle_count(board);
+        *value = cycle_count(core);
         return true;
     case ACTLR:
         *value = 0;
         return true;
     case DBGMCU_IDCODE:
-        *value = (uint32_t)board->options->idcode;
+        *value = core->wires.idcode;
         return true;
     case DBGMCU_CR:
         *value = core->debug.cr;
@@ -166,29 +158,28 @@ bool core_read(struct board *board, uint32_t address, uint32_t *value)
         break;
     }
     if (address >= SCB_BASE && address < SCB_END) {
-        return scb_read(board, address - SCB_BASE, value);
+        return scb_read(core->wires.scb, address - SCB_BASE, value);
     }
-    return address >= NVIC_BASE && address < SCB_BASE && nvic_read(board, address - NVIC_BASE, value);
+    return address >= NVIC_BASE && address < SCB_BASE && nvic_read(core->wires.nvic, address - NVIC_BASE, value);
 }
 
-bool core_write(struct board *board, uint32_t address, uint32_t value, uint32_t mask)
+bool core_write(struct core *core, uint32_t address, uint32_t value, uint32_t mask)
 {
-    struct core *core = &board->core;
     switch (address) {
     case SYSTICK_CTRL:
-        write_systick_control(board, value);
+        write_systick_control(core, value);
         return true;
     case SYSTICK_LOAD:
-        write_systick_load(board, value);
+        write_systick_load(core, value);
         return true;
     case SYSTICK_VAL:
-        clear_systick(board);
+        clear_systick(core);
         return true;
     case DWT_CTRL:
-        set_cycle_count(board, cycle_count(board), (value & 1U) != 0);
+        set_cycle_count(core, cycle_count(core), (value & 1U) != 0);
         return true;
     case DWT_CYCCNT:
-        set_cycle_count(board, value, core->dwt.counting);
+        set_cycle_count(core, value, core->dwt.counting);
         return true;
     case DBGMCU_CR:
         core->debug.cr = value;
@@ -201,7 +192,13 @@ bool core_write(struct board *board, uint32_t address, uint32_t value, uint32_t 
         break;
     }
     if (address >= SCB_BASE && address < SCB_END) {
-        return scb_write(board, address - SCB_BASE, value, mask);
+        return scb_write(core->wires.scb, address - SCB_BASE, value, mask);
     }
-    return address >= NVIC_BASE && address < SCB_BASE && nvic_write(board, address - NVIC_BASE, value, mask);
+    return address >= NVIC_BASE && address < SCB_BASE && nvic_write(core->wires.nvic, address - NVIC_BASE, value, mask);
+}
+
+void core_init(struct core *core, struct core_wires wires)
+{
+    core->wires = wires;
+    clock_attach(wires.clock, EVENT_SYSTICK, on_systick_event, core);
 }

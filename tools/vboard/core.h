@@ -8,7 +8,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct board;
+#include "clock.h"
+#include "nvic.h"
+#include "scb.h"
 
 struct systick {
     bool enabled;
@@ -31,18 +33,26 @@ struct debug {
     uint32_t freeze[2];
 };
 
+struct core_wires {
+    struct clock *clock;
+    struct nvic *nvic;
+    struct scb *scb;
+    uint32_t idcode; /* DBGMCU_IDCODE */
+};
+
 struct core {
+    struct core_wires wires;
     struct systick systick;
     struct dwt dwt;
     struct debug debug;
 };
 
-/* Errata ES0182: revision A has no prefetch that works, and names itself as an STM32F2 does. */
-bool core_is_revision_a(const struct board *board);
+/* DBGMCU_IDCODE of revision A, which names itself as an STM32F2 does (errata ES0182). */
+#define CORE_IDCODE_A UINT32_C(0x20006411)
 
-void core_reset(struct board *board);
-bool core_read(struct board *board, uint32_t address, uint32_t *value);
-bool core_write(struct board *board, uint32_t address, uint32_t value, uint32_t mask);
-void systick_event(struct board *board, uint64_t cycle);
+void core_init(struct core *core, struct core_wires wires);
+void core_reset(struct core *core);
+bool core_read(struct core *core, uint32_t address, uint32_t *value);
+bool core_write(struct core *core, uint32_t address, uint32_t value, uint32_t mask);
 
 #endif

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "board.h"
-
 enum {
     INSTRUCTION_BYTES_MAX = 4,
     COST_ALU = 1,
@@ -229,16 +227,16 @@ static void price_other(struct cost *cost, const cs_insn *instruction)
 
 /* Whether the load at `previous` writes the register that this one takes its address from: then the two do not
  * overlap. */
-static bool waits_for_address(struct board *board, arm_reg base, uint32_t previous)
+static bool waits_for_address(struct cost_table *table, struct memory *memory, arm_reg base, uint32_t previous)
 {
-    const uint8_t *code = (previous & 1U) != 0 ? NULL : memory_find(&board->memory, previous, INSTRUCTION_BYTES_MAX);
-    const cs_insn *before = code == NULL ? NULL : disassemble(&board->cpu.cost, code, previous);
+    const uint8_t *code = (previous & 1U) != 0 ? NULL : memory_find(memory, previous, INSTRUCTION_BYTES_MAX);
+    const cs_insn *before = code == NULL ? NULL : disassemble(table, code, previous);
     return before != NULL && before->detail->arm.op_count > 0 && before->detail->arm.operands[0].type == ARM_OP_REG &&
            (arm_reg)before->detail->arm.operands[0].reg == base;
 }
 
-static void price(struct board *board, struct cost *cost, const cs_insn *instruction, uint32_t address,
-                  uint32_t previous)
+static void price(struct cost_table *table, struct memory *memory, struct cost *cost, const cs_insn *instruction,
+                  uint32_t address, uint32_t previous)
 {
     bool is_float = instruction->mnemonic[0] == 'v';
     bool is_memory = price_memory(cost, instruction, address);
@@ -250,25 +248,24 @@ static void price(struct board *board, struct cost *cost, const cs_insn *instruc
     } else if (!is_memory) {
         price_other(cost, instruction);
     }
-    const cs_arm_op *memory = memory_operand(instruction);
-    if ((cost->flags & COST_PIPELINED) != 0 && memory != NULL &&
-        waits_for_address(board, (arm_reg)memory->mem.base, previous)) {
+    const cs_arm_op *operand = memory_operand(instruction);
+    if ((cost->flags & COST_PIPELINED) != 0 && operand != NULL &&
+        waits_for_address(table, memory, (arm_reg)operand->mem.base, previous)) {
         cost->flags &= (uint8_t)~COST_PIPELINED;
     }
 }
 
-void cost_decode(struct board *board, uint32_t address, uint32_t previous)
+void cost_decode(struct cost_table *table, struct memory *memory, uint32_t address, uint32_t previous)
 {
-    struct cost_table *table = &board->cpu.cost;
     struct cost *entry = cost_find(table, address);
-    const uint8_t *code = memory_find(&board->memory, address, INSTRUCTION_BYTES_MAX);
+    const uint8_t *code = memory_find(memory, address, INSTRUCTION_BYTES_MAX);
     struct cost cost = {.cycles = COST_ALU, .flags = entry->flags & COST_IN_IT, .kind = COST_PLAIN};
     const cs_insn *instruction = code == NULL ? NULL : disassemble(table, code, address);
 
     if (code != NULL && code[1] == 0xBF && (code[0] & 0xFU) != 0) {
         open_block(table, &cost, code, address);
     } else if (instruction != NULL) {
-        price(board, &cost, instruction, address, previous);
+        price(table, memory, &cost, instruction, address, previous);
     }
     if (address == table->end_address) {
         set_kind(&cost, COST_END);

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct board;
+#include "memory.h"
 
 /* Regions of code: the flash with its alias at 0, and the SRAM; bit 29 of an address tells which. */
 enum {
@@ -17,7 +17,7 @@ enum {
 };
 
 enum cost_flag {
-    COST_PIPELINED = 1 << 0,  /* a load, or a store with a register offset: one cycle less right behind a load */
+    COST_PIPELINED = 1 << 0,  /* a load, or a store with a register offset: one cycle less right after a load */
     COST_LOAD = 1 << 1,       /* a load: what follows may be pipelined with it */
     COST_FLASH_DATA = 1 << 2, /* reads a literal from flash: costs its wait states as well */
     COST_IN_IT = 1 << 3,      /* inside an IT block: emulation must not stop here */
@@ -26,12 +26,12 @@ enum cost_flag {
     COST_IN_LINE = 1 << 8,    /* only of the instruction before: what follows it has not been jumped to */
 };
 
-/* What must be looked at before such an instruction is executed. */
 /* The number of the link register in an instruction. */
 enum {
     COST_REGISTER_LR = 14
 };
 
+/* What must be looked at before such an instruction is executed. */
 enum cost_kind {
     COST_PLAIN,
     COST_UNKNOWN,     /* not decoded yet */
@@ -51,7 +51,7 @@ struct cost {
     uint8_t cycles;
     uint8_t flags; /* enum cost_flag */
     uint8_t kind;  /* enum cost_kind */
-    uint8_t more;  /* COST_IT: bytes of the block behind it. COST_DIVIDE: registers, dividend in the low four bits */
+    uint8_t more;  /* COST_IT: bytes of the block after it. COST_DIVIDE: registers, dividend in the low four bits */
 };
 
 struct cost_table {
@@ -74,6 +74,6 @@ static inline struct cost *cost_find(const struct cost_table *table, uint32_t ad
 }
 
 /* Decodes the instruction at `address`. `previous` is the one before it if control came in line, else odd. */
-void cost_decode(struct board *board, uint32_t address, uint32_t previous);
+void cost_decode(struct cost_table *table, struct memory *memory, uint32_t address, uint32_t previous);
 
 #endif

@@ -1,252 +1,21 @@
 #include "cpu.h"
 
-#include "board.h"
+#define XPSR_THUMB (UINT32_C(1) << 24)
+#define LR_RESET UINT32_C(0xFFFFFFFF)
 
-enum {
-    DIVIDE_BITS_PER_10_CYCLES = 32,
-    IT_BYTES_MAX = 16,
-};
-
-#define LINE_MASK (~UINT32_C(15)) /* the flash is read in lines of 128 bits */
-
-/* Whether the accelerator has the line of an instruction; it has from now on. */
-static bool is_cached(struct board *board, uint32_t address)
+bool cpu_open(struct cpu *cpu)
 {
-    struct cpu *cpu = &board->cpu;
-    return cpu->art_modelled && flash_instruction_cache_is_on(&board->flash) && art_fetch(&cpu->art, address);
+    return cost_init(&cpu->cost) &&
+           uc_open(UC_ARCH_ARM, (uc_mode)(UC_MODE_THUMB | UC_MODE_MCLASS), &cpu->engine) == UC_ERR_OK &&
+           uc_ctl_set_cpu_model(cpu->engine, UC_CPU_ARM_CORTEX_M4) == UC_ERR_OK;
 }
 
-uint32_t cpu_fetch_wait(struct board *board, uint32_t address)
+void cpu_discard(struct cpu *cpu)
 {
-    struct cpu *cpu = &board->cpu;
-    bool in_flash = memory_is_flash(address);
-    uint32_t wait = in_flash && !is_cached(board, address) ? cpu->wait_states : 0;
-    cpu->line_mask = in_flash ? LINE_MASK : 0;
-    cpu->line = address & cpu->line_mask;
-    cpu->line_cycle = cpu->now + wait;
-    return wait;
-}
-
-/* The program runs into the next line of the flash: the prefetch has begun to read it when this one was there. */
-static void enter_line(struct board *board, uint32_t address)
-{
-    struct cpu *cpu = &board->cpu;
-    uint64_t ready = cpu->line_cycle + cpu->wait_states + 1U;
-    cpu->line = address & cpu->line_mask;
-    if (cpu->art_modelled && flash_instruction_cache_is_on(&board->flash) && art_has(&cpu->art, address)) {
-        ready = cpu->now;
-    } else if (!flash_prefetch_is_on(&board->flash)) {
-        ready = cpu->now + cpu->wait_states;
+    cost_discard(&cpu->cost);
+    if (cpu->engine != NULL) {
+        (void)uc_close(cpu->engine);
     }
-    cpu->now = ready > cpu->now ? ready : cpu->now;
-    cpu->line_cycle = cpu->now;
-}
-
-void cpu_stall_on_flash(struct board *board, uint32_t address)
-{
-    struct cpu *cpu = &board->cpu;
-    if (!memory_is_flash(address) || !flash_is_busy(&board->flash)) {
-        return;
-    }
-    uint64_t done = flash_done_cycle(board);
-    if (done > cpu->now) {
-        cpu->stalled_cycles += done - cpu->now;
-        board->flash.stalls++;
-        cpu->now = done;
-    }
-    events_run(board, cpu->now);
-}
-
-/* Control has not come in line: the instructions of an IT block whose condition failed, or a taken branch. */
-static void count_jump(struct board *board, uint32_t address)
-{
-    struct cpu *cpu = &board->cpu;
-    bool skipped = (cpu->last & (COST_IN_IT | COST_OPENS_IT)) != 0 && address > cpu->next && address <= cpu->it_end &&
-                   address - cpu->next <= IT_BYTES_MAX;
-    if (!skipped) {
-        cpu->now += cpu->refill + cpu_fetch_wait(board, address);
-        cpu->last = 0;
-        return;
-    }
-    for (uint32_t at = cpu->next; at < address;) {
-        const uint8_t *code = memory_find(&board->memory, at, 2);
-        at += code != NULL && (code[1] & 0xF8U) >= 0xE8U ? 4U : 2U;
-        cpu->now++;
-    }
-}
-
-static void stop(struct cpu *cpu, enum cpu_stop reason)
-{
-    cpu->stop = reason;
-    cpu->counted_all = true;
-    (void)uc_emu_stop(cpu->engine);
-}
-
-/* Between two instructions, when something may be due. True: emulation stops here. */
-static bool look_around(struct board *board, uint32_t address)
-{
-    struct cpu *cpu = &board->cpu;
-    events_run(board, cpu->now);
-    cpu_stall_on_flash(board, address);
-    cpu->deadline = flash_is_busy(&board->flash) ? 0 : board->events.next;
-    if (cpu->stop == CPU_RUNS && !board_wants_stop(board) && !nvic_can_take(board)) {
-        return false;
-    }
-    stop(cpu, cpu->stop == CPU_RUNS ? CPU_STOP_BOUNDARY : cpu->stop);
-    return true;
-}
-
-static uint32_t read_operand(struct cpu *cpu, unsigned number)
-{
-    return cpu_read(cpu, number == COST_REGISTER_LR ? UC_ARM_REG_LR : UC_ARM_REG_R0 + (int)number);
-}
-
-static uint32_t division_cycles(struct cpu *cpu, struct cost cost)
-{
-    uint32_t dividend = read_operand(cpu, cost.more & 0xFU);
-    uint32_t divisor = read_operand(cpu, cost.more >> 4);
-    if (dividend < divisor || divisor == 0) {
-        return 0;
-    }
-    uint32_t bits = (uint32_t)(__builtin_clz(divisor) - __builtin_clz(dividend)) + 1U;
-    return (10U * bits + (DIVIDE_BITS_PER_10_CYCLES - 1U)) / DIVIDE_BITS_PER_10_CYCLES;
-}
-
-/* The instructions that must be looked at each time. True: emulation stops before it. */
-static bool look_closer(struct board *board, uint32_t address, uint32_t previous)
-{
-    struct cpu *cpu = &board->cpu;
-    struct cost *cost = cost_find(&cpu->cost, address);
-    if (cost->kind == COST_UNKNOWN) {
-        cost_decode(board, address, previous);
-    }
-    bool stoppable = (cost->flags & COST_IN_IT) == 0;
-    switch ((enum cost_kind)cost->kind) {
-    case COST_IT:
-        cpu->it_end = address + 2U + cost->more;
-        break;
-    case COST_DIVIDE:
-        cpu->now += division_cycles(cpu, *cost);
-        break;
-    case COST_BARRIER:
-        cpu->now = bus_idle_cycle(board) > cpu->now ? bus_idle_cycle(board) : cpu->now;
-        break;
-    case COST_MASKS:
-        cpu_poke(cpu);
-        break;
-    case COST_EVENT:
-        cpu->event_register = true;
-        break;
-    case COST_SLEEP:
-    case COST_SLEEP_EVENT:
-        if (stoppable) {
-            stop(cpu, cost->kind == COST_SLEEP ? CPU_STOP_SLEEP : CPU_STOP_SLEEP_EVENT);
-            return true;
-        }
-        break;
-    case COST_FLOAT:
-        if (!scb_float_is_enabled(&board->scb)) {
-            cpu->trap = CPU_TRAP_NO_COPROCESSOR;
-            stop(cpu, CPU_STOP_TRAP);
-            return true;
-        }
-        break;
-    case COST_END:
-        board_finish(board, BOARD_REACHED, "");
-        stop(cpu, CPU_STOP_BOUNDARY);
-        return true;
-    case COST_HOLD:
-        stop(cpu, CPU_STOP_HOLD);
-        return true;
-    case COST_PLAIN:
-    case COST_UNKNOWN:
-        break;
-    }
-    return false;
-}
-
-/* Where the processor stands in the code, before the instruction there. */
-static inline void follow(struct board *board, uint32_t address)
-{
-    struct cpu *cpu = &board->cpu;
-    if (__builtin_expect(address != cpu->next, 0)) {
-        count_jump(board, address);
-        cpu->next = address;
-    }
-    if (__builtin_expect((address & cpu->line_mask) != cpu->line, 0)) {
-        enter_line(board, address);
-    }
-    if (__builtin_expect(board->profile.on, 0)) {
-        profile_at(board, address);
-    }
-}
-
-static void on_instruction(uc_engine *engine, uint64_t address64, uint32_t size, void *user)
-{
-    struct board *board = user;
-    struct cpu *cpu = &board->cpu;
-    uint32_t address = (uint32_t)address64;
-    const struct cost *entry = cost_find(&cpu->cost, address);
-    (void)engine;
-
-    if (__builtin_expect(cpu->counted_all, 0)) {
-        return;
-    }
-    follow(board, address);
-    if (__builtin_expect(cpu->now >= cpu->deadline, 0) && (entry->flags & COST_IN_IT) == 0 &&
-        look_around(board, address)) {
-        return;
-    }
-    if (__builtin_expect(entry->flags & COST_SLOW, 0)) {
-        uint32_t previous = (cpu->last & COST_IN_LINE) != 0 ? cpu->at : 1U;
-        if (look_closer(board, address, previous)) {
-            return;
-        }
-    }
-    uint32_t flags = entry->flags;
-    cpu->now += entry->cycles - (flags & cpu->last >> 1 & COST_PIPELINED);
-    if (__builtin_expect(flags & COST_FLASH_DATA, 0)) {
-        cpu->now += art_literal_wait(board, address);
-    }
-    cpu->last = flags | COST_IN_LINE;
-    cpu->at = address;
-    cpu->next = address + size;
-    cpu->instructions++;
-    board->profile.row->count++;
-}
-
-static void on_trap(uc_engine *engine, uint32_t number, void *user)
-{
-    struct board *board = user;
-    (void)engine;
-    board->cpu.trap = number;
-    stop(&board->cpu, CPU_STOP_TRAP);
-}
-
-/* A memory access that leads nowhere: a store of Unicorn 2.0 runs on, so that the rest of the block may follow. */
-static bool on_bad_access(uc_engine *engine, uc_mem_type type, uint64_t address, int size, int64_t value, void *user)
-{
-    struct board *board = user;
-    struct cpu *cpu = &board->cpu;
-    (void)engine;
-    if (type == UC_MEM_WRITE_PROT && memory_is_flash((uint32_t)address)) {
-        flash_write(board, (uint32_t)address, (unsigned)size, (uint32_t)value);
-        return true;
-    }
-    if (type == UC_MEM_READ_PROT && memory_is_flash((uint32_t)address)) {
-        cpu_stall_on_flash(board, (uint32_t)address);
-        return true;
-    }
-    if (cpu->stop == CPU_STOP_FAULT) {
-        return false;
-    }
-    bool is_fetch = type == UC_MEM_FETCH_UNMAPPED || type == UC_MEM_FETCH_PROT;
-    cpu->fault_at = is_fetch ? (uint32_t)address & ~1U : cpu->at;
-    cpu->fault_address = (uint32_t)address;
-    cpu->fault_bits = is_fetch ? SCB_CFSR_IBUSERR : SCB_CFSR_PRECISERR | SCB_CFSR_BFARVALID;
-    cpu->stop = CPU_STOP_FAULT;
-    cpu_poke(cpu);
-    return false;
 }
 
 uint32_t cpu_read(struct cpu *cpu, int reg)
@@ -268,36 +37,19 @@ void cpu_write_xpsr(struct cpu *cpu, uint32_t xpsr)
     cpu_write(cpu, UC_ARM_REG_APSR_NZCV, xpsr);
 }
 
-static bool add_hook(struct board *board, int type, void *callback)
+void cpu_clear(struct cpu *cpu)
 {
-    uc_hook hook = 0;
-    return uc_hook_add(board->cpu.engine, &hook, type, callback, board, 1, 0) == UC_ERR_OK;
+    cpu_write(cpu, UC_ARM_REG_CONTROL, 0);
+    cpu_write(cpu, UC_ARM_REG_PRIMASK, 0);
+    cpu_write(cpu, UC_ARM_REG_FAULTMASK, 0);
+    cpu_write(cpu, UC_ARM_REG_BASEPRI, 0);
+    cpu_write_xpsr(cpu, XPSR_THUMB);
 }
 
-/* ISO C has no conversion from a function to the void * that Unicorn asks for. */
-static void *callback_of(void (*function)(void))
+void cpu_start(struct cpu *cpu, uint32_t sp, uint32_t address)
 {
-    void *callback = NULL;
-    _Static_assert(sizeof callback == sizeof function, "a callback fits into a pointer");
-    __builtin_memcpy((void *)&callback, (const void *)&function, sizeof callback);
-    return callback;
-}
-
-bool cpu_init(struct board *board)
-{
-    struct cpu *cpu = &board->cpu;
-    return cost_init(&cpu->cost) &&
-           uc_open(UC_ARCH_ARM, (uc_mode)(UC_MODE_THUMB | UC_MODE_MCLASS), &cpu->engine) == UC_ERR_OK &&
-           uc_ctl_set_cpu_model(cpu->engine, UC_CPU_ARM_CORTEX_M4) == UC_ERR_OK &&
-           add_hook(board, UC_HOOK_CODE, callback_of((void (*)(void))on_instruction)) &&
-           add_hook(board, UC_HOOK_INTR, callback_of((void (*)(void))on_trap)) &&
-           add_hook(board, UC_HOOK_MEM_INVALID, callback_of((void (*)(void))on_bad_access));
-}
-
-void cpu_discard(struct cpu *cpu)
-{
-    cost_discard(&cpu->cost);
-    if (cpu->engine != NULL) {
-        (void)uc_close(cpu->engine);
-    }
+    cpu_write(cpu, UC_ARM_REG_SP, sp);
+    cpu_write(cpu, UC_ARM_REG_LR, LR_RESET);
+    cpu->event_register = false;
+    cpu->next = address;
 }

@@ -1,7 +1,5 @@
 #include "exception.h"
 
-#include "board.h"
-
 enum {
     FRAME_WORDS = 8,
     FRAME_WORDS_FLOAT = 26,
@@ -62,9 +60,9 @@ static void restore_floats(struct cpu *cpu, const uint8_t *frame)
 }
 
 /* Pushes the frame onto the stack in use and gives the EXC_RETURN for it. False: there is no memory there. */
-static bool push_frame(struct board *board, uint32_t return_address, uint32_t *exc_return)
+static bool push_frame(struct exceptions *exceptions, uint32_t return_address, uint32_t *exc_return)
 {
-    struct cpu *cpu = &board->cpu;
+    struct cpu *cpu = exceptions->cpu;
     uint32_t xpsr = cpu_read(cpu, UC_ARM_REG_XPSR);
     uint32_t control = cpu_read(cpu, UC_ARM_REG_CONTROL);
     uint32_t sp = cpu_read(cpu, UC_ARM_REG_SP);
@@ -75,7 +73,7 @@ static bool push_frame(struct board *board, uint32_t return_address, uint32_t *e
 
     *exc_return = EXC_RETURN_BASE | (has_floats ? 0 : RETURN_NO_FLOAT) | (in_thread ? RETURN_TO_THREAD : 0) |
                   (in_thread && (control & CONTROL_SPSEL) != 0 ? RETURN_TO_PSP : 0);
-    uint8_t *frame = memory_find(&board->memory, frame_sp, words * WORD_BYTES);
+    uint8_t *frame = memory_find(exceptions->memory, frame_sp, words * WORD_BYTES);
     cpu_write(cpu, UC_ARM_REG_SP, frame_sp);
     if (frame == NULL || memory_is_flash(frame_sp)) {
         return false;
@@ -93,88 +91,101 @@ static bool push_frame(struct board *board, uint32_t return_address, uint32_t *e
 }
 
 /* Makes the exception that comes next the running one. */
-static uint32_t enter_handler(struct board *board, unsigned exception, uint32_t exc_return)
+static uint32_t enter_handler(struct exceptions *exceptions, unsigned exception, uint32_t exc_return)
 {
-    struct cpu *cpu = &board->cpu;
-    uint32_t vector_at = board->scb.vtor + WORD_BYTES * exception;
+    struct cpu *cpu = exceptions->cpu;
+    uint32_t vector_at = exceptions->scb->vtor + WORD_BYTES * exception;
     uint32_t vector = 0;
 
-    cpu_stall_on_flash(board, vector_at);
-    stats_enter(board, exception);
-    nvic_unpend(board, exception);
-    nvic_set_active(&board->nvic, exception, true);
+    flash_stall(exceptions->flash, vector_at);
+    stats_enter(exceptions->stats, exception);
+    nvic_unpend(exceptions->nvic, exception);
+    nvic_set_active(exceptions->nvic, exception, true);
     cpu_write_xpsr(cpu, (cpu_read(cpu, UC_ARM_REG_XPSR) & ~(XPSR_IT | XPSR_EXCEPTION)) | XPSR_THUMB | exception);
     cpu_write(cpu, UC_ARM_REG_LR, exc_return);
     cpu->event_register = true;
-    if (!memory_read_word(&board->memory, vector_at, &vector) || (vector & 1U) == 0) {
-        board_fail(board, "the vector of exception %u at %08x is %08x, which is no address of code", exception,
-                   vector_at, vector);
+    if (!memory_read_word(exceptions->memory, vector_at, &vector) || (vector & 1U) == 0) {
+        report_fail(exceptions->report, "the vector of exception %u at %08x is %08x, which is no address of code",
+                    exception, vector_at, vector);
     }
-    cpu->now += cpu_fetch_wait(board, vector & ~1U);
+    exceptions->clock->now += fetch_jump(exceptions->fetch, vector & ~1U);
     return vector & ~UINT32_C(1);
 }
 
-/* Asks for HardFault; in vain from inside HardFault or NMI: that is lockup. */
-static bool escalate(struct board *board, uint32_t hfsr)
+/* The processor cannot go on without a reset. */
+static void lock_up(struct exceptions *exceptions)
 {
-    struct nvic *nvic = &board->nvic;
-    board->scb.hfsr |= hfsr;
+    exceptions->lockups++;
+    exceptions->cpu->stalled_forever = true;
+    if (!exceptions->iwdg->started) {
+        report_fail(exceptions->report,
+                    "lockup: a fault inside HardFault, and no watchdog that would reset; CFSR %08x, HFSR %08x",
+                    (unsigned)exceptions->scb->cfsr, (unsigned)exceptions->scb->hfsr);
+    }
+}
+
+/* Asks for HardFault; in vain from inside HardFault or NMI: that is lockup. */
+static bool escalate(struct exceptions *exceptions, uint32_t hfsr)
+{
+    struct nvic *nvic = exceptions->nvic;
+    exceptions->scb->hfsr |= hfsr;
     if (nvic_active_priority(nvic) <= NVIC_PRIORITY_HARD_FAULT ||
-        (cpu_read(&board->cpu, UC_ARM_REG_FAULTMASK) & 1U) != 0) {
-        board_lock_up(board);
+        (cpu_read(exceptions->cpu, UC_ARM_REG_FAULTMASK) & 1U) != 0) {
+        lock_up(exceptions);
         return false;
     }
-    nvic_pend(board, NVIC_HARD_FAULT);
+    nvic_pend(exceptions->nvic, NVIC_HARD_FAULT);
     return true;
 }
 
-static void note_stacking_fault(struct board *board, uint32_t bits)
+static void note_stacking_fault(struct exceptions *exceptions, uint32_t bits)
 {
-    board->scb.cfsr |= bits;
-    stats_note_fault(board, bits, cpu_read(&board->cpu, UC_ARM_REG_SP));
-    if (nvic_is_enabled(&board->nvic, NVIC_BUS_FAULT) &&
-        nvic_group_priority(&board->nvic, NVIC_BUS_FAULT) < nvic_running_priority(board)) {
-        nvic_pend(board, NVIC_BUS_FAULT);
+    exceptions->scb->cfsr |= bits;
+    stats_note_fault(exceptions->stats, bits, cpu_read(exceptions->cpu, UC_ARM_REG_SP));
+    if (nvic_is_enabled(exceptions->nvic, NVIC_BUS_FAULT) &&
+        nvic_group_priority(exceptions->nvic, NVIC_BUS_FAULT) < nvic_running_priority(exceptions->nvic)) {
+        nvic_pend(exceptions->nvic, NVIC_BUS_FAULT);
     } else {
-        (void)escalate(board, SCB_HFSR_FORCED);
+        (void)escalate(exceptions, SCB_HFSR_FORCED);
     }
 }
 
-uint32_t exception_take(struct board *board, uint32_t return_address)
+uint32_t exception_take(struct exceptions *exceptions, uint32_t return_address)
 {
-    struct cpu *cpu = &board->cpu;
+    struct cpu *cpu = exceptions->cpu;
     uint32_t exc_return = 0;
-    uint64_t begin = cpu->now;
-    profile_pause(board);
-    if (!push_frame(board, return_address, &exc_return)) {
-        note_stacking_fault(board, SCB_CFSR_STKERR);
+    uint64_t begin = exceptions->clock->now;
+    profile_pause(exceptions->profile);
+    if (!push_frame(exceptions, return_address, &exc_return)) {
+        note_stacking_fault(exceptions, SCB_CFSR_STKERR);
     }
     if (cpu->stalled_forever) {
         return return_address;
     }
-    cpu->now += EXCEPTION_ENTRY_CYCLES;
-    events_run(board, cpu->now); /* what comes now and is more urgent takes the place: late arrival */
-    stats_begin(board, begin);
-    uint32_t handler = enter_handler(board, nvic_next_pending(&board->nvic), exc_return);
-    profile_place(board, PROFILE_ENTRY);
+    exceptions->clock->now += EXCEPTION_ENTRY_CYCLES;
+    clock_run(exceptions->clock,
+              exceptions->clock->now); /* what comes now and is more urgent takes the place: late arrival */
+    stats_begin(exceptions->stats, begin);
+    uint32_t handler = enter_handler(exceptions, nvic_next_pending(exceptions->nvic), exc_return);
+    profile_place(exceptions->profile, PROFILE_ENTRY);
     return handler;
 }
 
-static uint32_t pop_frame(struct board *board, uint32_t exc_return)
+static uint32_t pop_frame(struct exceptions *exceptions, uint32_t exc_return)
 {
-    struct cpu *cpu = &board->cpu;
+    struct cpu *cpu = exceptions->cpu;
     bool to_thread = (exc_return & RETURN_TO_THREAD) != 0;
     bool has_floats = (exc_return & RETURN_NO_FLOAT) == 0;
     uint32_t sp = cpu_read(cpu, (exc_return & RETURN_TO_PSP) != 0 ? UC_ARM_REG_PSP : UC_ARM_REG_MSP);
     uint32_t words = has_floats ? FRAME_WORDS_FLOAT : FRAME_WORDS;
-    const uint8_t *frame = memory_find(&board->memory, sp, words * WORD_BYTES);
+    const uint8_t *frame = memory_find(exceptions->memory, sp, words * WORD_BYTES);
     if (frame == NULL) {
-        note_stacking_fault(board, SCB_CFSR_UNSTKERR);
-        return exception_take(board, 0);
+        note_stacking_fault(exceptions, SCB_CFSR_UNSTKERR);
+        return exception_take(exceptions, 0);
     }
     uint32_t xpsr = get_word(frame, FRAME_REGISTERS + 1U);
     if (((xpsr & XPSR_EXCEPTION) == 0) != to_thread) {
-        return exception_fault(board, SCB_CFSR_INVPC, get_word(frame, FRAME_REGISTERS));
+        return exception_fault(exceptions, SCB_CFSR_INVPC, get_word(frame, FRAME_REGISTERS));
     }
     cpu_write_xpsr(cpu, (xpsr & ~XPSR_ALIGNED) | XPSR_THUMB);
     if (to_thread) {
@@ -194,29 +205,29 @@ static uint32_t pop_frame(struct board *board, uint32_t exc_return)
 }
 
 /* Lets the next pending exception follow the one that ends: the frame stays where it is. */
-static uint32_t chain(struct board *board, unsigned ending, uint32_t exc_return)
+static uint32_t chain(struct exceptions *exceptions, unsigned ending, uint32_t exc_return)
 {
-    struct cpu *cpu = &board->cpu;
-    stats_leave(board, ending);
-    board->stats.tail_chains++;
-    stats_begin(board, cpu->now);
-    cpu->now += EXCEPTION_TAIL_CYCLES;
-    events_run(board, cpu->now);
-    uint32_t handler = enter_handler(board, nvic_next_pending(&board->nvic), exc_return);
-    profile_place(board, PROFILE_ENTRY);
+    stats_leave(exceptions->stats, ending);
+    exceptions->stats->tail_chains++;
+    stats_begin(exceptions->stats, exceptions->clock->now);
+    exceptions->clock->now += EXCEPTION_TAIL_CYCLES;
+    clock_run(exceptions->clock, exceptions->clock->now);
+    uint32_t handler = enter_handler(exceptions, nvic_next_pending(exceptions->nvic), exc_return);
+    profile_place(exceptions->profile, PROFILE_ENTRY);
     return handler;
 }
 
 /* Asks for an exception that cannot wait. False: that is lockup. */
-static bool pend_fault(struct board *board, unsigned exception)
+static bool pend_fault(struct exceptions *exceptions, unsigned exception)
 {
-    struct nvic *nvic = &board->nvic;
-    board->event_cycle = board->cpu.now;
-    if (nvic_is_enabled(nvic, exception) && nvic_group_priority(nvic, exception) < nvic_running_priority(board)) {
-        nvic_pend(board, exception);
+    struct nvic *nvic = exceptions->nvic;
+    exceptions->clock->moment = exceptions->clock->now;
+    if (nvic_is_enabled(nvic, exception) &&
+        nvic_group_priority(nvic, exception) < nvic_running_priority(exceptions->nvic)) {
+        nvic_pend(exceptions->nvic, exception);
         return true;
     }
-    return escalate(board, exception == NVIC_DEBUG ? SCB_HFSR_DEBUGEVT : SCB_HFSR_FORCED);
+    return escalate(exceptions, exception == NVIC_DEBUG ? SCB_HFSR_DEBUGEVT : SCB_HFSR_FORCED);
 }
 
 /* To a handler, or to the main program on one of two stacks. */
@@ -228,66 +239,66 @@ static bool is_return(uint32_t exc_return)
 }
 
 /* An EXC_RETURN that is none ends the exception all the same, and the fault follows (ARMv7-M B1.5.8). */
-static uint32_t refuse_return(struct board *board, unsigned exception, uint32_t exc_return)
+static uint32_t refuse_return(struct exceptions *exceptions, unsigned exception, uint32_t exc_return)
 {
-    board->scb.cfsr |= SCB_CFSR_INVPC;
-    stats_note_fault(board, SCB_CFSR_INVPC, exc_return);
-    nvic_set_active(&board->nvic, exception, false);
-    return pend_fault(board, NVIC_USAGE_FAULT) ? chain(board, exception, exc_return) : exc_return;
+    exceptions->scb->cfsr |= SCB_CFSR_INVPC;
+    stats_note_fault(exceptions->stats, SCB_CFSR_INVPC, exc_return);
+    nvic_set_active(exceptions->nvic, exception, false);
+    return pend_fault(exceptions, NVIC_USAGE_FAULT) ? chain(exceptions, exception, exc_return) : exc_return;
 }
 
 /* Erratum 838869 of the core (its revisions r0p0 and r0p1): where a handler ends with BX while its last store still
  * waits for the bus, the processor may take the wrong vector. A DSB between the two helps, and so does a return by POP,
  * whose load comes after the store. */
-static void look_for_store(struct board *board)
+static void look_for_store(struct exceptions *exceptions)
 {
     enum {
         BX_MASK = 0xFF87,
         BX = 0x4700
     };
-    const uint8_t *code = memory_find(&board->memory, board->cpu.at, 2);
+    const uint8_t *code = memory_find(exceptions->memory, exceptions->cpu->at, 2);
     bool is_bx = code != NULL && ((code[0] | (unsigned)code[1] << 8) & BX_MASK) == BX;
-    if (is_bx && bus_idle_cycle(board) > board->cpu.now) {
-        board_warn(board, "a handler returns by BX while its last write is on its way: put a DSB between the two "
-                          "(core erratum 838869)");
+    if (is_bx && bus_idle_cycle(exceptions->bus) > exceptions->clock->now) {
+        report_warn(exceptions->report,
+                    "a handler returns by BX while its last write is on its way: put a DSB between the two "
+                    "(core erratum 838869)");
     }
 }
 
-uint32_t exception_return(struct board *board, uint32_t exc_return)
+uint32_t exception_return(struct exceptions *exceptions, uint32_t exc_return, bool *sleeps)
 {
-    struct cpu *cpu = &board->cpu;
+    struct cpu *cpu = exceptions->cpu;
     unsigned exception = cpu_read(cpu, UC_ARM_REG_IPSR) & XPSR_EXCEPTION;
 
-    look_for_store(board);
-    events_run(board, cpu->now);
-    profile_pause(board);
-    if (!is_return(exc_return) || !nvic_is_active(&board->nvic, exception)) {
-        return refuse_return(board, exception, exc_return);
+    *sleeps = false;
+    look_for_store(exceptions);
+    clock_run(exceptions->clock, exceptions->clock->now);
+    profile_pause(exceptions->profile);
+    if (!is_return(exc_return) || !nvic_is_active(exceptions->nvic, exception)) {
+        return refuse_return(exceptions, exception, exc_return);
     }
-    nvic_set_active(&board->nvic, exception, false);
+    nvic_set_active(exceptions->nvic, exception, false);
     if (exception != NVIC_NMI) {
         cpu_write(cpu, UC_ARM_REG_FAULTMASK, 0);
     }
-    if (exception >= NVIC_IRQ0 && nvic_line_is_high(board, exception)) {
-        nvic_pend(board, exception);
+    if (exception >= NVIC_IRQ0 && nvic_line_is_high(exceptions->nvic, exception)) {
+        nvic_pend(exceptions->nvic, exception);
     }
-    if (nvic_can_take(board)) {
-        return chain(board, exception, exc_return);
+    if (nvic_can_take(exceptions->nvic)) {
+        return chain(exceptions, exception, exc_return);
     }
-    cpu->now += EXCEPTION_EXIT_CYCLES;
-    profile_place(board, PROFILE_EXIT);
-    stats_leave(board, exception);
-    profile_pause(board);
-    uint32_t address = pop_frame(board, exc_return);
-    cpu->now += cpu_fetch_wait(board, address);
+    exceptions->clock->now += EXCEPTION_EXIT_CYCLES;
+    profile_place(exceptions->profile, PROFILE_EXIT);
+    stats_leave(exceptions->stats, exception);
+    profile_pause(exceptions->profile);
+    uint32_t address = pop_frame(exceptions, exc_return);
+    exceptions->clock->now += fetch_jump(exceptions->fetch, address);
     bool to_thread = (exc_return & RETURN_TO_THREAD) != 0;
-    if (to_thread && (board->scb.scr & SCB_SCR_SLEEPONEXIT) != 0) {
-        board_sleep(board);
-    }
+    *sleeps = to_thread && (exceptions->scb->scr & SCB_SCR_SLEEPONEXIT) != 0;
     return address;
 }
 
-uint32_t exception_fault(struct board *board, uint32_t cfsr_bits, uint32_t return_address)
+uint32_t exception_fault(struct exceptions *exceptions, uint32_t cfsr_bits, uint32_t return_address)
 {
     unsigned exception = NVIC_BUS_FAULT;
     if ((cfsr_bits & SCB_CFSR_USAGE) != 0) {
@@ -295,15 +306,15 @@ uint32_t exception_fault(struct board *board, uint32_t cfsr_bits, uint32_t retur
     } else if ((cfsr_bits & SCB_CFSR_MEMORY) != 0) {
         exception = NVIC_MEM_MANAGE;
     }
-    board->scb.cfsr |= cfsr_bits;
+    exceptions->scb->cfsr |= cfsr_bits;
     if ((cfsr_bits & SCB_CFSR_BFARVALID) != 0) {
-        board->scb.bfar = board->cpu.fault_address;
+        exceptions->scb->bfar = exceptions->cpu->fault_address;
     }
-    stats_note_fault(board, cfsr_bits, return_address);
-    return exception_call(board, exception, return_address);
+    stats_note_fault(exceptions->stats, cfsr_bits, return_address);
+    return exception_call(exceptions, exception, return_address);
 }
 
-uint32_t exception_call(struct board *board, unsigned exception, uint32_t return_address)
+uint32_t exception_call(struct exceptions *exceptions, unsigned exception, uint32_t return_address)
 {
-    return pend_fault(board, exception) ? exception_take(board, return_address) : return_address;
+    return pend_fault(exceptions, exception) ? exception_take(exceptions, return_address) : return_address;
 }

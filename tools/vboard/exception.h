@@ -8,7 +8,18 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct board;
+#include "bus.h"
+#include "clock.h"
+#include "cpu.h"
+#include "fetch.h"
+#include "flash.h"
+#include "iwdg.h"
+#include "memory.h"
+#include "nvic.h"
+#include "profile.h"
+#include "report.h"
+#include "scb.h"
+#include "stats.h"
 
 /* What entries and returns cost without wait states. */
 enum {
@@ -17,17 +28,33 @@ enum {
     EXCEPTION_TAIL_CYCLES = 6,
 };
 
+struct exceptions {
+    struct clock *clock;
+    struct cpu *cpu;
+    struct fetch *fetch;
+    struct memory *memory;
+    struct flash *flash; /* may be busy when a vector is read */
+    struct nvic *nvic;
+    struct scb *scb;
+    const struct bus *bus;
+    const struct iwdg *iwdg;
+    struct stats *stats;
+    struct profile *profile;
+    struct report *report;
+    unsigned lockups;
+};
+
 /* Takes the exception that comes next; `return_address` is where the program goes on afterwards. Returns where the
  * processor goes on now. */
-uint32_t exception_take(struct board *board, uint32_t return_address);
+uint32_t exception_take(struct exceptions *exceptions, uint32_t return_address);
 
-/* The processor has branched to an EXC_RETURN value. */
-uint32_t exception_return(struct board *board, uint32_t exc_return);
+/* The processor has branched to an EXC_RETURN value. `sleeps`: it goes on with sleep (SLEEPONEXIT). */
+uint32_t exception_return(struct exceptions *exceptions, uint32_t exc_return, bool *sleeps);
 
-/* A fault of the instruction at `return_address`, or behind it: bits of CFSR. */
-uint32_t exception_fault(struct board *board, uint32_t cfsr_bits, uint32_t return_address);
+/* A fault of the instruction at `return_address`, or before it: bits of CFSR. */
+uint32_t exception_fault(struct exceptions *exceptions, uint32_t cfsr_bits, uint32_t return_address);
 
 /* SVC and BKPT, which are taken at once. */
-uint32_t exception_call(struct board *board, unsigned exception, uint32_t return_address);
+uint32_t exception_call(struct exceptions *exceptions, unsigned exception, uint32_t return_address);
 
 #endif

@@ -1,6 +1,6 @@
 #include "exti.h"
 
-#include "board.h"
+#include <string.h>
 
 enum {
     EXTI_IMR = 0x00,
@@ -22,72 +22,81 @@ static const struct {
     {NVIC_IRQ_EXTI4, 0x0010}, {NVIC_IRQ_EXTI9_5, 0x03E0}, {NVIC_IRQ_EXTI15_10, 0xFC00},
 };
 
-static void update_interrupts(struct board *board)
+static void update_interrupts(struct exti *exti)
 {
-    uint32_t requests = board->exti.pending & board->exti.imr;
+    uint32_t requests = exti->pending & exti->imr;
     for (unsigned i = 0; i < sizeof interrupts / sizeof *interrupts; i++) {
-        nvic_set_line(board, interrupts[i].irq, (requests & interrupts[i].lines) != 0);
+        nvic_set_line(exti->wires.nvic, interrupts[i].irq, (requests & interrupts[i].lines) != 0);
     }
 }
 
-/* The mask stands behind the pending register, so that an edge on a masked line is kept (figure of section 12.2.5);
+/* The mask comes after the pending register, so that an edge on a masked line is kept (figure of section 12.2.5);
  * --exti-mask-first puts it in front of it, as section 12.3.5 may be read. */
-static void pend(struct board *board, uint32_t lines)
+static void pend(struct exti *exti, uint32_t lines)
 {
-    struct exti *exti = &board->exti;
-    exti->pending |= board->options->exti_mask_first ? lines & exti->imr : lines;
-    update_interrupts(board);
+    exti->pending |= exti->wires.mask_first ? lines & exti->imr : lines;
+    update_interrupts(exti);
 }
 
-static void set_levels(struct board *board, uint16_t lines, uint16_t levels)
+static void set_levels(struct exti *exti, uint16_t lines, uint16_t levels)
 {
-    struct exti *exti = &board->exti;
     uint32_t rising = lines & levels & (uint32_t)~exti->level & exti->rtsr;
     uint32_t falling = lines & (uint32_t)~levels & exti->level & exti->ftsr;
     exti->level = (uint16_t)((exti->level & ~lines) | (levels & lines));
     if ((rising | falling) != 0) {
-        pend(board, rising | falling);
+        pend(exti, rising | falling);
     }
 }
 
-void exti_follow(struct board *board, unsigned port)
+static void follow(struct exti *exti, unsigned port)
 {
-    uint16_t lines = board->exti.routed[port];
+    uint16_t lines = exti->routed[port];
     if (lines != 0) {
-        set_levels(board, lines, board->port[port].level & (uint16_t)~board->port[port].analog);
+        set_levels(exti, lines, exti->pins[port]);
     }
 }
 
-void exti_route(struct board *board, uint64_t ports)
+void exti_follow(struct exti *exti, unsigned port, uint16_t levels)
 {
-    struct exti *exti = &board->exti;
-    for (unsigned port = 0; port < GPIO_PORTS; port++) {
+    exti->pins[port] = levels;
+    follow(exti, port);
+}
+
+void exti_route(struct exti *exti, uint64_t ports)
+{
+    for (unsigned port = 0; port < EXTI_PORTS; port++) {
         exti->routed[port] = 0;
     }
-    for (unsigned line = 0; line < GPIO_PINS; line++) {
+    for (unsigned line = 0; line < EXTI_LINES; line++) {
         unsigned port = ports >> 4U * line & 15U;
-        if (port >= GPIO_PORTS) {
-            board_fail(board, "SYSCFG_EXTICR: port %u of line %u does not exist", port, line);
+        if (port >= EXTI_PORTS) {
+            report_fail(exti->wires.report, "SYSCFG_EXTICR: port %u of line %u does not exist", port, line);
             return;
         }
         exti->routed[port] |= (uint16_t)(1U << line);
     }
-    for (unsigned port = 0; port < GPIO_PORTS; port++) {
-        exti_follow(board, port);
+    for (unsigned port = 0; port < EXTI_PORTS; port++) {
+        follow(exti, port);
     }
 }
 
-void exti_reset(struct board *board)
+void exti_init(struct exti *exti, struct exti_wires wires)
 {
-    board->exti = (struct exti){.imr = 0};
-    update_interrupts(board);
-    exti_route(board, 0);
+    exti->wires = wires;
 }
 
-bool exti_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
+void exti_reset(struct exti *exti)
 {
-    const struct exti *exti = &board->exti;
-    (void)instance;
+    struct exti before = *exti;
+    *exti = (struct exti){.wires = before.wires};
+    memcpy(exti->pins, before.pins, sizeof exti->pins);
+    update_interrupts(exti);
+    exti_route(exti, 0);
+}
+
+bool exti_read(void *model, uint32_t offset, uint32_t *value)
+{
+    const struct exti *exti = model;
     switch (offset) {
     case EXTI_IMR:
         *value = exti->imr;
@@ -113,27 +122,25 @@ bool exti_read(struct board *board, unsigned instance, uint32_t offset, uint32_t
 }
 
 /* Section 12.3.5: a bit that goes from 0 to 1 makes a request where the line is not masked. */
-static void write_swier(struct board *board, uint32_t value)
+static void write_swier(struct exti *exti, uint32_t value)
 {
-    struct exti *exti = &board->exti;
     uint32_t requests = value & ~exti->swier & exti->imr;
     exti->swier = value;
-    pend(board, requests);
+    pend(exti, requests);
 }
 
 /* Section 12.3.6: ones clear, here and in SWIER. */
-static void write_pr(struct board *board, uint32_t ones)
+static void write_pr(struct exti *exti, uint32_t ones)
 {
-    board->exti.pending &= ~ones;
-    board->exti.swier &= ~ones;
+    exti->pending &= ~ones;
+    exti->swier &= ~ones;
 }
 
-bool exti_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask)
+bool exti_write(void *model, uint32_t offset, uint32_t value, uint32_t mask)
 {
-    struct exti *exti = &board->exti;
-    (void)instance;
+    struct exti *exti = model;
     if ((value & mask & ~PIN_LINES) != 0 && offset <= EXTI_PR) {
-        board_fail(board, "EXTI: only lines 0 to 15, those of the pins, are modelled");
+        report_fail(exti->wires.report, "EXTI: only lines 0 to 15, those of the pins, are modelled");
         return true;
     }
     value &= mask;
@@ -143,7 +150,7 @@ bool exti_write(struct board *board, unsigned instance, uint32_t offset, uint32_
         break;
     case EXTI_EMR:
         if (value != 0) {
-            board_fail(board, "EXTI_EMR: events are not modelled");
+            report_fail(exti->wires.report, "EXTI_EMR: events are not modelled");
         }
         break;
     case EXTI_RTSR:
@@ -153,14 +160,14 @@ bool exti_write(struct board *board, unsigned instance, uint32_t offset, uint32_
         exti->ftsr = value;
         break;
     case EXTI_SWIER:
-        write_swier(board, value);
+        write_swier(exti, value);
         break;
     case EXTI_PR:
-        write_pr(board, value);
+        write_pr(exti, value);
         break;
     default:
         return false;
     }
-    update_interrupts(board);
+    update_interrupts(exti);
     return true;
 }

@@ -8,29 +8,42 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "gpio.h"
+#include "nvic.h"
+#include "report.h"
 
-struct board;
+enum {
+    EXTI_LINES = 16,
+    EXTI_PORTS = 9, /* A to I */
+};
+
+struct exti_wires {
+    struct nvic *nvic;
+    struct report *report;
+    bool mask_first; /* --exti-mask-first */
+};
 
 struct exti {
+    struct exti_wires wires;
     uint32_t imr;
     uint32_t rtsr;
     uint32_t ftsr;
     uint32_t swier;
     uint32_t pending;
     uint16_t level;              /* of the lines */
-    uint16_t routed[GPIO_PORTS]; /* lines that the port with this number has */
+    uint16_t pins[EXTI_PORTS];   /* levels of the ports, as the program can see them */
+    uint16_t routed[EXTI_PORTS]; /* lines that the port with this number has */
 };
 
-void exti_reset(struct board *board);
+void exti_init(struct exti *exti, struct exti_wires wires);
+void exti_reset(struct exti *exti);
 
-bool exti_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);
-bool exti_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask);
+bool exti_read(void *model, uint32_t offset, uint32_t *value);
+bool exti_write(void *model, uint32_t offset, uint32_t value, uint32_t mask);
 
 /* SYSCFG_EXTICR says which port has each line: four bits a line. A line whose level changes with it has an edge. */
-void exti_route(struct board *board, uint64_t ports);
+void exti_route(struct exti *exti, uint64_t ports);
 
-/* The pins of a port have changed, or what the program can see of them. */
-void exti_follow(struct board *board, unsigned port);
+/* The pins of a port as the program can see them, which have changed perhaps. */
+void exti_follow(struct exti *exti, unsigned port, uint16_t levels);
 
 #endif

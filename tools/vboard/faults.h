@@ -7,7 +7,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct board;
+#include "clock.h"
+#include "cpu.h"
+#include "flash.h"
+#include "image.h"
+#include "memory.h"
+#include "nvic.h"
+#include "reset.h"
 
 enum {
     FAULTS_MAX = 16
@@ -31,25 +37,33 @@ struct fault {
     uint32_t value;
 };
 
+struct faults_wires {
+    struct clock *clock;
+    struct cpu *cpu;
+    struct memory *memory;
+    struct flash *flash;
+    struct nvic *nvic;
+    struct reset *reset;
+    const struct image *image; /* whose symbols are places */
+};
+
 struct faults {
+    struct faults_wires wires;
     struct fault fault[2 * FAULTS_MAX]; /* sorted by time */
     unsigned count;
     unsigned next;
     unsigned due; /* those that wait until emulation stands */
 };
 
-/* Reads up to eight hexadecimal digits, up to `end`. */
-bool faults_read_hex(const char *at, const char *end, uint32_t *value);
+void faults_init(struct faults *faults, struct faults_wires wires);
 
-/* Reads what the options ask for; the program has been loaded. False after a complaint. */
-bool faults_open(struct board *board);
-
-void faults_event(struct board *board, uint64_t cycle);
+/* Reads up to FAULTS_MAX faults, as MS:WHAT; the program has been loaded. False after a complaint. */
+bool faults_open(struct faults *faults, const char *const texts[], unsigned count);
 
 /* Does what is due, between two stretches of emulation. */
-void faults_apply(struct board *board);
+void faults_apply(struct faults *faults);
 
 /* What a reset ends. */
-void faults_reset(struct board *board);
+void faults_reset(struct faults *faults);
 
 #endif

@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "board.h"
-
 enum {
     FLASH_ACR = 0x00,
     FLASH_KEYR = 0x04,
@@ -17,6 +15,7 @@ enum {
 
 #define KEY1 UINT32_C(0x45670123)
 #define KEY2 UINT32_C(0xCDEF89AB)
+#define ACR_LATENCY UINT32_C(7)
 #define ACR_PRFTEN (UINT32_C(1) << 8)
 #define ACR_ICEN (UINT32_C(1) << 9)
 #define ACR_DCEN (UINT32_C(1) << 10)
@@ -59,20 +58,20 @@ static uint32_t sector_bytes(unsigned sector)
 }
 
 /* Times of the data sheet (table of the flash memory's programming), for each size of access; microseconds. */
-static uint64_t program_us(const struct board *board)
+static uint64_t program_us(const struct flash *flash)
 {
-    return board->options->slow_flash ? 100 : 16;
+    return flash->wires.settings->slow ? 100 : 16;
 }
 
-static uint64_t erase_us(const struct board *board, uint32_t bytes, unsigned size)
+static uint64_t erase_us(const struct flash *flash, uint32_t bytes, unsigned size)
 {
-    if (board->options->erase_us != 0) {
-        return board->options->erase_us;
+    if (flash->wires.settings->erase_us != 0) {
+        return flash->wires.settings->erase_us;
     }
     static const uint32_t typical_ms[3][3] = {{400, 300, 250}, {1200, 700, 550}, {2000, 1300, 1000}};
     unsigned row = (bytes > 16U * 1024U ? 1U : 0U) + (bytes > 64U * 1024U ? 1U : 0U);
     uint64_t us = 1000U * (uint64_t)typical_ms[row][size > 2 ? 2 : size];
-    return board->options->slow_flash ? 2U * us : us;
+    return flash->wires.settings->slow ? 2U * us : us;
 }
 
 unsigned flash_brown_out_level(const struct flash *flash)
@@ -88,34 +87,37 @@ static uint32_t least_mv(const struct flash *flash)
 }
 
 /* The supply has fallen in an operation: what it leaves may not last. */
-void flash_watch_supply(struct board *board)
+void flash_watch_supply(struct flash *flash)
 {
-    struct flash *flash = &board->flash;
-    if (flash_is_busy(flash) && !flash->weak && board->supply.mv < flash->needs_mv) {
+    if (flash_is_busy(flash) && !flash->weak && flash->wires.conditions->supply_mv < flash->needs_mv) {
         flash->weak = true;
         flash->weakened++;
     }
 }
 
-void flash_set_wait_states(struct board *board, uint32_t states)
+static void set_acr(struct flash *flash, uint32_t acr)
 {
-    board->flash.acr = ACR_ICEN | ACR_DCEN | states;
-    if (!board->cpu.wait_states_fixed) {
-        board->cpu.wait_states = states;
-    }
+    uint32_t latency = acr & ACR_LATENCY;
+    flash->acr = acr;
+    flash->wires.conditions->flash_latency = latency;
+    flash->wait_states = flash->wires.wait_states < 0 ? latency : (uint32_t)flash->wires.wait_states;
 }
 
-void flash_leave_unlocked(struct board *board)
+void flash_set_wait_states(struct flash *flash, uint32_t states)
 {
-    board->flash.sr = SR_PGSERR | SR_PGAERR;
-    board->flash.cr = 0;
-    board->flash.optcr &= ~OPTCR_LOCK;
+    set_acr(flash, ACR_ICEN | ACR_DCEN | states);
 }
 
-void flash_reset(struct board *board)
+void flash_leave_unlocked(struct flash *flash)
 {
-    struct flash *flash = &board->flash;
-    flash->acr = 0;
+    flash->sr = SR_PGSERR | SR_PGAERR;
+    flash->cr = 0;
+    flash->optcr &= ~OPTCR_LOCK;
+}
+
+void flash_reset(struct flash *flash)
+{
+    set_acr(flash, 0);
     flash->sr = 0;
     flash->cr = CR_LOCK;
     flash->optcr = flash->options | OPTCR_LOCK;
@@ -123,17 +125,7 @@ void flash_reset(struct board *board)
     flash->option_keys = 0;
     flash->locked_out = false;
     flash->operation = FLASH_IDLE;
-    events_set(board, EVENT_FLASH, VTIME_NEVER);
-}
-
-uint64_t flash_done_cycle(const struct board *board)
-{
-    return board->events.due[EVENT_FLASH];
-}
-
-unsigned flash_latency(const struct flash *flash)
-{
-    return flash->acr & 7U;
+    clock_set(flash->wires.clock, EVENT_FLASH, VTIME_NEVER);
 }
 
 bool flash_instruction_cache_is_on(const struct flash *flash)
@@ -151,50 +143,65 @@ bool flash_prefetch_is_on(const struct flash *flash)
     return (flash->acr & ACR_PRFTEN) != 0;
 }
 
-static void update_interrupt(struct board *board)
+void flash_stall(struct flash *flash, uint32_t address)
 {
-    const struct flash *flash = &board->flash;
+    struct clock *clock = flash->wires.clock;
+    if (!memory_is_flash(address) || !flash_is_busy(flash)) {
+        return;
+    }
+    uint64_t done = clock->source[EVENT_FLASH].due;
+    if (done > clock->now) {
+        clock->stalled_cycles += done - clock->now;
+        flash->stalls++;
+        clock->now = done;
+    }
+    clock_run(clock, clock->now);
+}
+
+static void update_interrupt(struct flash *flash)
+{
     bool end = (flash->cr & CR_EOPIE) != 0 && (flash->sr & SR_EOP) != 0;
     bool error = (flash->cr & CR_ERRIE) != 0 && (flash->sr & SR_OPERR) != 0;
-    nvic_set_line(board, NVIC_IRQ_FLASH, end || error);
+    nvic_set_line(flash->wires.nvic, NVIC_IRQ_FLASH, end || error);
 }
 
-static void set_error(struct board *board, uint32_t error)
+static void set_error(struct flash *flash, uint32_t error)
 {
-    board->flash.sr |= error | ((board->flash.cr & CR_ERRIE) != 0 ? SR_OPERR : 0U);
-    update_interrupt(board);
+    flash->sr |= error | ((flash->cr & CR_ERRIE) != 0 ? SR_OPERR : 0U);
+    update_interrupt(flash);
 }
 
-static void begin(struct board *board, enum flash_operation operation, uint64_t us)
+static void begin(struct flash *flash, enum flash_operation operation, uint64_t us)
 {
-    struct flash *flash = &board->flash;
     flash->operation = operation;
     flash->operations++;
-    flash->fails = flash->operations == board->options->flash_fail;
+    flash->fails = flash->operations == flash->wires.settings->fail;
     flash->programs += operation == FLASH_PROGRAM ? 1U : 0U;
     flash->erases += operation == FLASH_ERASE ? 1U : 0U;
     flash->cut = NULL;
-    for (unsigned i = 0; i < board->options->cuts; i++) {
-        flash->cut = board->options->cut[i].operation == flash->operations ? &board->options->cut[i] : flash->cut;
+    for (unsigned i = 0; i < flash->wires.settings->cuts; i++) {
+        flash->cut =
+            flash->wires.settings->cut[i].operation == flash->operations ? &flash->wires.settings->cut[i] : flash->cut;
     }
-    if (board->supply.mv < least_mv(flash)) {
-        board_fail(board,
-                   "an operation of the flash begins at %u mV, PSIZE %u needs %u; it may not last (RM0090 "
-                   "3.6.2)",
-                   (unsigned)board->supply.mv, (unsigned)(flash->cr >> 8 & 3U), (unsigned)least_mv(flash));
+    if (flash->wires.conditions->supply_mv < least_mv(flash)) {
+        report_fail(flash->wires.report,
+                    "an operation of the flash begins at %u mV, PSIZE %u needs %u; it may not last (RM0090 "
+                    "3.6.2)",
+                    (unsigned)flash->wires.conditions->supply_mv, (unsigned)(flash->cr >> 8 & 3U),
+                    (unsigned)least_mv(flash));
     }
     flash->needs_mv = least_mv(flash);
     flash->weak = false;
     uint64_t ps = us * VTIME_PS_PER_US / (flash->cut != NULL ? 2U : 1U);
-    events_set_ps(board, EVENT_FLASH, board_now_ps(board) + ps);
-    cpu_poke(&board->cpu);
+    clock_set_ps(flash->wires.clock, EVENT_FLASH, clock_now_ps(flash->wires.clock) + ps);
+    clock_poke(flash->wires.clock);
 }
 
 /* Whether anything in a range of the flash has been executed. */
-static bool was_executed(const struct board *board, uint32_t offset, uint32_t bytes)
+static bool was_executed(const struct flash *flash, uint32_t offset, uint32_t bytes)
 {
     for (uint32_t at = offset; at < offset + bytes; at += 2) {
-        if (cost_find(&board->cpu.cost, MEMORY_FLASH_BASE + at)->kind != COST_UNKNOWN) {
+        if (cost_find(flash->wires.costs, MEMORY_FLASH_BASE + at)->kind != COST_UNKNOWN) {
             return true;
         }
     }
@@ -209,21 +216,19 @@ static uint8_t after(const struct flash *flash, uint32_t index, uint8_t before)
     return (uint8_t)(before & (uint32_t)(flash->value >> 8U * index) & UINT8_MAX);
 }
 
-static void change(struct board *board, uint32_t bytes)
+static void change(struct flash *flash, uint32_t bytes)
 {
-    struct flash *flash = &board->flash;
-    uint8_t *at = board->memory.flash + flash->address;
+    uint8_t *at = flash->wires.memory->flash + flash->address;
     for (uint32_t i = 0; i < bytes; i++) {
         at[i] = after(flash, i, at[i]);
     }
-    flash->code_changed |= was_executed(board, flash->address, bytes);
+    flash->code_changed |= was_executed(flash, flash->address, bytes);
 }
 
 /* Of the bits that were to change some have and some have not (xorshift32). */
-static void change_some(struct board *board, uint32_t seed)
+static void change_some(struct flash *flash, uint32_t seed)
 {
-    struct flash *flash = &board->flash;
-    uint8_t *at = board->memory.flash + flash->address;
+    uint8_t *at = flash->wires.memory->flash + flash->address;
     uint32_t random = (seed + 1U) * UINT32_C(2654435761) | 1U;
     for (uint32_t i = 0; i < flash->bytes; i++) {
         random ^= random << 13;
@@ -231,130 +236,125 @@ static void change_some(struct board *board, uint32_t seed)
         random ^= random << 5;
         at[i] = (uint8_t)(at[i] ^ ((at[i] ^ after(flash, i, at[i])) & random >> 11));
     }
-    flash->code_changed |= was_executed(board, flash->address, flash->bytes);
+    flash->code_changed |= was_executed(flash, flash->address, flash->bytes);
 }
 
-static void change_all_but_one_bit(struct board *board)
+static void change_all_but_one_bit(struct flash *flash)
 {
-    struct flash *flash = &board->flash;
-    uint8_t *at = board->memory.flash + flash->address;
+    uint8_t *at = flash->wires.memory->flash + flash->address;
     uint32_t place = 0;
     while (place + 1U < flash->bytes && at[place] == after(flash, place, at[place])) {
         place++;
     }
     uint32_t differs = at[place] ^ after(flash, place, at[place]);
-    change(board, flash->bytes);
+    change(flash, flash->bytes);
     at[place] ^= (uint8_t)(differs & (0U - differs));
 }
 
-static void fail(struct board *board)
+static void fail(struct flash *flash)
 {
-    if (board->options->flash_bit) {
-        change_all_but_one_bit(board);
+    if (flash->wires.settings->bit) {
+        change_all_but_one_bit(flash);
     }
-    if (board->options->flash_error != 0) {
-        set_error(board, board->options->flash_error);
+    if (flash->wires.settings->error != 0) {
+        set_error(flash, flash->wires.settings->error);
     }
 }
 
-void flash_cut(struct board *board)
+void flash_cut(struct flash *flash)
 {
-    struct flash *flash = &board->flash;
-    uint32_t leaves = flash->cut == NULL ? (uint32_t)OPTIONS_CUT_HALF : flash->cut->leaves;
+    uint32_t leaves = flash->cut == NULL ? (uint32_t)FLASH_CUT_HALF : flash->cut->leaves;
     if (!flash_is_busy(flash)) {
         return;
     }
-    if (leaves >= (uint32_t)OPTIONS_CUT_SEED) {
-        change_some(board, leaves - (uint32_t)OPTIONS_CUT_SEED);
-    } else if (leaves != (uint32_t)OPTIONS_CUT_NOTHING) {
-        change(board, leaves == (uint32_t)OPTIONS_CUT_ALL ? flash->bytes : flash->bytes / 2U);
+    if (leaves >= (uint32_t)FLASH_CUT_SEED) {
+        change_some(flash, leaves - (uint32_t)FLASH_CUT_SEED);
+    } else if (leaves != (uint32_t)FLASH_CUT_NOTHING) {
+        change(flash, leaves == (uint32_t)FLASH_CUT_ALL ? flash->bytes : flash->bytes / 2U);
     }
     flash->operation = FLASH_IDLE;
 }
 
 /* Power goes in the middle of an operation; without --power-back that is the end of the run. */
-static void lose_power(struct board *board)
+static void lose_power(struct flash *flash)
 {
-    flash_cut(board);
-    if (board->options->power_back) {
-        board_request_reset(board, RESET_POWER);
+    flash_cut(flash);
+    if (flash->wires.settings->power_back) {
+        reset_request(flash->wires.reset, RESET_POWER);
     } else {
-        board_finish(board, BOARD_POWER_CUT, "");
+        report_finish(flash->wires.report, REPORT_POWER_CUT, "");
     }
 }
 
-void flash_event(struct board *board, uint64_t cycle)
+static void on_flash_event(void *model, uint64_t cycle)
 {
-    struct flash *flash = &board->flash;
+    struct flash *flash = model;
     (void)cycle;
     if (flash->cut != NULL) {
-        lose_power(board);
+        lose_power(flash);
     } else if (flash->operation == FLASH_OPTIONS) {
         flash->options = flash->optcr & OPTCR_MASK;
         flash->optcr &= ~OPTCR_STRT;
     } else if (flash->fails) {
-        fail(board);
+        fail(flash);
     } else if (flash->weak) {
-        change_some(board, flash->weakened);
+        change_some(flash, flash->weakened);
     } else {
-        change(board, flash->bytes);
+        change(flash, flash->bytes);
         flash->sr |= (flash->cr & CR_EOPIE) != 0 ? SR_EOP : 0U;
     }
     flash->operation = FLASH_IDLE;
     flash->cr &= ~CR_STRT;
-    update_interrupt(board);
-    cpu_poke(&board->cpu);
+    update_interrupt(flash);
+    clock_poke(flash->wires.clock);
 }
 
 /* Errors of section 3.7: PG must be set, the access as wide as PSIZE says. */
-void flash_write(struct board *board, uint32_t address, unsigned bytes, uint32_t value)
+void flash_write(struct flash *flash, uint32_t address, unsigned bytes, uint32_t value)
 {
-    struct flash *flash = &board->flash;
     unsigned size = flash->cr >> 8 & 3U;
-    cpu_stall_on_flash(board, MEMORY_FLASH_BASE);
+    flash_stall(flash, MEMORY_FLASH_BASE);
     if ((flash->cr & CR_LOCK) != 0 || (flash->cr & CR_PG) == 0) {
-        set_error(board, SR_PGSERR);
+        set_error(flash, SR_PGSERR);
     } else if (bytes != 1U << size) {
-        set_error(board, SR_PGPERR);
+        set_error(flash, SR_PGPERR);
     } else if (address % bytes != 0) {
-        set_error(board, SR_PGAERR);
+        set_error(flash, SR_PGAERR);
     } else if ((flash->sr & SR_ERRORS) != 0) {
-        set_error(board, SR_PGSERR);
+        set_error(flash, SR_PGSERR);
     } else {
         flash->address = address & (MEMORY_FLASH_BYTES - 1U);
         flash->bytes = bytes;
         flash->value = value;
-        begin(board, FLASH_PROGRAM, program_us(board));
+        begin(flash, FLASH_PROGRAM, program_us(flash));
     }
 }
 
-static void erase(struct board *board)
+static void erase(struct flash *flash)
 {
-    struct flash *flash = &board->flash;
     unsigned sector = flash->cr >> 3 & 0xFU;
     unsigned size = flash->cr >> 8 & 3U;
     if ((flash->cr & CR_MER) != 0) {
-        board_fail(board, "FLASH_CR: erase of the whole memory is not modelled");
+        report_fail(flash->wires.report, "FLASH_CR: erase of the whole memory is not modelled");
     } else if ((flash->cr & CR_SER) == 0 || (flash->cr & CR_PG) != 0 || sector >= SECTORS) {
-        set_error(board, SR_PGSERR);
+        set_error(flash, SR_PGSERR);
         flash->cr &= ~CR_STRT;
     } else if ((flash->sr & SR_ERRORS) != 0) {
-        set_error(board, SR_PGSERR);
+        set_error(flash, SR_PGSERR);
         flash->cr &= ~CR_STRT;
-    } else if (sector_base(sector) >= board->options->flash_kb * 1024U) {
-        board_fail(board, "FLASH_CR: sector %u is erased, which a part of %u kB does not have", sector,
-                   (unsigned)board->options->flash_kb);
+    } else if (sector_base(sector) >= flash->wires.settings->kb * 1024U) {
+        report_fail(flash->wires.report, "FLASH_CR: sector %u is erased, which a part of %u kB does not have", sector,
+                    (unsigned)flash->wires.settings->kb);
     } else {
         flash->address = sector_base(sector);
         flash->bytes = sector_bytes(sector);
-        begin(board, FLASH_ERASE, erase_us(board, flash->bytes, size));
+        begin(flash, FLASH_ERASE, erase_us(flash, flash->bytes, size));
     }
 }
 
 /* A wrong key, or one too many, locks FLASH_CR until the next reset (section 3.6.1). */
-static void write_key(struct board *board, uint32_t value)
+static void write_key(struct flash *flash, uint32_t value)
 {
-    struct flash *flash = &board->flash;
     if (flash->locked_out || (flash->cr & CR_LOCK) == 0 || value != (flash->keys == 0 ? KEY1 : KEY2)) {
         flash->locked_out = true;
         flash->cr |= CR_LOCK;
@@ -368,9 +368,8 @@ static void write_key(struct board *board, uint32_t value)
 }
 
 /* Section 3.6.3. Further wrong keys lock as those of FLASH_CR do; that is not modelled. */
-static void write_option_key(struct board *board, uint32_t value)
+static void write_option_key(struct flash *flash, uint32_t value)
 {
-    struct flash *flash = &board->flash;
     bool right = value == (flash->option_keys == 0 ? OPTION_KEY1 : OPTION_KEY2);
     flash->option_keys = right ? flash->option_keys + 1U : 0U;
     if (flash->option_keys == 2) {
@@ -380,13 +379,12 @@ static void write_option_key(struct board *board, uint32_t value)
 }
 
 /* Locked, it takes nothing. What is written is kept when OPTSTRT is set; it counts as no operation of the flash. */
-static void write_options(struct board *board, uint32_t value)
+static void write_options(struct flash *flash, uint32_t value)
 {
-    struct flash *flash = &board->flash;
     if ((flash->optcr & OPTCR_LOCK) != 0) {
         return;
     }
-    cpu_stall_on_flash(board, MEMORY_FLASH_BASE);
+    flash_stall(flash, MEMORY_FLASH_BASE);
     flash->optcr = value & (OPTCR_MASK | OPTCR_LOCK | OPTCR_STRT);
     if ((value & OPTCR_STRT) != 0) {
         flash->operation = FLASH_OPTIONS;
@@ -394,49 +392,43 @@ static void write_options(struct board *board, uint32_t value)
         flash->bytes = 0;
         flash->cut = NULL;
         flash->option_writes++;
-        events_set_ps(board, EVENT_FLASH, board_now_ps(board) + OPTIONS_MS * VTIME_PS_PER_MS);
-        cpu_poke(&board->cpu);
+        clock_set_ps(flash->wires.clock, EVENT_FLASH, clock_now_ps(flash->wires.clock) + OPTIONS_MS * VTIME_PS_PER_MS);
+        clock_poke(flash->wires.clock);
     }
 }
 
-static void write_control(struct board *board, uint32_t value)
+static void write_control(struct flash *flash, uint32_t value)
 {
-    struct flash *flash = &board->flash;
     if (flash_is_busy(flash)) {
-        cpu_stall_on_flash(board, MEMORY_FLASH_BASE);
+        flash_stall(flash, MEMORY_FLASH_BASE);
     }
     if ((flash->cr & CR_LOCK) != 0) {
         return;
     }
     flash->cr = value & CR_MASK;
-    update_interrupt(board);
+    update_interrupt(flash);
     if ((value & CR_STRT) != 0) {
-        erase(board);
+        erase(flash);
     }
 }
 
-static void write_acr(struct board *board, uint32_t value)
+static void write_acr(struct flash *flash, uint32_t value)
 {
-    struct cpu *cpu = &board->cpu;
-    uint32_t was_on = board->flash.acr & (ACR_ICEN | ACR_DCEN);
-    if ((value & ACR_PRFTEN) != 0 && core_is_revision_a(board)) {
-        board_fail(board, "FLASH_ACR: revision A has no prefetch that works (errata ES0182)");
+    uint32_t was_on = flash->acr & (ACR_ICEN | ACR_DCEN);
+    if ((value & ACR_PRFTEN) != 0 && !flash->wires.prefetch_works) {
+        report_fail(flash->wires.report, "FLASH_ACR: revision A has no prefetch that works (errata ES0182)");
     }
     if (((value & ACR_ICRST) != 0 && (was_on & ACR_ICEN) != 0) ||
         ((value & ACR_DCRST) != 0 && (was_on & ACR_DCEN) != 0)) {
-        board_fail(board, "FLASH_ACR: a cache is reset while it is on (RM0090 3.9.1)");
+        report_fail(flash->wires.report, "FLASH_ACR: a cache is reset while it is on (RM0090 3.9.1)");
     }
-    board->flash.acr = value & ACR_MASK;
-    if (!cpu->wait_states_fixed) {
-        cpu->wait_states = flash_latency(&board->flash);
-    }
-    rcc_check_limits(board);
+    set_acr(flash, value & ACR_MASK);
+    conditions_check(flash->wires.conditions);
 }
 
-bool flash_read_register(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
+bool flash_read_register(void *model, uint32_t offset, uint32_t *value)
 {
-    const struct flash *flash = &board->flash;
-    (void)instance;
+    const struct flash *flash = model;
     switch (offset) {
     case FLASH_ACR:
         *value = flash->acr;
@@ -455,31 +447,37 @@ bool flash_read_register(struct board *board, unsigned instance, uint32_t offset
     }
 }
 
-bool flash_write_register(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask)
+bool flash_write_register(void *model, uint32_t offset, uint32_t value, uint32_t mask)
 {
-    struct flash *flash = &board->flash;
-    (void)instance;
+    struct flash *flash = model;
     switch (offset) {
     case FLASH_ACR:
-        write_acr(board, (flash->acr & ~mask) | (value & mask));
+        write_acr(flash, (flash->acr & ~mask) | (value & mask));
         return true;
     case FLASH_KEYR:
-        write_key(board, value);
+        write_key(flash, value);
         return true;
     case FLASH_OPTKEYR:
-        write_option_key(board, value);
+        write_option_key(flash, value);
         return true;
     case FLASH_OPTCR:
-        write_options(board, (flash->optcr & ~mask) | (value & mask));
+        write_options(flash, (flash->optcr & ~mask) | (value & mask));
         return true;
     case FLASH_SR:
         flash->sr &= ~(value & mask & SR_CLEARABLE);
-        update_interrupt(board);
+        update_interrupt(flash);
         return true;
     case FLASH_CR:
-        write_control(board, (flash->cr & ~mask) | (value & mask));
+        write_control(flash, (flash->cr & ~mask) | (value & mask));
         return true;
     default:
         return false;
     }
+}
+
+void flash_init(struct flash *flash, struct flash_wires wires)
+{
+    flash->wires = wires;
+    flash->options = wires.settings->option_bytes;
+    clock_attach(wires.clock, EVENT_FLASH, on_flash_event, flash);
 }

@@ -8,8 +8,17 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct board;
-struct options_cut;
+#include "clock.h"
+#include "conditions.h"
+#include "cost.h"
+#include "memory.h"
+#include "nvic.h"
+#include "report.h"
+#include "reset.h"
+
+enum {
+    FLASH_CUTS_MAX = 4
+};
 
 enum flash_operation {
     FLASH_IDLE,
@@ -21,7 +30,50 @@ enum flash_operation {
 /* OPTCR of a part as it is delivered: no brown-out reset, no protection (RM0090 section 3.9.8). */
 #define FLASH_OPTIONS_DELIVERED UINT32_C(0x0FFFAAED)
 
+/* What a cut of power leaves of an operation: nothing of it, all, the first half; or, from SEED on, of the bits that
+ * were to change some have and some have not. */
+enum {
+    FLASH_CUT_NOTHING,
+    FLASH_CUT_ALL,
+    FLASH_CUT_HALF,
+    FLASH_CUT_SEED
+};
+
+struct flash_cut {
+    uint64_t operation; /* from 1 */
+    uint32_t leaves;
+};
+
+/* The part that is on the board, and what goes wrong with it on request. */
+struct flash_settings {
+    uint64_t kb;           /* that the part has */
+    uint64_t erase_us;     /* 0: as the data sheet says */
+    bool slow;             /* times of the worst case */
+    uint32_t option_bytes; /* OPTCR at the start */
+    uint64_t fail;         /* the operation that fails, from 1; 0: none */
+    uint32_t error;        /* what SR tells then */
+    bool bit;              /* one bit of it alone is not written */
+    struct flash_cut cut[FLASH_CUTS_MAX];
+    unsigned cuts;
+    bool power_back; /* after a cut, at once */
+};
+
+struct flash_wires {
+    struct clock *clock;
+    struct report *report;
+    struct reset *reset;
+    struct nvic *nvic;
+    struct conditions *conditions;
+    struct memory *memory;
+    const struct cost_table *costs; /* tell what has been executed */
+    const struct flash_settings *settings;
+    int wait_states;     /* as modelled; -1: those of ACR */
+    bool prefetch_works; /* it does not in all revisions of the part */
+};
+
 struct flash {
+    struct flash_wires wires;
+    uint32_t wait_states; /* as modelled */
     uint32_t acr;
     uint32_t sr;
     uint32_t cr;
@@ -34,59 +86,56 @@ struct flash {
     enum flash_operation operation;
     uint32_t address; /* of the operation in progress, offset in the memory */
     uint32_t bytes;
-    uint32_t value; /* to be programmed */
-    uint64_t done_cycle;
+    uint32_t value;      /* to be programmed */
     bool read_protected; /* reads are watched, as the bus has to wait */
     bool code_changed;   /* what was executed before has been rewritten */
     bool fails;          /* the operation in progress */
     bool weak;           /* likewise: the supply was too low for it */
     uint32_t needs_mv;   /* of supply */
     unsigned weakened;
-    const struct options_cut *cut; /* of power, in the middle of it; null: none */
+    const struct flash_cut *cut; /* of power, in the middle of it; null: none */
     uint64_t operations;
     uint64_t programs;
     uint64_t erases;
     uint64_t stalls; /* how often the processor had to wait */
 };
 
-void flash_reset(struct board *board);
+void flash_init(struct flash *flash, struct flash_wires wires);
+void flash_reset(struct flash *flash);
 
 /* A store of 1, 2 or 4 bytes to an address in the flash. */
-void flash_write(struct board *board, uint32_t address, unsigned bytes, uint32_t value);
+void flash_write(struct flash *flash, uint32_t address, unsigned bytes, uint32_t value);
 
-bool flash_read_register(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);
-bool flash_write_register(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask);
+bool flash_read_register(void *model, uint32_t offset, uint32_t *value);
+bool flash_write_register(void *model, uint32_t offset, uint32_t value, uint32_t mask);
+
 /* Power goes: what is in progress stays half done. */
-void flash_cut(struct board *board);
-
-void flash_event(struct board *board, uint64_t cycle);
+void flash_cut(struct flash *flash);
 
 /* BOR_LEV of the option bytes: 0 is level 3, 3 is off (RM0090 3.9.8). */
 unsigned flash_brown_out_level(const struct flash *flash);
 
 /* The supply has changed. */
-void flash_watch_supply(struct board *board);
+void flash_watch_supply(struct flash *flash);
 
 /* As a boot loader leaves it: wait states and caches; errors in SR, both locks open. */
-void flash_set_wait_states(struct board *board, uint32_t states);
-void flash_leave_unlocked(struct board *board);
+void flash_set_wait_states(struct flash *flash, uint32_t states);
+void flash_leave_unlocked(struct flash *flash);
 
-/* Makes Unicorn report reads of the flash while it is busy; called while emulation stands. */
-void flash_update_protection(struct board *board);
+/* Waits until the flash is done, if `address` lies in it. */
+void flash_stall(struct flash *flash, uint32_t address);
 
 static inline bool flash_is_busy(const struct flash *flash)
 {
     return flash->operation != FLASH_IDLE;
 }
 
-uint64_t flash_done_cycle(const struct board *board);
-unsigned flash_latency(const struct flash *flash);
 bool flash_instruction_cache_is_on(const struct flash *flash);
 bool flash_data_cache_is_on(const struct flash *flash);
 bool flash_prefetch_is_on(const struct flash *flash);
 
 /* Reads the content from a file if there is one, and writes it back. False after a complaint. */
-bool flash_load(struct board *board, const char *path);
-bool flash_save(struct board *board, const char *path);
+bool flash_load(struct flash *flash, const char *path);
+bool flash_save(struct flash *flash, const char *path);
 
 #endif

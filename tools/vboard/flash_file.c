@@ -2,17 +2,17 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "board.h"
 #include "complain.h"
+#include "flash.h"
 #include "outfile.h"
 
-bool flash_load(struct board *board, const char *path)
+bool flash_load(struct flash *flash, const char *path)
 {
     FILE *file = path == NULL ? NULL : fopen(path, "rb");
     if (path == NULL || (file == NULL && errno == ENOENT)) {
         return true;
     }
-    bool good = file != NULL && fread(board->memory.flash, 1, MEMORY_FLASH_BYTES, file) == MEMORY_FLASH_BYTES &&
+    bool good = file != NULL && fread(flash->wires.memory->flash, 1, MEMORY_FLASH_BYTES, file) == MEMORY_FLASH_BYTES &&
                 fgetc(file) == EOF;
     if (file != NULL) {
         (void)fclose(file);
@@ -24,7 +24,7 @@ bool flash_load(struct board *board, const char *path)
     return good;
 }
 
-bool flash_save(struct board *board, const char *path)
+bool flash_save(struct flash *flash, const char *path)
 {
     struct outfile file;
     if (!outfile_open(&file, path)) {
@@ -32,7 +32,7 @@ bool flash_save(struct board *board, const char *path)
     }
     for (uint32_t at = 0; outfile_is_open(&file) && at < MEMORY_FLASH_BYTES; at += OUTFILE_RESERVE_BYTES_MAX) {
         char *room = outfile_reserve(&file, OUTFILE_RESERVE_BYTES_MAX);
-        memcpy(room, board->memory.flash + at, OUTFILE_RESERVE_BYTES_MAX);
+        memcpy(room, flash->wires.memory->flash + at, OUTFILE_RESERVE_BYTES_MAX);
         outfile_commit(&file, room + OUTFILE_RESERVE_BYTES_MAX);
     }
     bool good = outfile_close(&file) && outfile_publish(&file);

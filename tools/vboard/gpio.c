@@ -1,6 +1,6 @@
 #include "gpio.h"
 
-#include "board.h"
+#include <stddef.h>
 
 enum {
     GPIO_MODER = 0x00,
@@ -45,17 +45,24 @@ static uint16_t find_levels(const struct port *port)
     return (uint16_t)((levels & ~port->stuck) | (port->stuck_level & port->stuck));
 }
 
-static void update(struct board *board, unsigned number, uint64_t cycle)
+static void tell_edge(const struct port *port, unsigned pin, uint64_t cycle)
 {
-    struct port *port = &board->port[number];
+    const struct gpio_watcher *watcher = &port->wires.watcher;
+    if (watcher->note != NULL) {
+        struct pin which = {.port = (uint8_t)port->number, .number = (uint8_t)pin};
+        watcher->note(watcher->model, which, (port->level >> pin & 1) != 0, cycle);
+    }
+}
+
+static void update(struct port *port, uint64_t cycle)
+{
     uint16_t before = port->level;
     port->level = find_levels(port);
     uint16_t changed = before ^ port->level;
-    exti_follow(board, number);
+    exti_follow(port->wires.exti, port->number, port->level & (uint16_t)~port->analog);
     for (unsigned i = 0; changed >> i != 0; i++) {
         if ((changed >> i & 1) != 0) {
-            struct pin pin = {.port = (uint8_t)number, .number = (uint8_t)i};
-            recorder_note_edge(board, pin, (port->level >> i & 1) != 0, cycle);
+            tell_edge(port, i, cycle);
         }
     }
 }
@@ -81,32 +88,39 @@ static void update_modes(struct port *port)
 }
 
 /* Section 8.4: ports A and B have the pins of the debug port in use. */
-void gpio_reset_port(struct board *board, unsigned number)
+void gpio_reset_port(struct port *port)
 {
     static const uint32_t modes[GPIO_PORTS] = {0xA8000000, 0x00000280};
     static const uint32_t pulls[GPIO_PORTS] = {0x64000000, 0x00000100};
     static const uint32_t speeds[GPIO_PORTS] = {0x0C000000, 0x000000C0};
-    struct port *port = &board->port[number];
-    port->moder = modes[number];
-    port->pupdr = pulls[number];
-    port->ospeedr = speeds[number];
+    port->moder = modes[port->number];
+    port->pupdr = pulls[port->number];
+    port->ospeedr = speeds[port->number];
     port->otyper = 0;
     port->odr = 0;
     port->afr = 0;
     update_modes(port);
-    update(board, number, board->cpu.now);
+    update(port, port->wires.clock->now);
 }
 
-void gpio_reset(struct board *board)
+void gpio_init(struct gpio *gpio, struct gpio_wires wires)
 {
     for (unsigned i = 0; i < GPIO_PORTS; i++) {
-        gpio_reset_port(board, i);
+        gpio->port[i].wires = wires;
+        gpio->port[i].number = i;
     }
 }
 
-bool gpio_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
+void gpio_reset(struct gpio *gpio)
 {
-    const struct port *port = &board->port[instance];
+    for (unsigned i = 0; i < GPIO_PORTS; i++) {
+        gpio_reset_port(&gpio->port[i]);
+    }
+}
+
+bool gpio_read(void *model, uint32_t offset, uint32_t *value)
+{
+    struct port *port = model;
     switch (offset) {
     case GPIO_MODER:
         *value = port->moder;
@@ -158,9 +172,9 @@ static void set_and_reset(struct port *port, uint32_t bits)
     port->odr = (uint16_t)odr;
 }
 
-bool gpio_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask)
+bool gpio_write(void *model, uint32_t offset, uint32_t value, uint32_t mask)
 {
-    struct port *port = &board->port[instance];
+    struct port *port = model;
     uint32_t odr = port->odr;
     switch (offset) {
     case GPIO_MODER:
@@ -175,7 +189,7 @@ bool gpio_write(struct board *board, unsigned instance, uint32_t offset, uint32_
     case GPIO_PUPDR:
         replace(&port->pupdr, value, mask);
         if ((port->pupdr & port->pupdr >> 1 & 0x55555555U) != 0) {
-            board_fail(board, "GPIO%c_PUPDR: 3 is no pull (RM0090 8.4.4)", 'A' + (int)instance);
+            report_fail(port->wires.report, "GPIO%c_PUPDR: 3 is no pull (RM0090 8.4.4)", 'A' + (int)port->number);
         }
         break;
     case GPIO_ODR:
@@ -197,7 +211,7 @@ bool gpio_write(struct board *board, unsigned instance, uint32_t offset, uint32_
     if (offset == GPIO_MODER || offset == GPIO_AFRL || offset == GPIO_AFRH) {
         update_modes(port);
     }
-    update(board, instance, board->cpu.now);
+    update(port, port->wires.clock->now);
     return true;
 }
 
@@ -206,36 +220,36 @@ static void replace_bit(uint16_t *bits, unsigned pin, bool value)
     *bits = (uint16_t)(value ? *bits | bit(pin) : *bits & ~bit(pin));
 }
 
-void gpio_drive(struct board *board, struct pin pin, unsigned function, bool drives, bool level, uint64_t cycle)
+void gpio_drive(struct gpio *gpio, struct pin pin, unsigned function, bool drives, bool level, uint64_t cycle)
 {
-    struct port *port = &board->port[pin.port];
+    struct port *port = &gpio->port[pin.port];
     replace_bit(&port->function_drives[function], pin.number, drives);
     replace_bit(&port->function_level[function], pin.number, level);
-    update(board, pin.port, cycle);
+    update(port, cycle);
 }
 
-void gpio_set_outside(struct board *board, struct pin pin, bool level, uint64_t cycle)
+void gpio_set_outside(struct gpio *gpio, struct pin pin, bool level, uint64_t cycle)
 {
-    struct port *port = &board->port[pin.port];
+    struct port *port = &gpio->port[pin.port];
     replace_bit(&port->driven, pin.number, true);
     replace_bit(&port->outside, pin.number, level);
-    update(board, pin.port, cycle);
+    update(port, cycle);
 }
 
-void gpio_set_stuck(struct board *board, struct pin pin, bool level)
+void gpio_set_stuck(struct gpio *gpio, struct pin pin, bool level)
 {
-    struct port *port = &board->port[pin.port];
+    struct port *port = &gpio->port[pin.port];
     replace_bit(&port->stuck, pin.number, true);
     replace_bit(&port->stuck_level, pin.number, level);
-    update(board, pin.port, board->cpu.now);
+    update(port, port->wires.clock->now);
 }
 
-bool gpio_level(const struct board *board, struct pin pin)
+bool gpio_level(const struct gpio *gpio, struct pin pin)
 {
-    return (board->port[pin.port].level >> pin.number & 1) != 0;
+    return (gpio->port[pin.port].level >> pin.number & 1) != 0;
 }
 
-bool gpio_has_function(const struct board *board, struct pin pin, unsigned function)
+bool gpio_has_function(const struct gpio *gpio, struct pin pin, unsigned function)
 {
-    return (board->port[pin.port].function[function] >> pin.number & 1) != 0;
+    return (gpio->port[pin.port].function[function] >> pin.number & 1) != 0;
 }

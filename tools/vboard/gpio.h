@@ -1,6 +1,6 @@
 /*
  * The ports (RM0090 chapter 8): what level each pin has, from its mode, what drives it inside and what outside, and
- * what the program reads. Every change of a level is told to the recorder with its cycle.
+ * what the program reads. Every change of a level is told, with its cycle, to whoever watches the pins.
  */
 #ifndef GPIO_H
 #define GPIO_H
@@ -8,11 +8,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct board;
+#include "clock.h"
+#include "exti.h"
+#include "report.h"
 
 enum {
-    GPIO_PORTS = 9, /* A to I */
-    GPIO_PINS = 16,
+    GPIO_PORTS = EXTI_PORTS, /* A to I */
+    GPIO_PINS = EXTI_LINES,
     GPIO_FUNCTIONS = 16,
     GPIO_AF_TIM2 = 1,
     GPIO_AF_TIM3_TO_5 = 2,
@@ -24,7 +26,22 @@ struct pin {
     uint8_t number;
 };
 
+/* Who is told of each edge at a pin; null: nobody. */
+struct gpio_watcher {
+    void (*note)(void *model, struct pin pin, bool level, uint64_t cycle);
+    void *model;
+};
+
+struct gpio_wires {
+    struct clock *clock;
+    struct report *report;
+    struct exti *exti;
+    struct gpio_watcher watcher;
+};
+
 struct port {
+    struct gpio_wires wires;
+    unsigned number;
     uint32_t moder;
     uint32_t otyper;
     uint32_t ospeedr;
@@ -44,23 +61,29 @@ struct port {
     uint16_t function_drives[GPIO_FUNCTIONS]; /* and which pins they drive at all */
 };
 
-void gpio_reset(struct board *board);
-void gpio_reset_port(struct board *board, unsigned number);
+struct gpio {
+    struct port port[GPIO_PORTS];
+};
 
-bool gpio_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);
-bool gpio_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask);
+void gpio_init(struct gpio *gpio, struct gpio_wires wires);
+void gpio_reset(struct gpio *gpio);
+void gpio_reset_port(struct port *port);
+
+/* Registers of a struct port. */
+bool gpio_read(void *model, uint32_t offset, uint32_t *value);
+bool gpio_write(void *model, uint32_t offset, uint32_t value, uint32_t mask);
 
 /* A peripheral drives a pin, or lets it go, if that pin is switched to its function. */
-void gpio_drive(struct board *board, struct pin pin, unsigned function, bool drives, bool level, uint64_t cycle);
+void gpio_drive(struct gpio *gpio, struct pin pin, unsigned function, bool drives, bool level, uint64_t cycle);
 
 /* Somebody outside drives a pin. */
-void gpio_set_outside(struct board *board, struct pin pin, bool level, uint64_t cycle);
+void gpio_set_outside(struct gpio *gpio, struct pin pin, bool level, uint64_t cycle);
 
-void gpio_set_stuck(struct board *board, struct pin pin, bool level);
+void gpio_set_stuck(struct gpio *gpio, struct pin pin, bool level);
 
-bool gpio_level(const struct board *board, struct pin pin);
+bool gpio_level(const struct gpio *gpio, struct pin pin);
 
 /* Whether a pin is switched to an alternate function. */
-bool gpio_has_function(const struct board *board, struct pin pin, unsigned function);
+bool gpio_has_function(const struct gpio *gpio, struct pin pin, unsigned function);
 
 #endif

@@ -3,7 +3,6 @@
 #include <elf.h>
 #include <string.h>
 
-#include "board.h"
 #include "complain.h"
 
 /* A header at an offset of the file, copied out as it may lie unaligned. False: it is not all in the file. */
@@ -31,14 +30,13 @@ static void note_ram_end(struct image *image, uint32_t end)
     }
 }
 
-static bool load_segment(struct board *board, const Elf32_Phdr *segment)
+static bool load_segment(const struct image *image, struct memory *memory, const Elf32_Phdr *segment)
 {
-    struct image *image = &board->image;
     if (segment->p_type != PT_LOAD) {
         return true;
     }
     if (segment->p_filesz > 0) {
-        uint8_t *to = memory_find(&board->memory, segment->p_paddr, segment->p_filesz);
+        uint8_t *to = memory_find(memory, segment->p_paddr, segment->p_filesz);
         if (to == NULL || !copy_out(image, segment->p_offset, to, segment->p_filesz)) {
             complain("%s: the segment for %08x fits into no memory of the part; link it for an STM32F405",
                      image->file.path, (unsigned)segment->p_paddr);
@@ -60,9 +58,8 @@ static void note_sections(struct image *image, const Elf32_Ehdr *header)
     }
 }
 
-bool image_load(struct board *board, const char *path)
+bool image_load(struct image *image, struct memory *memory, const char *path)
 {
-    struct image *image = &board->image;
     Elf32_Ehdr header;
     if (!infile_read(&image->file, path)) {
         return false;
@@ -74,7 +71,7 @@ bool image_load(struct board *board, const char *path)
     for (unsigned i = 0; i < header.e_phnum; i++) {
         Elf32_Phdr segment;
         if (!copy_out(image, header.e_phoff + (uint64_t)i * header.e_phentsize, &segment, sizeof segment) ||
-            !load_segment(board, &segment)) {
+            !load_segment(image, memory, &segment)) {
             return false;
         }
     }
@@ -153,7 +150,7 @@ static bool put_hex(uint8_t *to, size_t bytes, const char *text)
     return true;
 }
 
-bool image_set(struct board *board, const char *text)
+bool image_set(const struct image *image, struct memory *memory, const char *text)
 {
     enum {
         NAME_BYTES_MAX = 64
@@ -168,8 +165,8 @@ bool image_set(struct board *board, const char *text)
         return false;
     }
     memcpy(name, text, length);
-    bool known = image_find_symbol(&board->image, name, &address, &bytes);
-    uint8_t *to = known && memory_is_flash(address) ? memory_find(&board->memory, address, bytes) : NULL;
+    bool known = image_find_symbol(image, name, &address, &bytes);
+    uint8_t *to = known && memory_is_flash(address) ? memory_find(memory, address, bytes) : NULL;
     if (to == NULL) {
         complain("--set %s: the program has no such constant", name);
         return false;

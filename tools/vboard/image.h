@@ -9,8 +9,7 @@
 #include <stdint.h>
 
 #include "infile.h"
-
-struct board;
+#include "memory.h"
 
 struct image {
     struct infile file;
@@ -19,10 +18,10 @@ struct image {
 
 /* Reads the file and puts its segments into the flash (and RAM, if they are to be loaded there). False after a
  * complaint. */
-bool image_load(struct board *board, const char *path);
+bool image_load(struct image *image, struct memory *memory, const char *path);
 
 /* Puts bytes over a constant, given as SYMBOL=HEXBYTES. False after a complaint. */
-bool image_set(struct board *board, const char *text);
+bool image_set(const struct image *image, struct memory *memory, const char *text);
 void image_discard(struct image *image);
 
 /* A symbol by its name: its value and size. False: there is none. */

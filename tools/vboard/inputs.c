@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "board.h"
 #include "complain.h"
 #include "infile.h"
 #include "line.h"
@@ -92,53 +91,58 @@ static bool read_file(struct inputs *inputs, const struct infile *file)
     return true;
 }
 
-static void set_signal(struct board *board, unsigned signal, bool level, uint64_t cycle)
+static void set_signal(struct inputs *inputs, unsigned signal, bool level, uint64_t cycle)
 {
-    if (pins_is_connected(&board->pins, signal)) {
-        gpio_set_outside(board, board->pins.pin[signal], level != board->pins.low[signal], cycle);
+    if (pins_is_connected(inputs->wires.pins, signal)) {
+        gpio_set_outside(inputs->wires.gpio, inputs->wires.pins->pin[signal], level != inputs->wires.pins->low[signal],
+                         cycle);
     }
 }
 
-static void plan(struct board *board)
+static void plan(struct inputs *inputs)
 {
-    const struct inputs *inputs = &board->inputs;
     if (inputs->next < inputs->changes) {
-        events_set_ps(board, EVENT_INPUTS, inputs->change[inputs->next].ps);
+        clock_set_ps(inputs->wires.clock, EVENT_INPUTS, inputs->change[inputs->next].ps);
     }
 }
 
-bool inputs_open(struct board *board)
+bool inputs_open(struct inputs *inputs, unsigned node, const char *path)
 {
-    const struct options *options = board->options;
     struct infile file;
     for (unsigned i = 0; i < PINS_INPUTS; i++) {
-        set_signal(board, SIGNAL_INPUT + i, false, 0);
+        set_signal(inputs, SIGNAL_INPUT + i, false, 0);
     }
     for (unsigned i = 0; i < PINS_SWITCHES; i++) {
-        set_signal(board, SIGNAL_SWITCH + i, (options->node - 1U) >> i & 1U, 0);
+        set_signal(inputs, SIGNAL_SWITCH + i, (node - 1U) >> i & 1U, 0);
     }
-    if (options->inputs == NULL) {
+    if (path == NULL) {
         return true;
     }
-    if (!infile_read_text(&file, options->inputs)) {
+    if (!infile_read_text(&file, path)) {
         return false;
     }
-    bool good = read_file(&board->inputs, &file);
+    bool good = read_file(inputs, &file);
     infile_discard(&file);
-    plan(board);
+    plan(inputs);
     return good;
 }
 
-void inputs_close(struct board *board)
+void inputs_close(struct inputs *inputs)
 {
-    free(board->inputs.change);
-    board->inputs = (struct inputs){.change = NULL};
+    free(inputs->change);
+    inputs->change = NULL;
 }
 
-void inputs_event(struct board *board, uint64_t cycle)
+static void on_inputs_event(void *model, uint64_t cycle)
 {
-    struct inputs *inputs = &board->inputs;
+    struct inputs *inputs = model;
     const struct input_change *change = &inputs->change[inputs->next++];
-    set_signal(board, SIGNAL_INPUT + change->input, change->level, cycle);
-    plan(board);
+    set_signal(inputs, SIGNAL_INPUT + change->input, change->level, cycle);
+    plan(inputs);
+}
+
+void inputs_init(struct inputs *inputs, struct inputs_wires wires)
+{
+    inputs->wires = wires;
+    clock_attach(wires.clock, EVENT_INPUTS, on_inputs_event, inputs);
 }

@@ -8,7 +8,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-struct board;
+#include "clock.h"
+#include "gpio.h"
+#include "pins.h"
 
 struct input_change {
     uint64_t ps;
@@ -17,17 +19,24 @@ struct input_change {
     bool level;
 };
 
+struct inputs_wires {
+    struct clock *clock;
+    const struct pins *pins;
+    struct gpio *gpio;
+};
+
 struct inputs {
+    struct inputs_wires wires;
     struct input_change *change; /* sorted */
     size_t changes;
     size_t next;
 };
 
-/* Reads the file that the options name and sets all inputs and the switch to their first levels. False after a
- * complaint. */
-bool inputs_open(struct board *board);
-void inputs_close(struct board *board);
+void inputs_init(struct inputs *inputs, struct inputs_wires wires);
 
-void inputs_event(struct board *board, uint64_t cycle);
+/* Sets all inputs to 0 and the switch to an address from 1 on, and reads the file, null for none. False after a
+ * complaint. */
+bool inputs_open(struct inputs *inputs, unsigned node, const char *path);
+void inputs_close(struct inputs *inputs);
 
 #endif

@@ -1,7 +1,5 @@
 #include "iwdg.h"
 
-#include "board.h"
-
 enum {
     IWDG_KR = 0x00,
     IWDG_PR = 0x04,
@@ -18,34 +16,33 @@ enum {
     UPDATE_PERIODS = 5, /* of the oscillator, until a new value is taken over */
 };
 
-static uint64_t period_ps(const struct board *board, uint64_t counts)
+static uint64_t period_ps(const struct iwdg *iwdg, uint64_t counts)
 {
-    return vtime_scale(counts, VTIME_PS_PER_SECOND, board->options->lsi_hz);
+    return vtime_scale(counts, VTIME_PS_PER_SECOND, iwdg->wires.lsi_hz);
 }
 
-static uint64_t timeout_ps(const struct board *board)
+static uint64_t timeout_ps(const struct iwdg *iwdg)
 {
-    const struct iwdg *iwdg = &board->iwdg;
     uint32_t code = iwdg->prescaler > PRESCALER_CODE_MOST ? PRESCALER_CODE_MOST : iwdg->prescaler;
-    return period_ps(board, ((uint64_t)PRESCALER_LEAST << code) * (iwdg->reload + 1U));
+    return period_ps(iwdg, ((uint64_t)PRESCALER_LEAST << code) * (iwdg->reload + 1U));
 }
 
-void iwdg_reset(struct board *board)
+void iwdg_reset(struct iwdg *iwdg)
 {
-    board->iwdg = (struct iwdg){.reload = RELOAD_RESET};
-    events_set(board, EVENT_IWDG, VTIME_NEVER);
+    *iwdg = (struct iwdg){.wires = iwdg->wires, .reload = RELOAD_RESET};
+    clock_set(iwdg->wires.clock, EVENT_IWDG, VTIME_NEVER);
 }
 
-void iwdg_event(struct board *board, uint64_t cycle)
+static void on_iwdg_event(void *model, uint64_t cycle)
 {
+    struct iwdg *iwdg = model;
     (void)cycle;
-    board_request_reset(board, RESET_WATCHDOG);
+    reset_request(iwdg->wires.reset, RESET_WATCHDOG);
 }
 
-static void reload(struct board *board)
+static void reload(struct iwdg *iwdg)
 {
-    struct iwdg *iwdg = &board->iwdg;
-    uint64_t now = board_now_ps(board);
+    uint64_t now = clock_now_ps(iwdg->wires.clock);
     uint64_t since = now - iwdg->refreshed_ps;
     if (iwdg->refreshes > 0 && since > iwdg->longest_ps) {
         iwdg->longest_ps = since;
@@ -53,42 +50,41 @@ static void reload(struct board *board)
     iwdg->refreshed_ps = now;
     iwdg->refreshes++;
     if (iwdg->started) {
-        events_set_ps(board, EVENT_IWDG, now + timeout_ps(board));
+        clock_set_ps(iwdg->wires.clock, EVENT_IWDG, now + timeout_ps(iwdg));
     }
 }
 
-static void write_key(struct board *board, uint32_t value)
+static void write_key(struct iwdg *iwdg, uint32_t value)
 {
-    struct iwdg *iwdg = &board->iwdg;
     iwdg->unlocked = value == KEY_UNLOCK;
     if (value == KEY_START) {
         iwdg->started = true;
-        rcc_start_lsi(board);
-        reload(board);
+        rcc_start_lsi(iwdg->wires.rcc);
+        reload(iwdg);
     } else if (value == KEY_RELOAD) {
-        reload(board);
+        reload(iwdg);
     } else if (value != KEY_UNLOCK) {
-        board_fail(board, "IWDG_KR: %04x is no key (RM0090 21.4.1)", (unsigned)value);
+        report_fail(iwdg->wires.report, "IWDG_KR: %04x is no key (RM0090 21.4.1)", (unsigned)value);
     }
 }
 
 /* Sections 21.3.2 and 21.4: a setting needs the key, and that the one before has been taken over. */
-static void write_setting(struct board *board, uint32_t *setting, uint64_t *end_ps, uint32_t value)
+static void write_setting(struct iwdg *iwdg, uint32_t *setting, uint64_t *end_ps, uint32_t value)
 {
-    uint64_t now = board_now_ps(board);
-    if (!board->iwdg.unlocked) {
-        board_fail(board, "IWDG: a setting is written without the key, and lost (RM0090 21.3.2)");
+    uint64_t now = clock_now_ps(iwdg->wires.clock);
+    if (!iwdg->unlocked) {
+        report_fail(iwdg->wires.report, "IWDG: a setting is written without the key, and lost (RM0090 21.3.2)");
     } else if (now < *end_ps) {
-        board_fail(board, "IWDG: a setting is written while the one before is not taken over (RM0090 21.4.2, 21.4.3)");
+        report_fail(iwdg->wires.report,
+                    "IWDG: a setting is written while the one before is not taken over (RM0090 21.4.2, 21.4.3)");
     }
     *setting = value;
-    *end_ps = now + period_ps(board, UPDATE_PERIODS);
+    *end_ps = now + period_ps(iwdg, UPDATE_PERIODS);
 }
 
-bool iwdg_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
+bool iwdg_read(void *model, uint32_t offset, uint32_t *value)
 {
-    const struct iwdg *iwdg = &board->iwdg;
-    (void)instance;
+    const struct iwdg *iwdg = model;
     switch (offset) {
     case IWDG_KR:
         *value = 0;
@@ -100,30 +96,35 @@ bool iwdg_read(struct board *board, unsigned instance, uint32_t offset, uint32_t
         *value = iwdg->reload;
         return true;
     case IWDG_SR:
-        *value = (board_now_ps(board) < iwdg->prescaler_end_ps ? SR_PVU : 0U) |
-                 (board_now_ps(board) < iwdg->reload_end_ps ? SR_RVU : 0U);
+        *value = (clock_now_ps(iwdg->wires.clock) < iwdg->prescaler_end_ps ? SR_PVU : 0U) |
+                 (clock_now_ps(iwdg->wires.clock) < iwdg->reload_end_ps ? SR_RVU : 0U);
         return true;
     default:
         return false;
     }
 }
 
-bool iwdg_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask)
+bool iwdg_write(void *model, uint32_t offset, uint32_t value, uint32_t mask)
 {
-    struct iwdg *iwdg = &board->iwdg;
-    (void)instance;
+    struct iwdg *iwdg = model;
     (void)mask;
     switch (offset) {
     case IWDG_KR:
-        write_key(board, value & 0xFFFFU);
+        write_key(iwdg, value & 0xFFFFU);
         return true;
     case IWDG_PR:
-        write_setting(board, &iwdg->prescaler, &iwdg->prescaler_end_ps, value & 7U);
+        write_setting(iwdg, &iwdg->prescaler, &iwdg->prescaler_end_ps, value & 7U);
         return true;
     case IWDG_RLR:
-        write_setting(board, &iwdg->reload, &iwdg->reload_end_ps, value & 0xFFFU);
+        write_setting(iwdg, &iwdg->reload, &iwdg->reload_end_ps, value & 0xFFFU);
         return true;
     default:
         return false;
     }
+}
+
+void iwdg_init(struct iwdg *iwdg, struct iwdg_wires wires)
+{
+    iwdg->wires = wires;
+    clock_attach(wires.clock, EVENT_IWDG, on_iwdg_event, iwdg);
 }

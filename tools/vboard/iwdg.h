@@ -7,9 +7,21 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct board;
+#include "clock.h"
+#include "rcc.h"
+#include "report.h"
+#include "reset.h"
+
+struct iwdg_wires {
+    struct clock *clock;
+    struct report *report;
+    struct reset *reset;
+    struct rcc *rcc; /* whose oscillator it starts */
+    uint64_t lsi_hz;
+};
 
 struct iwdg {
+    struct iwdg_wires wires;
     bool started;
     bool unlocked;
     uint32_t prescaler;        /* PR */
@@ -21,9 +33,9 @@ struct iwdg {
     uint64_t longest_ps; /* between two refreshes */
 };
 
-void iwdg_reset(struct board *board);
-bool iwdg_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);
-bool iwdg_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask);
-void iwdg_event(struct board *board, uint64_t cycle);
+void iwdg_init(struct iwdg *iwdg, struct iwdg_wires wires);
+void iwdg_reset(struct iwdg *iwdg);
+bool iwdg_read(void *model, uint32_t offset, uint32_t *value);
+bool iwdg_write(void *model, uint32_t offset, uint32_t value, uint32_t mask);
 
 #endif

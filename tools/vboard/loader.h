@@ -6,9 +6,11 @@
 #ifndef LOADER_H
 #define LOADER_H
 
-struct board;
+#include "core.h"
+#include "flash.h"
+#include "rcc.h"
 
-/* Behind a reset of the power: clocks, interrupts, flash and vectors as a loader has them. */
-void loader_leave(struct board *board);
+/* After a reset of the power: clocks, interrupts, flash and vectors as a loader has them. */
+void loader_leave(struct core *core, struct rcc *rcc, struct flash *flash);
 
 #endif

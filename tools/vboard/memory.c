@@ -3,8 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "board.h"
-
 static uint8_t *allocate(uint32_t bytes, uint8_t filling)
 {
     uint8_t *memory = aligned_alloc(MEMORY_PAGE_BYTES, bytes);
@@ -23,28 +21,26 @@ static void fill_system_area(struct memory *memory, uint32_t flash_kb)
     memory->system[0xA23] = (uint8_t)(flash_kb >> 8);
 }
 
-static bool map(struct board *board, uint32_t base, uint32_t bytes, uint32_t rights, uint8_t *memory)
+static bool map(uc_engine *engine, uint32_t base, uint32_t bytes, uint32_t rights, uint8_t *memory)
 {
     /* Unicorn 2.0 discards stores to what may not be written only after the rights were set a second time. */
-    return uc_mem_map_ptr(board->cpu.engine, base, bytes, rights, memory) == UC_ERR_OK &&
-           uc_mem_protect(board->cpu.engine, base, bytes, rights) == UC_ERR_OK;
+    return uc_mem_map_ptr(engine, base, bytes, rights, memory) == UC_ERR_OK &&
+           uc_mem_protect(engine, base, bytes, rights) == UC_ERR_OK;
 }
 
-static bool map_all(struct board *board)
+static bool map_all(const struct memory *memory, uc_engine *engine)
 {
-    const struct memory *memory = &board->memory;
     /* The CCM RAM hangs on the data bus only: nothing can be executed from it (section 2.3.1). */
-    return map(board, 0, memory->flash_bytes, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
-           map(board, MEMORY_FLASH_BASE, memory->flash_bytes, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
-           map(board, MEMORY_CCM_BASE, MEMORY_CCM_BYTES, UC_PROT_READ | UC_PROT_WRITE, memory->ccm) &&
-           map(board, MEMORY_SYSTEM_BASE, MEMORY_PAGE_BYTES, UC_PROT_READ, memory->system) &&
-           map(board, MEMORY_OPTIONS_BASE, MEMORY_PAGE_BYTES, UC_PROT_READ, memory->options) &&
-           map(board, MEMORY_SRAM_BASE, MEMORY_SRAM_BYTES, UC_PROT_ALL, memory->sram);
+    return map(engine, 0, memory->flash_bytes, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
+           map(engine, MEMORY_FLASH_BASE, memory->flash_bytes, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
+           map(engine, MEMORY_CCM_BASE, MEMORY_CCM_BYTES, UC_PROT_READ | UC_PROT_WRITE, memory->ccm) &&
+           map(engine, MEMORY_SYSTEM_BASE, MEMORY_PAGE_BYTES, UC_PROT_READ, memory->system) &&
+           map(engine, MEMORY_OPTIONS_BASE, MEMORY_PAGE_BYTES, UC_PROT_READ, memory->options) &&
+           map(engine, MEMORY_SRAM_BASE, MEMORY_SRAM_BYTES, UC_PROT_ALL, memory->sram);
 }
 
-bool memory_init(struct board *board)
+bool memory_init(struct memory *memory, uc_engine *engine, uint32_t flash_kb)
 {
-    struct memory *memory = &board->memory;
     memory->flash = allocate(MEMORY_FLASH_BYTES, 0xFF);
     memory->ccm = allocate(MEMORY_CCM_BYTES, MEMORY_UNTOUCHED);
     memory->sram = allocate(MEMORY_SRAM_BYTES, MEMORY_UNTOUCHED);
@@ -54,9 +50,9 @@ bool memory_init(struct board *board)
         memory->options == NULL) {
         return false;
     }
-    fill_system_area(memory, (uint32_t)board->options->flash_kb);
-    memory->flash_bytes = (uint32_t)board->options->flash_kb * 1024U;
-    return map_all(board);
+    fill_system_area(memory, flash_kb);
+    memory->flash_bytes = flash_kb * 1024U;
+    return map_all(memory, engine);
 }
 
 void memory_forget(struct memory *memory)

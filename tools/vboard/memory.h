@@ -6,8 +6,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
-
-struct board;
+#include <unicorn/unicorn.h>
 
 #define MEMORY_FLASH_BASE UINT32_C(0x08000000)
 #define MEMORY_FLASH_BYTES UINT32_C(0x100000)
@@ -34,7 +33,8 @@ struct memory {
 /* The RAM holds what it does at power-on. */
 void memory_forget(struct memory *memory);
 
-bool memory_init(struct board *board);
+/* Maps all into the addresses of the processor; the part has 512 or 1024 kB of flash. */
+bool memory_init(struct memory *memory, uc_engine *engine, uint32_t flash_kb);
 void memory_discard(struct memory *memory);
 
 /* Where `bytes` bytes at an address of a memory are; null if they are not all inside one. */

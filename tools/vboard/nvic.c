@@ -1,7 +1,5 @@
 #include "nvic.h"
 
-#include "board.h"
-
 enum {
     PRIORITY_MASK = 0xF0, /* four bits are implemented (RM0090 section 12.1.1) */
     PRIORITY_BITS = 8,
@@ -26,46 +24,49 @@ static void set(uint64_t *words, unsigned exception, bool value)
     words[exception / WORD_BITS] = value ? words[exception / WORD_BITS] | bit : words[exception / WORD_BITS] & ~bit;
 }
 
-void nvic_reset(struct board *board)
+void nvic_init(struct nvic *nvic, struct nvic_wires wires)
 {
-    board->nvic = (struct nvic){.group_bits = 0};
+    nvic->wires = wires;
+}
+
+void nvic_reset(struct nvic *nvic)
+{
+    *nvic = (struct nvic){.wires = nvic->wires};
     static const uint8_t always[] = {NVIC_NMI, NVIC_HARD_FAULT, NVIC_SVC, NVIC_PENDSV, NVIC_SYSTICK};
     for (unsigned i = 0; i < sizeof always; i++) {
-        set(board->nvic.enabled, always[i], true);
+        set(nvic->enabled, always[i], true);
     }
 }
 
-void nvic_pend(struct board *board, unsigned exception)
+void nvic_pend(struct nvic *nvic, unsigned exception)
 {
-    struct nvic *nvic = &board->nvic;
     if (!get(nvic->pending, exception)) {
         set(nvic->pending, exception, true);
-        nvic->pended_cycle[exception] = board->event_cycle;
-        cpu_poke(&board->cpu);
+        nvic->pended_cycle[exception] = nvic->wires.clock->moment;
+        clock_poke(nvic->wires.clock);
     }
 }
 
-void nvic_unpend(struct board *board, unsigned exception)
+void nvic_unpend(struct nvic *nvic, unsigned exception)
 {
-    set(board->nvic.pending, exception, false);
+    set(nvic->pending, exception, false);
 }
 
-void nvic_set_line(struct board *board, enum nvic_irq irq, bool level)
+void nvic_set_line(struct nvic *nvic, enum nvic_irq irq, bool level)
 {
-    struct nvic *nvic = &board->nvic;
     unsigned exception = NVIC_IRQ0 + (unsigned)irq;
     if (get(nvic->level, exception) == level) {
         return;
     }
     set(nvic->level, exception, level);
     if (level) {
-        nvic_pend(board, exception);
+        nvic_pend(nvic, exception);
     }
 }
 
-bool nvic_line_is_high(const struct board *board, unsigned exception)
+bool nvic_line_is_high(const struct nvic *nvic, unsigned exception)
 {
-    return get(board->nvic.level, exception);
+    return get(nvic->level, exception);
 }
 
 bool nvic_is_active(const struct nvic *nvic, unsigned exception)
@@ -120,15 +121,16 @@ int nvic_active_priority(const struct nvic *nvic)
     return priority;
 }
 
-static int base_priority(struct board *board)
+static int base_priority(struct nvic *nvic)
 {
-    uint32_t base = cpu_read(&board->cpu, UC_ARM_REG_BASEPRI);
+    uint32_t base = cpu_read(nvic->wires.cpu, UC_ARM_REG_BASEPRI);
     if ((base & ~(uint32_t)PRIORITY_MASK) != 0) {
-        board_fail(board, "BASEPRI is %02x: four bits of a priority are implemented, the upper ones (PM0214 2.1.3)",
-                   (unsigned)base);
+        report_fail(nvic->wires.report,
+                    "BASEPRI is %02x: four bits of a priority are implemented, the upper ones (PM0214 2.1.3)",
+                    (unsigned)base);
     }
     base &= PRIORITY_MASK;
-    return base == 0 ? NVIC_PRIORITY_IDLE : group_part(&board->nvic, base);
+    return base == 0 ? NVIC_PRIORITY_IDLE : group_part(nvic, base);
 }
 
 static int lower(int a, int b)
@@ -136,13 +138,13 @@ static int lower(int a, int b)
     return a < b ? a : b;
 }
 
-int nvic_running_priority(struct board *board)
+int nvic_running_priority(struct nvic *nvic)
 {
-    int priority = lower(nvic_active_priority(&board->nvic), base_priority(board));
-    if ((cpu_read(&board->cpu, UC_ARM_REG_PRIMASK) & 1U) != 0) {
+    int priority = lower(nvic_active_priority(nvic), base_priority(nvic));
+    if ((cpu_read(nvic->wires.cpu, UC_ARM_REG_PRIMASK) & 1U) != 0) {
         priority = lower(priority, 0);
     }
-    if ((cpu_read(&board->cpu, UC_ARM_REG_FAULTMASK) & 1U) != 0) {
+    if ((cpu_read(nvic->wires.cpu, UC_ARM_REG_FAULTMASK) & 1U) != 0) {
         priority = lower(priority, NVIC_PRIORITY_HARD_FAULT);
     }
     return priority;
@@ -154,10 +156,10 @@ static int pending_order(const struct nvic *nvic, unsigned exception)
     return exception < NVIC_MEM_MANAGE ? nvic_group_priority(nvic, exception) : nvic->priority[exception];
 }
 
-void nvic_lose(struct board *board, unsigned exception, bool lost)
+void nvic_lose(struct nvic *nvic, unsigned exception, bool lost)
 {
-    set(board->nvic.lost, exception, lost);
-    cpu_poke(&board->cpu);
+    set(nvic->lost, exception, lost);
+    clock_poke(nvic->wires.clock);
 }
 
 unsigned nvic_next_pending(const struct nvic *nvic)
@@ -175,21 +177,21 @@ unsigned nvic_next_pending(const struct nvic *nvic)
     return best;
 }
 
-bool nvic_can_take(struct board *board)
+bool nvic_can_take(struct nvic *nvic)
 {
-    unsigned next = nvic_next_pending(&board->nvic);
-    if (next == NVIC_NONE || nvic_group_priority(&board->nvic, next) >= nvic_active_priority(&board->nvic)) {
+    unsigned next = nvic_next_pending(nvic);
+    if (next == NVIC_NONE || nvic_group_priority(nvic, next) >= nvic_active_priority(nvic)) {
         return false;
     }
-    return nvic_group_priority(&board->nvic, next) < nvic_running_priority(board);
+    return nvic_group_priority(nvic, next) < nvic_running_priority(nvic);
 }
 
 /* PM0214 section 2.5.1: PRIMASK does not keep the processor asleep. */
-bool nvic_can_wake(struct board *board)
+bool nvic_can_wake(struct nvic *nvic)
 {
-    unsigned next = nvic_next_pending(&board->nvic);
+    unsigned next = nvic_next_pending(nvic);
     return next != NVIC_NONE &&
-           nvic_group_priority(&board->nvic, next) < lower(nvic_active_priority(&board->nvic), base_priority(board));
+           nvic_group_priority(nvic, next) < lower(nvic_active_priority(nvic), base_priority(nvic));
 }
 
 static uint32_t get_word(const uint64_t *words, unsigned word)
@@ -202,9 +204,8 @@ static uint32_t get_word(const uint64_t *words, unsigned word)
     return (uint32_t)(low | high);
 }
 
-bool nvic_read(struct board *board, uint32_t offset, uint32_t *value)
+bool nvic_read(struct nvic *nvic, uint32_t offset, uint32_t *value)
 {
-    struct nvic *nvic = &board->nvic;
     unsigned word = (offset & 0x7FU) / 4U;
     if (offset >= OFFSET_PRIORITY && offset - OFFSET_PRIORITY < NVIC_IRQS) {
         *value = 0;
@@ -233,21 +234,21 @@ bool nvic_read(struct board *board, uint32_t offset, uint32_t *value)
     }
 }
 
-static void write_bit(struct board *board, uint32_t offset, unsigned exception)
+static void write_bit(struct nvic *nvic, uint32_t offset, unsigned exception)
 {
     switch (offset & ~0x7FU) {
     case OFFSET_ENABLE:
-        set(board->nvic.enabled, exception, true);
+        set(nvic->enabled, exception, true);
         break;
     case OFFSET_DISABLE:
-        set(board->nvic.enabled, exception, false);
+        set(nvic->enabled, exception, false);
         break;
     case OFFSET_PEND:
-        nvic_pend(board, exception);
+        nvic_pend(nvic, exception);
         break;
     default:
         /* A line that is high pends it again at once. */
-        set(board->nvic.pending, exception, get(board->nvic.level, exception));
+        set(nvic->pending, exception, get(nvic->level, exception));
         break;
     }
 }
@@ -262,11 +263,11 @@ static void write_priorities(struct nvic *nvic, unsigned first, uint32_t value, 
     }
 }
 
-bool nvic_write(struct board *board, uint32_t offset, uint32_t value, uint32_t mask)
+bool nvic_write(struct nvic *nvic, uint32_t offset, uint32_t value, uint32_t mask)
 {
-    cpu_poke(&board->cpu);
+    clock_poke(nvic->wires.clock);
     if (offset >= OFFSET_PRIORITY && offset - OFFSET_PRIORITY < NVIC_IRQS) {
-        write_priorities(&board->nvic, NVIC_IRQ0 + offset - OFFSET_PRIORITY, value, mask);
+        write_priorities(nvic, NVIC_IRQ0 + offset - OFFSET_PRIORITY, value, mask);
         return true;
     }
     unsigned word = (offset & 0x7FU) / 4U;
@@ -275,7 +276,7 @@ bool nvic_write(struct board *board, uint32_t offset, uint32_t value, uint32_t m
     }
     for (unsigned i = 0; i < 32 && 32U * word + i < NVIC_IRQS; i++) {
         if ((value & mask) >> i & 1U) {
-            write_bit(board, offset, NVIC_IRQ0 + 32U * word + i);
+            write_bit(nvic, offset, NVIC_IRQ0 + 32U * word + i);
         }
     }
     return true;

@@ -8,7 +8,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct board;
+#include "clock.h"
+#include "cpu.h"
+#include "report.h"
 
 enum nvic_exception {
     NVIC_NONE = 0,
@@ -54,7 +56,14 @@ enum {
     NVIC_PRIORITY_NMI = -2,
 };
 
+struct nvic_wires {
+    struct clock *clock;
+    struct cpu *cpu; /* its masks */
+    struct report *report;
+};
+
 struct nvic {
+    struct nvic_wires wires;
     uint64_t enabled[NVIC_WORDS]; /* a bit an exception */
     uint64_t pending[NVIC_WORDS];
     uint64_t active[NVIC_WORDS];
@@ -65,17 +74,18 @@ struct nvic {
     unsigned group_bits; /* AIRCR.PRIGROUP */
 };
 
-void nvic_reset(struct board *board);
+void nvic_init(struct nvic *nvic, struct nvic_wires wires);
+void nvic_reset(struct nvic *nvic);
 
 /* Sets an exception pending, or takes that back. */
-void nvic_pend(struct board *board, unsigned exception);
-void nvic_unpend(struct board *board, unsigned exception);
+void nvic_pend(struct nvic *nvic, unsigned exception);
+void nvic_unpend(struct nvic *nvic, unsigned exception);
 
 /* The request line of an interrupt. */
-void nvic_set_line(struct board *board, enum nvic_irq irq, bool level);
+void nvic_set_line(struct nvic *nvic, enum nvic_irq irq, bool level);
 
 /* Whether the line of an interrupt is still seen high. */
-bool nvic_line_is_high(const struct board *board, unsigned exception);
+bool nvic_line_is_high(const struct nvic *nvic, unsigned exception);
 
 bool nvic_is_active(const struct nvic *nvic, unsigned exception);
 void nvic_set_active(struct nvic *nvic, unsigned exception, bool active);
@@ -84,21 +94,21 @@ bool nvic_is_enabled(const struct nvic *nvic, unsigned exception);
 
 /* Group priority of an exception, -3 to 255; what runs now, masks included; the active exceptions alone. */
 int nvic_group_priority(const struct nvic *nvic, unsigned exception);
-int nvic_running_priority(struct board *board);
+int nvic_running_priority(struct nvic *nvic);
 int nvic_active_priority(const struct nvic *nvic);
 
 /* A fault: whether an exception is never taken. */
-void nvic_lose(struct board *board, unsigned exception, bool lost);
+void nvic_lose(struct nvic *nvic, unsigned exception, bool lost);
 
 /* The pending and enabled exception that comes next, or NVIC_NONE. */
 unsigned nvic_next_pending(const struct nvic *nvic);
 
 /* Whether an exception can be taken now; whether one would wake a sleeping processor. */
-bool nvic_can_take(struct board *board);
-bool nvic_can_wake(struct board *board);
+bool nvic_can_take(struct nvic *nvic);
+bool nvic_can_wake(struct nvic *nvic);
 
 /* Registers at E000E100 on. False: there is none. */
-bool nvic_read(struct board *board, uint32_t offset, uint32_t *value);
-bool nvic_write(struct board *board, uint32_t offset, uint32_t value, uint32_t mask);
+bool nvic_read(struct nvic *nvic, uint32_t offset, uint32_t *value);
+bool nvic_write(struct nvic *nvic, uint32_t offset, uint32_t value, uint32_t mask);
 
 #endif

@@ -9,33 +9,20 @@
 
 #include "complain.h"
 #include "faults.h"
+#include "flash.h"
 #include "gpio.h"
 #include "supply.h"
+#include "timer_counter.h"
 
 enum {
     OPTIONS_WATCHES_MAX = 32,
     OPTIONS_STUCK_MAX = 16,
     OPTIONS_SETS_MAX = 8,
-    OPTIONS_CUTS_MAX = 4,
 };
 
 struct options_stuck {
     struct pin pin;
     bool level;
-};
-
-/* What a cut of power leaves of an operation of the flash: nothing of it, all, the first half; or, from SEED on, of the
- * bits that were to change some have and some have not. */
-enum {
-    OPTIONS_CUT_NOTHING,
-    OPTIONS_CUT_ALL,
-    OPTIONS_CUT_HALF,
-    OPTIONS_CUT_SEED
-};
-
-struct options_cut {
-    uint64_t operation; /* from 1 */
-    uint32_t leaves;
 };
 
 struct options {
@@ -66,30 +53,19 @@ struct options {
     uint64_t crystal_stops_ps; /* NEVER */
     uint64_t lsi_hz;
     uint64_t baud;
-    uint64_t flash_fail;  /* the operation, from 1; 0: none */
-    uint32_t flash_error; /* what SR tells then */
-    bool flash_bit;       /* one bit of it alone is not written */
-    uint64_t erase_us;    /* 0: as the data sheet says */
-    uint64_t timer_start; /* the count at which TIM2 starts */
-    struct options_cut cut[OPTIONS_CUTS_MAX];
-    unsigned cuts;
-    bool power_back; /* after a cut, at once */
+    struct flash_settings flash_settings;
+    struct timer_settings timer_settings;
     const char *fault[FAULTS_MAX];
     unsigned faults;
     unsigned node;
     enum supply_corner thresholds;
-    uint32_t option_bytes; /* FLASH_OPTCR at the start */
-    uint32_t idcode;       /* DBGMCU_IDCODE */
-    uint64_t flash_kb;
+    uint32_t idcode; /* DBGMCU_IDCODE */
     uint32_t refill;
     uint32_t apb_wait;
     int wait_states; /* -1: as FLASH_ACR says */
     bool art;
     bool no_crystal;
-    bool slow_flash;
-    bool match_equal;
     bool exti_mask_first;
-    bool pwm_at_once;
     bool left_by_loader;
     bool ticks_from_timer;
 };

@@ -12,7 +12,7 @@ enum {
 };
 
 struct group {
-    const char *before; /* of the names, in front of and behind the number from 1 */
+    const char *before; /* of the names, before and after the number from 1 */
     const char *after;
     unsigned first;  /* enum signal */
     unsigned length; /* 0: one without a number */

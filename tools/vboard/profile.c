@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "board.h"
 #include "complain.h"
 #include "line.h"
 
@@ -16,10 +15,10 @@ enum {
 
 static const uint32_t region_base[COST_REGIONS] = {MEMORY_FLASH_BASE, MEMORY_SRAM_BASE};
 
-static struct profile_table *present_table(struct board *board)
+static struct profile_table *present_table(struct profile *profile)
 {
-    const struct stats *stats = &board->stats;
-    return &board->profile.table[stats->depth == 0 ? 0 : stats->frame[stats->depth - 1U].exception];
+    const struct stats *stats = profile->wires.stats;
+    return &profile->table[stats->depth == 0 ? 0 : stats->frame[stats->depth - 1U].exception];
 }
 
 /* The row of an instruction, in memory that is taken when it is first wanted. Null if there is none. */
@@ -32,24 +31,22 @@ static struct profile_row *find_row(struct profile_table *table, uint32_t addres
     return *rows == NULL ? NULL : &(*rows)[(address & REGION_MASK) >> 1];
 }
 
-static void begin(struct board *board, struct profile_row *row)
+static void begin(struct profile *profile, struct profile_row *row)
 {
-    struct profile *profile = &board->profile;
-    profile->row->cycles += board->cpu.now - profile->mark;
-    profile->mark = board->cpu.now;
+    profile->row->cycles += profile->wires.clock->now - profile->mark;
+    profile->mark = profile->wires.clock->now;
     profile->row = row;
 }
 
-bool profile_open(struct board *board, const char *path)
+bool profile_open(struct profile *profile, const char *path)
 {
-    board->profile.on = path != NULL;
-    board->profile.row = &board->profile.table[0].place[PROFILE_OTHER];
-    return outfile_open(&board->profile.file, path);
+    profile->on = path != NULL;
+    profile->row = &profile->table[0].place[PROFILE_OTHER];
+    return outfile_open(&profile->file, path);
 }
 
-void profile_reset(struct board *board)
+void profile_reset(struct profile *profile)
 {
-    struct profile *profile = &board->profile;
     for (unsigned i = 0; i < NVIC_EXCEPTIONS; i++) {
         struct profile_table *table = &profile->table[i];
         memset(table->place, 0, sizeof table->place);
@@ -59,35 +56,35 @@ void profile_reset(struct board *board)
             }
         }
     }
-    profile->mark = board->cpu.now;
+    profile->mark = profile->wires.clock->now;
 }
 
-void profile_at(struct board *board, uint32_t address)
+void profile_at(struct profile *profile, uint32_t address)
 {
-    struct profile_table *table = present_table(board);
+    struct profile_table *table = present_table(profile);
     struct profile_row *row = find_row(table, address);
     if (row == NULL) {
-        board_fail(board, "there is not memory enough for --profile");
+        report_fail(profile->wires.report, "there is not memory enough for --profile");
     }
-    begin(board, row != NULL ? row : &table->place[PROFILE_OTHER]);
+    begin(profile, row != NULL ? row : &table->place[PROFILE_OTHER]);
 }
 
-void profile_pause(struct board *board)
+void profile_pause(struct profile *profile)
 {
-    begin(board, &present_table(board)->place[PROFILE_OTHER]);
+    begin(profile, &present_table(profile)->place[PROFILE_OTHER]);
 }
 
-void profile_place(struct board *board, enum profile_place place)
+void profile_place(struct profile *profile, enum profile_place place)
 {
-    struct profile_row *row = &present_table(board)->place[place];
-    row->cycles += board->cpu.now - board->profile.mark;
+    struct profile_row *row = &present_table(profile)->place[place];
+    row->cycles += profile->wires.clock->now - profile->mark;
     row->count++;
-    board->profile.mark = board->cpu.now;
+    profile->mark = profile->wires.clock->now;
 }
 
-void profile_bus(struct board *board, uint32_t address, uint64_t cycles)
+void profile_bus(struct profile *profile, uint32_t address, uint64_t cycles)
 {
-    struct profile_row *row = board->profile.row;
+    struct profile_row *row = profile->row;
     row->bus_cycles += cycles;
     row->peripheral = address;
 }
@@ -100,13 +97,13 @@ static char *put_hex(char *at, uint32_t value)
     return at;
 }
 
-static void put_row(struct board *board, unsigned exception, const char *place, uint32_t address,
+static void put_row(struct profile *profile, unsigned exception, const char *place, uint32_t address,
                     const struct profile_row *row)
 {
     if (row->cycles == 0 && row->count == 0) {
         return;
     }
-    struct outfile *file = &board->profile.file;
+    struct outfile *file = &profile->file;
     char *at = line_put_unsigned(outfile_reserve(file, LINE_BYTES_MAX), exception);
     *at++ = ',';
     at = place != NULL ? line_put_string(at, place) : put_hex(at, address);
@@ -122,42 +119,41 @@ static void put_row(struct board *board, unsigned exception, const char *place, 
     outfile_commit(file, at);
 }
 
-static void put_table(struct board *board, unsigned exception)
+static void put_table(struct profile *profile, unsigned exception)
 {
     static const char *const places[PROFILE_PLACES] = {"other", "entry", "exit"};
-    const struct profile_table *table = &board->profile.table[exception];
+    const struct profile_table *table = &profile->table[exception];
     for (unsigned i = 0; i < PROFILE_PLACES; i++) {
-        put_row(board, exception, places[i], 0, &table->place[i]);
+        put_row(profile, exception, places[i], 0, &table->place[i]);
     }
     for (unsigned region = 0; region < COST_REGIONS; region++) {
         for (uint32_t i = 0; table->code[region] != NULL && i < COST_REGION_HALFWORDS; i++) {
-            put_row(board, exception, NULL, region_base[region] + 2U * i, &table->code[region][i]);
+            put_row(profile, exception, NULL, region_base[region] + 2U * i, &table->code[region][i]);
         }
     }
 }
 
-bool profile_close(struct board *board)
+bool profile_close(struct profile *profile)
 {
-    struct profile *profile = &board->profile;
     if (!profile->on) {
         return true;
     }
-    begin(board, profile->row);
+    begin(profile, profile->row);
     struct outfile *file = &profile->file;
     static const char head[] = "exception,address,count,cycles,bus_cycles,register\n";
     outfile_commit(file, line_put_string(outfile_reserve(file, LINE_BYTES_MAX), head));
     for (unsigned i = 0; i < NVIC_EXCEPTIONS; i++) {
-        put_table(board, i);
+        put_table(profile, i);
     }
     return outfile_close(file) && outfile_publish(file);
 }
 
-void profile_discard(struct board *board)
+void profile_discard(struct profile *profile)
 {
-    outfile_discard(&board->profile.file);
+    outfile_discard(&profile->file);
     for (unsigned i = 0; i < NVIC_EXCEPTIONS; i++) {
         for (unsigned region = 0; region < COST_REGIONS; region++) {
-            free(board->profile.table[i].code[region]);
+            free(profile->table[i].code[region]);
         }
     }
 }

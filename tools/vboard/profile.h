@@ -9,10 +9,11 @@
 #include <stdint.h>
 
 #include "cost.h"
+#include "clock.h"
 #include "nvic.h"
 #include "outfile.h"
-
-struct board;
+#include "report.h"
+#include "stats.h"
 
 /* What is no instruction. */
 enum profile_place {
@@ -35,7 +36,14 @@ struct profile_table {
     struct profile_row place[PROFILE_PLACES];
 };
 
+struct profile_wires {
+    const struct clock *clock;
+    struct report *report;
+    const struct stats *stats; /* which know the present exception */
+};
+
 struct profile {
+    struct profile_wires wires;
     struct outfile file;
     bool on;
     uint64_t mark;           /* what was before has been counted */
@@ -44,25 +52,25 @@ struct profile {
 };
 
 /* False after a complaint. Nothing is counted unless a path is given. */
-bool profile_open(struct board *board, const char *path);
+bool profile_open(struct profile *profile, const char *path);
 
 /* Begins to count anew. */
-void profile_reset(struct board *board);
+void profile_reset(struct profile *profile);
 
 /* The instruction that ran is over, and another comes. */
-void profile_at(struct board *board, uint32_t address);
+void profile_at(struct profile *profile, uint32_t address);
 
 /* The instruction that ran is over, and what comes is no instruction. */
-void profile_pause(struct board *board);
+void profile_pause(struct profile *profile);
 
 /* What has passed since then was a place of the present exception. */
-void profile_place(struct board *board, enum profile_place place);
+void profile_place(struct profile *profile, enum profile_place place);
 
 /* The present instruction accesses a register and has waited for it. */
-void profile_bus(struct board *board, uint32_t address, uint64_t cycles);
+void profile_bus(struct profile *profile, uint32_t address, uint64_t cycles);
 
 /* Writes the rows. False after a complaint. */
-bool profile_close(struct board *board);
-void profile_discard(struct board *board);
+bool profile_close(struct profile *profile);
+void profile_discard(struct profile *profile);
 
 #endif

@@ -1,7 +1,5 @@
 #include "rcc.h"
 
-#include "board.h"
-
 enum {
     RCC_CR = 0x00,
     RCC_CIR = 0x0C,
@@ -72,111 +70,107 @@ static uint64_t ready_ps(const struct rcc *rcc, unsigned source)
 }
 
 /* The switch waits until the source that was asked for is ready (RM0090 section 7.2.6). */
-static void update_switch(struct board *board)
+static void update_switch(struct rcc *rcc)
 {
-    struct rcc *rcc = &board->rcc;
     unsigned wanted = *word(rcc, RCC_CFGR) & 3U;
     if (wanted > RCC_SOURCE_PLL) {
-        board_fail(board, "RCC_CFGR asks for a system clock that does not exist");
+        report_fail(rcc->wires.report, "RCC_CFGR asks for a system clock that does not exist");
         return;
     }
     uint64_t ready = ready_ps(rcc, wanted);
-    bool is_ready = ready <= board_now_ps(board);
+    bool is_ready = ready <= clock_now_ps(rcc->wires.clock);
     if (is_ready) {
         rcc->source = wanted;
     }
-    events_set_ps(board, EVENT_RCC, is_ready ? VTIME_NEVER : ready);
-    rcc_apply(board);
+    clock_set_ps(rcc->wires.clock, EVENT_RCC, is_ready ? VTIME_NEVER : ready);
+    rcc_apply(rcc);
 }
 
-void rcc_event(struct board *board, uint64_t cycle)
+static void on_rcc_event(void *model, uint64_t cycle)
 {
+    struct rcc *rcc = model;
     (void)cycle;
-    update_switch(board);
+    update_switch(rcc);
 }
 
-static uint64_t started(struct board *board, uint64_t ready, bool on, uint64_t start_ps)
+static uint64_t started(struct rcc *rcc, uint64_t ready, bool on, uint64_t start_ps)
 {
     if (!on) {
         return VTIME_NEVER;
     }
-    return ready != VTIME_NEVER ? ready : board_now_ps(board) + start_ps;
+    return ready != VTIME_NEVER ? ready : clock_now_ps(rcc->wires.clock) + start_ps;
 }
 
-static uint32_t ready_bits(struct board *board)
+static uint32_t ready_bits(struct rcc *rcc)
 {
-    const struct rcc *rcc = &board->rcc;
-    uint64_t now = board_now_ps(board);
+    uint64_t now = clock_now_ps(rcc->wires.clock);
     bool hse = rcc->hse_ready_ps <= now || now < rcc->hse_gone_ps;
     bool pll = rcc->pll_ready_ps <= now || now < rcc->pll_gone_ps;
     return (rcc->hsi_ready_ps <= now ? CR_HSIRDY : 0U) | (hse ? CR_HSERDY : 0U) | (pll ? CR_PLLRDY : 0U);
 }
 
-static void check_bypass(struct board *board, uint32_t value)
+static void check_bypass(struct rcc *rcc, uint32_t value)
 {
-    bool changes = ((*word(&board->rcc, RCC_CR) ^ value) & CR_HSEBYP) != 0;
-    if (changes && (ready_bits(board) & CR_HSERDY) != 0) {
-        board_fail(board, "RCC_CR: HSEBYP must be written only while the crystal's oscillator is off");
+    bool changes = ((*word(rcc, RCC_CR) ^ value) & CR_HSEBYP) != 0;
+    if (changes && (ready_bits(rcc) & CR_HSERDY) != 0) {
+        report_fail(rcc->wires.report, "RCC_CR: HSEBYP must be written only while the crystal's oscillator is off");
     }
 }
 
 /* What is switched off is seen to be off a little later. */
-static void note_stops(struct board *board, uint32_t value)
+static void note_stops(struct rcc *rcc, uint32_t value)
 {
-    struct rcc *rcc = &board->rcc;
-    uint64_t now = board_now_ps(board);
+    uint64_t now = clock_now_ps(rcc->wires.clock);
     if ((value & CR_HSEON) == 0 && rcc->hse_ready_ps <= now) {
-        rcc->hse_gone_ps = now + HSE_STOP_CYCLES * VTIME_PS_PER_SECOND / board->options->crystal_hz;
+        rcc->hse_gone_ps = now + HSE_STOP_CYCLES * VTIME_PS_PER_SECOND / rcc->wires.crystal_hz;
     }
     if ((value & CR_PLLON) == 0 && rcc->pll_ready_ps <= now) {
         rcc->pll_gone_ps = now + PLL_STOP_PS;
     }
 }
 
-static void write_cr(struct board *board, uint32_t value)
+static void write_cr(struct rcc *rcc, uint32_t value)
 {
-    struct rcc *rcc = &board->rcc;
-    check_bypass(board, value);
-    note_stops(board, value);
+    check_bypass(rcc, value);
+    note_stops(rcc, value);
     *word(rcc, RCC_CR) = value & CR_WRITABLE;
-    bool crystal = (value & CR_HSEON) != 0 && !board->options->no_crystal && !rcc->crystal_failed;
-    rcc->hsi_ready_ps = started(board, rcc->hsi_ready_ps, (value & CR_HSION) != 0, HSI_START_PS);
-    rcc->hse_ready_ps = started(board, rcc->hse_ready_ps, crystal, HSE_START_PS);
+    bool crystal = (value & CR_HSEON) != 0 && rcc->wires.has_crystal && !rcc->crystal_failed;
+    rcc->hsi_ready_ps = started(rcc, rcc->hsi_ready_ps, (value & CR_HSION) != 0, HSI_START_PS);
+    rcc->hse_ready_ps = started(rcc, rcc->hse_ready_ps, crystal, HSE_START_PS);
     bool locks = (value & CR_PLLON) != 0;
-    if ((*word(rcc, RCC_PLLCFGR) & RCC_PLLCFGR_HSE) != 0 && rcc->hse_ready_ps > board_now_ps(board)) {
+    if ((*word(rcc, RCC_PLLCFGR) & RCC_PLLCFGR_HSE) != 0 && rcc->hse_ready_ps > clock_now_ps(rcc->wires.clock)) {
         locks = false;
     }
-    rcc->pll_ready_ps = started(board, rcc->pll_ready_ps, locks, PLL_LOCK_PS);
+    rcc->pll_ready_ps = started(rcc, rcc->pll_ready_ps, locks, PLL_LOCK_PS);
     uint32_t needed = rcc->source == RCC_SOURCE_HSE ? CR_HSEON : CR_PLLON;
     if (rcc->source != RCC_SOURCE_HSI && (value & needed) == 0) {
-        board_fail(board, "RCC_CR switches off the clock that the processor runs on");
+        report_fail(rcc->wires.report, "RCC_CR switches off the clock that the processor runs on");
     }
-    update_switch(board);
+    update_switch(rcc);
 }
 
-void rcc_start_lsi(struct board *board)
+void rcc_start_lsi(struct rcc *rcc)
 {
-    *word(&board->rcc, RCC_CSR) |= CSR_LSION;
-    board->rcc.lsi_ready_ps = started(board, board->rcc.lsi_ready_ps, true, LSI_START_PS);
+    *word(rcc, RCC_CSR) |= CSR_LSION;
+    rcc->lsi_ready_ps = started(rcc, rcc->lsi_ready_ps, true, LSI_START_PS);
 }
 
-static void write_csr(struct board *board, uint32_t value)
+static void write_csr(struct rcc *rcc, uint32_t value)
 {
-    struct rcc *rcc = &board->rcc;
     *word(rcc, RCC_CSR) = value & CSR_LSION;
-    rcc->lsi_ready_ps = started(board, rcc->lsi_ready_ps, (value & CSR_LSION) != 0, LSI_START_PS);
+    rcc->lsi_ready_ps = started(rcc, rcc->lsi_ready_ps, (value & CSR_LSION) != 0, LSI_START_PS);
     if ((value & CSR_RMVF) != 0) {
         rcc->reset_flags = 0;
     }
 }
 
 /* The crystal stops: with the clock security system on, the part goes on with HSI and an NMI (section 7.2.7). */
-void rcc_crystal_event(struct board *board, uint64_t cycle)
+static void on_rcc_crystal_event(void *model, uint64_t cycle)
 {
-    struct rcc *rcc = &board->rcc;
+    struct rcc *rcc = model;
     bool on_crystal = rcc->source == RCC_SOURCE_HSE ||
                       (rcc->source == RCC_SOURCE_PLL && (*word(rcc, RCC_PLLCFGR) & RCC_PLLCFGR_HSE) != 0);
-    bool was_ready = rcc->hse_ready_ps <= board_now_ps(board);
+    bool was_ready = rcc->hse_ready_ps <= clock_now_ps(rcc->wires.clock);
     (void)cycle;
     rcc->crystal_failed = true;
     rcc->hse_ready_ps = VTIME_NEVER;
@@ -187,12 +181,12 @@ void rcc_crystal_event(struct board *board, uint64_t cycle)
             *word(rcc, RCC_CFGR) &= ~UINT32_C(3);
             rcc->pll_ready_ps = VTIME_NEVER;
             rcc->hsi_ready_ps = 0;
-            update_switch(board);
+            update_switch(rcc);
         }
         rcc->css_flag = true;
-        nvic_pend(board, NVIC_NMI);
+        nvic_pend(rcc->wires.nvic, NVIC_NMI);
     } else if (on_crystal) {
-        board_stop_clock(board);
+        rcc->wires.outlet.stop(rcc->wires.outlet.board);
     }
 }
 
@@ -209,42 +203,40 @@ static unsigned enable_index(uint32_t offset)
     return offset == RCC_APB1ENR ? 1U : 2U;
 }
 
-bool rcc_clock_has_come(const struct board *board, uint32_t offset, unsigned bit)
+bool rcc_clock_has_come(const struct rcc *rcc, uint32_t offset, unsigned bit)
 {
     unsigned index = enable_index(offset);
-    bool fresh = offset != 0 && (board->rcc.enabled[index].bits >> bit & 1U) != 0;
-    return !fresh || board->cpu.now >= board->rcc.enabled[index].cycle;
+    bool fresh = offset != 0 && (rcc->enabled[index].bits >> bit & 1U) != 0;
+    return !fresh || rcc->wires.clock->now >= rcc->enabled[index].cycle;
 }
 
-static void write_enable(struct board *board, uint32_t offset, uint32_t value)
+static void write_enable(struct rcc *rcc, uint32_t offset, uint32_t value)
 {
-    struct rcc *rcc = &board->rcc;
-    const uint32_t delays[RCC_ENABLES] = {ENABLE_CYCLES_AHB, ENABLE_CYCLES_APB + rcc->pclk1_divider,
-                                          ENABLE_CYCLES_APB + rcc->pclk2_divider};
+    const uint32_t delays[RCC_ENABLES] = {ENABLE_CYCLES_AHB, ENABLE_CYCLES_APB + rcc->wires.conditions->pclk1_divider,
+                                          ENABLE_CYCLES_APB + rcc->wires.conditions->pclk2_divider};
     unsigned index = enable_index(offset);
     uint32_t fresh = value & ~*word(rcc, offset);
     *word(rcc, offset) = value;
     if (fresh != 0) {
-        uint32_t coming = board->cpu.now < rcc->enabled[index].cycle ? rcc->enabled[index].bits : 0U;
+        uint32_t coming = rcc->wires.clock->now < rcc->enabled[index].cycle ? rcc->enabled[index].bits : 0U;
         rcc->enabled[index].bits = coming | fresh;
-        rcc->enabled[index].cycle = board->cpu.now + ENABLE_WAY_CYCLES + delays[index];
+        rcc->enabled[index].cycle = rcc->wires.clock->now + ENABLE_WAY_CYCLES + delays[index];
     }
 }
 
 /* M and N for a comparison at 2 MHz and 240 MHz; P = 4, Q = 5; APB1 at a half. */
-void rcc_run_from_pll(struct board *board, bool from_crystal)
+void rcc_run_from_pll(struct rcc *rcc)
 {
-    struct rcc *rcc = &board->rcc;
-    uint64_t now = board_now_ps(board);
-    uint32_t m = from_crystal ? (uint32_t)(board->options->crystal_hz / 2000000U) : 8U;
+    bool from_crystal = rcc->wires.has_crystal;
+    uint64_t now = clock_now_ps(rcc->wires.clock);
+    uint32_t m = from_crystal ? (uint32_t)(rcc->wires.crystal_hz / 2000000U) : 8U;
     *word(rcc, RCC_PLLCFGR) = m | 120U << 6 | 1U << 16 | (from_crystal ? RCC_PLLCFGR_HSE : 0U) | 5U << 24;
     *word(rcc, RCC_CR) |= CR_PLLON | (from_crystal ? CR_HSEON | CR_CSSON : 0U);
     *word(rcc, RCC_CFGR) = RCC_SOURCE_PLL | 4U << 10;
     *word(rcc, RCC_APB2ENR) = UINT32_C(1) << 4;
     rcc->hse_ready_ps = from_crystal ? now : VTIME_NEVER;
     rcc->pll_ready_ps = now;
-    flash_set_wait_states(board, 3);
-    update_switch(board);
+    update_switch(rcc);
 }
 
 /* The flags stay until they are cleared, or the supply has been too low. */
@@ -259,12 +251,16 @@ static uint32_t flags_of(enum reset_cause cause, uint32_t before)
     return flags[cause] | (supply ? 0U : before);
 }
 
-void rcc_reset(struct board *board, enum reset_cause cause)
+void rcc_reset(struct rcc *rcc, enum reset_cause cause)
 {
-    struct rcc *rcc = &board->rcc;
     uint32_t flags = flags_of(cause, rcc->reset_flags);
     bool failed = rcc->crystal_failed;
-    *rcc = (struct rcc){.hse_ready_ps = VTIME_NEVER, .pll_ready_ps = VTIME_NEVER, .lsi_ready_ps = VTIME_NEVER};
+    struct conditions *conditions = rcc->wires.conditions;
+    conditions->pclk1_divider = 0;
+    conditions->pclk2_divider = 0;
+    conditions->timer1_divider = 0;
+    *rcc = (struct rcc){
+        .wires = rcc->wires, .hse_ready_ps = VTIME_NEVER, .pll_ready_ps = VTIME_NEVER, .lsi_ready_ps = VTIME_NEVER};
     rcc->reset_flags = flags;
     rcc->crystal_failed = failed;
     *word(rcc, RCC_CR) = CR_RESET;
@@ -276,8 +272,8 @@ void rcc_reset(struct board *board, enum reset_cause cause)
     *word(rcc, 0x60) = UINT32_C(0x36FEC9FF);
     *word(rcc, RCC_APB2LPENR) = UINT32_C(0x00075F33);
     *word(rcc, RCC_PLLI2SCFGR) = UINT32_C(0x20003000);
-    events_set(board, EVENT_RCC, VTIME_NEVER);
-    rcc_apply(board);
+    clock_set(rcc->wires.clock, EVENT_RCC, VTIME_NEVER);
+    rcc_apply(rcc);
 }
 
 static bool is_known(uint32_t offset)
@@ -294,82 +290,87 @@ static bool is_known(uint32_t offset)
     return false;
 }
 
-bool rcc_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
+bool rcc_read(void *model, uint32_t offset, uint32_t *value)
 {
-    struct rcc *rcc = &board->rcc;
-    (void)instance;
+    struct rcc *rcc = model;
     if (!is_known(offset)) {
         return false;
     }
     *value = *word(rcc, offset);
     if (offset == RCC_CR) {
-        *value |= ready_bits(board);
+        *value |= ready_bits(rcc);
     } else if (offset == RCC_CFGR) {
         *value = (*value & ~UINT32_C(0xC)) | rcc->source << 2;
     } else if (offset == RCC_CIR) {
         *value |= rcc->css_flag ? CIR_CSSF : 0U;
     } else if (offset == RCC_CSR) {
-        *value |= rcc->reset_flags | (rcc->lsi_ready_ps <= board_now_ps(board) ? CSR_LSIRDY : 0U);
+        *value |= rcc->reset_flags | (rcc->lsi_ready_ps <= clock_now_ps(rcc->wires.clock) ? CSR_LSIRDY : 0U);
     }
     return true;
 }
 
-static void write_pllcfgr(struct board *board, uint32_t value)
+static void write_pllcfgr(struct rcc *rcc, uint32_t value)
 {
-    if ((*word(&board->rcc, RCC_CR) & CR_PLLON) != 0 || (ready_bits(board) & CR_PLLRDY) != 0) {
-        board_fail(board, "RCC_PLLCFGR must be written only while the PLL is off");
+    if ((*word(rcc, RCC_CR) & CR_PLLON) != 0 || (ready_bits(rcc) & CR_PLLRDY) != 0) {
+        report_fail(rcc->wires.report, "RCC_PLLCFGR must be written only while the PLL is off");
     }
-    *word(&board->rcc, RCC_PLLCFGR) = value & UINT32_C(0x0F437FFF);
+    *word(rcc, RCC_PLLCFGR) = value & UINT32_C(0x0F437FFF);
 }
 
-static void write_cir(struct board *board, uint32_t value)
+static void write_cir(struct rcc *rcc, uint32_t value)
 {
     if ((value & CIR_ENABLES) != 0) {
-        board_fail(board, "RCC_CIR: interrupts of ready clocks are not modelled");
+        report_fail(rcc->wires.report, "RCC_CIR: interrupts of ready clocks are not modelled");
     }
     if ((value & CIR_CSSC) != 0) {
-        board->rcc.css_flag = false;
+        rcc->css_flag = false;
     }
 }
 
-bool rcc_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask)
+bool rcc_write(void *model, uint32_t offset, uint32_t value, uint32_t mask)
 {
-    struct rcc *rcc = &board->rcc;
-    (void)instance;
+    struct rcc *rcc = model;
     if (!is_known(offset)) {
         return false;
     }
     uint32_t whole = (*word(rcc, offset) & ~mask) | (value & mask);
     switch (offset) {
     case RCC_CR:
-        write_cr(board, whole);
+        write_cr(rcc, whole);
         return true;
     case RCC_PLLCFGR:
-        write_pllcfgr(board, whole);
+        write_pllcfgr(rcc, whole);
         return true;
     case RCC_CFGR:
         *word(rcc, RCC_CFGR) = whole & ~UINT32_C(0xC);
-        update_switch(board);
+        update_switch(rcc);
         return true;
     case RCC_CIR:
-        write_cir(board, value & mask);
+        write_cir(rcc, value & mask);
         return true;
     case RCC_AHB1ENR:
     case RCC_APB1ENR:
     case RCC_APB2ENR:
-        write_enable(board, offset, whole);
+        write_enable(rcc, offset, whole);
         return true;
     case RCC_CSR:
-        write_csr(board, whole);
+        write_csr(rcc, whole);
         return true;
     case RCC_AHB1RSTR:
     case RCC_APB1RSTR:
     case RCC_APB2RSTR:
         *word(rcc, offset) = whole;
-        board_reset_peripherals(board, offset, whole);
+        rcc->wires.outlet.reset(rcc->wires.outlet.board, offset, whole);
         return true;
     default:
         *word(rcc, offset) = whole;
         return true;
     }
+}
+
+void rcc_init(struct rcc *rcc, struct rcc_wires wires)
+{
+    rcc->wires = wires;
+    clock_attach(wires.clock, EVENT_RCC, on_rcc_event, rcc);
+    clock_attach(wires.clock, EVENT_CRYSTAL, on_rcc_crystal_event, rcc);
 }

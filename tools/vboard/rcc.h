@@ -8,7 +8,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct board;
+#include "clock.h"
+#include "conditions.h"
+#include "nvic.h"
+#include "report.h"
+#include "reset.h"
 
 enum {
     RCC_PLLCFGR = 0x04,
@@ -28,24 +32,32 @@ enum rcc_source {
     RCC_SOURCE_PLL,
 };
 
-/* Why the part was reset; the flags of RCC_CSR follow from it. */
-enum reset_cause {
-    RESET_NONE,
-    RESET_POWER,
-    RESET_SOFTWARE,
-    RESET_WATCHDOG,
-    RESET_PIN,
-    RESET_BROWN_OUT, /* the supply was too low, but not so low that the RAM forgets */
-    RESET_HELD,      /* the supply is too low: the part stands still */
-    RESET_CAUSES,
-};
-
 /* The clock enables: AHB1, APB1, APB2. */
 enum {
     RCC_ENABLES = 3
 };
 
+/* What the rest of the board does when the clocks change or registers of RCC reset it. */
+struct rcc_outlet {
+    void *board;
+    void (*hold)(void *board); /* before and after a change of the clocks */
+    void (*release)(void *board);
+    void (*stop)(void *board);                                  /* the processor has no clock any more */
+    void (*reset)(void *board, uint32_t offset, uint32_t bits); /* peripherals, by the bits of a reset register */
+};
+
+struct rcc_wires {
+    struct clock *clock;
+    struct report *report;
+    struct nvic *nvic;
+    struct conditions *conditions;
+    struct rcc_outlet outlet;
+    uint64_t crystal_hz;
+    bool has_crystal;
+};
+
 struct rcc {
+    struct rcc_wires wires;
     uint32_t word[RCC_WORDS]; /* the registers as written, without the ready and status bits */
     uint64_t hse_ready_ps;    /* NEVER: off or missing */
     uint64_t hsi_ready_ps;
@@ -60,36 +72,28 @@ struct rcc {
     unsigned source; /* enum rcc_source */
     bool crystal_failed;
     bool css_flag;
-    uint32_t pclk1_divider; /* cycles of HCLK in one of APB1, APB2 */
-    uint32_t pclk2_divider;
-    uint32_t timer1_divider; /* cycles of HCLK in one of the timers' clock on APB1 */
     uint32_t reset_flags;
 };
 
-void rcc_reset(struct board *board, enum reset_cause cause);
+void rcc_init(struct rcc *rcc, struct rcc_wires wires);
+void rcc_reset(struct rcc *rcc, enum reset_cause cause);
 
-bool rcc_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);
-bool rcc_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask);
+bool rcc_read(void *model, uint32_t offset, uint32_t *value);
+bool rcc_write(void *model, uint32_t offset, uint32_t value, uint32_t mask);
 
 /* Whether the bit of a clock enable register is set; offset 0 is what has no such bit. */
 bool rcc_clock_is_on(const struct rcc *rcc, uint32_t offset, unsigned bit);
 
 /* Whether it is so, and was set so long ago that the peripheral takes an access. */
-bool rcc_clock_has_come(const struct board *board, uint32_t offset, unsigned bit);
+bool rcc_clock_has_come(const struct rcc *rcc, uint32_t offset, unsigned bit);
 
-/* Lets the part run from the PLL at 60 MHz, from the crystal or the internal oscillator. */
-void rcc_run_from_pll(struct board *board, bool from_crystal);
+/* Lets the part run from the PLL at 60 MHz, which runs from the crystal if there is one. */
+void rcc_run_from_pll(struct rcc *rcc);
 
 /* Starts the low-speed oscillator, as the watchdog does. */
-void rcc_start_lsi(struct board *board);
+void rcc_start_lsi(struct rcc *rcc);
 
 /* Lets the whole board run with the clocks that the registers ask for. */
-void rcc_apply(struct board *board);
-
-/* Ends the run if the clock tree, or the wait states of the flash with it, is outside the limits. */
-void rcc_check_limits(struct board *board);
-
-void rcc_event(struct board *board, uint64_t cycle);
-void rcc_crystal_event(struct board *board, uint64_t cycle);
+void rcc_apply(struct rcc *rcc);
 
 #endif

@@ -7,11 +7,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "clock.h"
 #include "outfile.h"
 #include "pins.h"
-#include "vcd.h"
-
-struct board;
+#include "report.h"
+#include "rs485.h"
+#include "timer.h"
+#include "waves.h"
 
 /* One motor. Times are cycles; they are compared only while the clock stays as it is. */
 struct recorder_motor {
@@ -28,32 +30,42 @@ struct recorder_motor {
     bool direction_fresh;    /* it has changed since the last pulse */
 };
 
+struct recorder_wires {
+    const struct clock *clock;
+    struct report *report;
+    const struct pins *pins;
+    const struct timer *timer; /* whose ticks are those of the table */
+    struct rs485 *line;
+    bool ticks_from_timer; /* the ticks count from its start, else from power-on */
+};
+
 struct recorder {
+    struct recorder_wires wires;
     bool level[SIGNALS]; /* logical */
     uint64_t edge_cycle[SIGNALS];
     struct recorder_motor motor[PINS_MOTORS];
     struct outfile steps;
-    struct vcd vcd;
+    struct waves waves;
     uint64_t tick_hz;       /* that the table says; 0: it has not been begun */
     uint64_t first_step_ps; /* NEVER: none yet */
 };
 
-/* Opens the files that the options ask for. False after a complaint. */
-bool recorder_open(struct board *board);
+/* Opens the files, null for none. False after a complaint. */
+bool recorder_open(struct recorder *recorder, const char *steps, const char *vcd);
 
-/* A pin has a new level. */
-void recorder_note_edge(struct board *board, struct pin pin, bool level, uint64_t cycle);
+/* A pin has a new level, which is told to a struct recorder. */
+void recorder_note_edge(void *model, struct pin pin, bool level, uint64_t cycle);
+
+/* Which of `count` signals are active, one bit each. */
+unsigned recorder_active(const struct recorder *recorder, unsigned signal, unsigned count);
 
 /* Ends the files. False after a complaint. */
-/* Which of `count` signals are active, one bit each. */
-unsigned recorder_active(const struct board *board, unsigned signal, unsigned count);
-
-bool recorder_close(struct board *board);
+bool recorder_close(struct recorder *recorder);
 
 /* Lets go of the files; those that were not ended vanish. */
-void recorder_discard(struct board *board);
+void recorder_discard(struct recorder *recorder);
 
-/* The tick of TIM2 in 64 bits at a cycle: counted from power-on, or with --ticks timer from its start. */
-uint64_t recorder_tick(const struct board *board, uint64_t cycle);
+/* The tick of the timer in 64 bits at a cycle. */
+uint64_t recorder_tick(const struct recorder *recorder, uint64_t cycle);
 
 #endif

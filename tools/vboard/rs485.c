@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "board.h"
 #include "complain.h"
 #include "infile.h"
 #include "line.h"
@@ -19,9 +18,9 @@ enum {
 
 #define MS_MAX UINT64_C(1000000000)
 
-static uint64_t half_bits_ps(const struct board *board, uint64_t half_bits)
+static uint64_t half_bits_ps(const struct rs485 *line, uint64_t half_bits)
 {
-    return vtime_scale(half_bits, VTIME_PS_PER_SECOND / 2U, board->options->baud);
+    return vtime_scale(half_bits, VTIME_PS_PER_SECOND / 2U, line->wires.baud);
 }
 
 static bool append(struct rs485 *line, struct rs485_byte byte)
@@ -51,7 +50,7 @@ static bool is_blank(char character)
     return character == ' ' || character == '\t' || character == '\r' || character == ',';
 }
 
-/* The marks behind a byte. */
+/* The marks after a byte. */
 static uint8_t read_damage(const char **at, const char *end)
 {
     uint8_t damage = 0;
@@ -114,112 +113,107 @@ static bool read_script(struct rs485 *line, const struct infile *file)
     return true;
 }
 
-static void plan(struct board *board)
+static void plan(struct rs485 *line)
 {
-    struct rs485 *line = &board->line;
     if (line->arriving || line->next == line->bytes) {
         return;
     }
     uint64_t start = line->byte[line->next].start_ps;
     line->arrival_ps = start > line->free_ps ? start : line->free_ps;
-    events_set_ps(board, EVENT_LINE, line->arrival_ps);
+    clock_set_ps(line->wires.clock, EVENT_LINE, line->arrival_ps);
 }
 
-bool rs485_open(struct board *board)
+bool rs485_open(struct rs485 *line, const char *script, const char *log)
 {
-    struct rs485 *line = &board->line;
     struct infile file;
-    if (!outfile_open(&line->log, board->options->line_log)) {
+    line->driver_on = line->wires.pins->low[SIGNAL_DRIVER];
+    if (!outfile_open(&line->log, log)) {
         return false;
     }
-    if (board->options->line_script == NULL) {
+    if (script == NULL) {
         return true;
     }
-    if (!infile_read(&file, board->options->line_script)) {
+    if (!infile_read(&file, script)) {
         return false;
     }
     bool good = read_script(line, &file);
     infile_discard(&file);
-    plan(board);
+    plan(line);
     return good;
 }
 
-bool rs485_close(struct board *board)
+bool rs485_close(struct rs485 *line)
 {
-    return outfile_close(&board->line.log) && outfile_publish(&board->line.log);
+    return outfile_close(&line->log) && outfile_publish(&line->log);
 }
 
-void rs485_discard(struct board *board)
+void rs485_discard(struct rs485 *line)
 {
-    outfile_discard(&board->line.log);
-    free(board->line.byte);
-    board->line.byte = NULL;
+    outfile_discard(&line->log);
+    free(line->byte);
+    line->byte = NULL;
 }
 
-void rs485_say(struct board *board, uint8_t value)
+void rs485_say(struct rs485 *line, uint8_t value)
 {
-    (void)append(&board->line, (struct rs485_byte){.start_ps = board_now_ps(board), .value = value});
-    plan(board);
+    (void)append(line, (struct rs485_byte){.start_ps = clock_now_ps(line->wires.clock), .value = value});
+    plan(line);
 }
 
 /* Without a pin for the driver, it is always on and the bus full-duplex. */
-static bool has_driver(const struct board *board)
+static bool has_driver(const struct rs485 *line)
 {
-    return pins_is_connected(&board->pins, SIGNAL_DRIVER);
+    return pins_is_connected(line->wires.pins, SIGNAL_DRIVER);
 }
 
-static bool driver_is_on(const struct board *board)
+static bool driver_is_on(const struct rs485 *line)
 {
-    return has_driver(board) && board->recorder.level[SIGNAL_DRIVER];
+    return has_driver(line) && line->driver_on;
 }
 
-void rs485_event(struct board *board, uint64_t cycle)
+static void on_rs485_event(void *model, uint64_t cycle)
 {
-    struct rs485 *line = &board->line;
+    struct rs485 *line = model;
     const struct rs485_byte *byte = &line->byte[line->next];
     if (!line->arriving) {
         line->arriving = true;
-        line->disturbed = driver_is_on(board);
-        events_set_ps(board, EVENT_LINE, line->arrival_ps + half_bits_ps(board, HALF_BITS_TO_STOP));
+        line->disturbed = driver_is_on(line);
+        clock_set_ps(line->wires.clock, EVENT_LINE, line->arrival_ps + half_bits_ps(line, HALF_BITS_TO_STOP));
         return;
     }
     if (line->disturbed) {
         line->collisions++;
     } else {
         line->heard++;
-        usart_receive(board, board->pins.usart, byte->value, byte->damage, board->options->baud, cycle);
+        usart_receive(line->wires.usart, byte->value, byte->damage, line->wires.baud, cycle);
     }
     line->arriving = false;
-    line->free_ps = line->arrival_ps + half_bits_ps(board, UINT64_C(2) * FRAME_BITS);
+    line->free_ps = line->arrival_ps + half_bits_ps(line, UINT64_C(2) * FRAME_BITS);
     line->next++;
-    plan(board);
+    plan(line);
 }
 
-void rs485_begin_sent(struct board *board, unsigned usart, uint64_t cycle)
+static void on_begin(void *model)
 {
-    struct rs485 *line = &board->line;
-    (void)cycle;
-    if (usart == board->pins.usart) {
-        line->sending = true;
-        line->driven_throughout = !has_driver(board) || driver_is_on(board);
-    }
+    struct rs485 *line = model;
+    line->sending = true;
+    line->driven_throughout = !has_driver(line) || driver_is_on(line);
 }
 
-static bool rate_fits(const struct board *board)
+static bool rate_fits(const struct rs485 *line)
 {
-    uint64_t baud = usart_baud(board, board->pins.usart);
-    uint64_t wanted = board->options->baud;
+    uint64_t baud = usart_baud(line->wires.usart);
+    uint64_t wanted = line->wires.baud;
     return 100U * baud >= (100U - TOLERANCE_PERCENT) * wanted && 100U * baud <= (100U + TOLERANCE_PERCENT) * wanted;
 }
 
-static void log_byte(struct board *board, uint8_t value, bool good, uint64_t begin_cycle)
+static void log_byte(struct rs485 *line, uint8_t value, bool good, uint64_t begin_cycle)
 {
-    struct rs485 *line = &board->line;
     static const char digits[] = "0123456789ABCDEF";
     if (!outfile_is_open(&line->log)) {
         return;
     }
-    uint64_t ns = vtime_ps_of_cycle(&board->time, begin_cycle) / VTIME_PS_PER_NS;
+    uint64_t ns = clock_ps_of_cycle(line->wires.clock, begin_cycle) / VTIME_PS_PER_NS;
     char *at = line_put_fixed(outfile_reserve(&line->log, LOG_BYTES_MAX), ns, LOG_DECIMALS);
     *at++ = ' ';
     *at++ = digits[value >> 4];
@@ -231,34 +225,38 @@ static void log_byte(struct board *board, uint8_t value, bool good, uint64_t beg
     outfile_commit(&line->log, at);
 }
 
-void rs485_end_sent(struct board *board, unsigned usart, uint8_t value, bool connected, uint64_t begin_cycle,
-                    uint64_t cycle)
+static void on_end(void *model, struct usart_sent sent)
 {
-    struct rs485 *line = &board->line;
-    if (usart != board->pins.usart) {
-        return;
-    }
-    bool good = connected && line->driven_throughout && rate_fits(board);
+    struct rs485 *line = model;
+    bool good = sent.connected && line->driven_throughout && rate_fits(line);
     line->sending = false;
-    line->sent_end_cycle = cycle;
+    line->sent_end_cycle = sent.end;
     line->sent += good ? 1U : 0U;
     line->unheard += good ? 0U : 1U;
-    log_byte(board, value, good, begin_cycle);
-    if (good) {
-        tty_send(board, value);
+    log_byte(line, sent.value, good, sent.begin);
+    if (good && line->wires.listener.hear != NULL) {
+        line->wires.listener.hear(line->wires.listener.model, sent.value);
     }
 }
 
-void rs485_note_driver(struct board *board, bool on, uint64_t cycle)
+void rs485_note_driver(struct rs485 *line, bool on, uint64_t cycle)
 {
-    struct rs485 *line = &board->line;
+    line->driver_on = on;
     if (on) {
         line->disturbed = true;
         return;
     }
     line->driven_throughout = false;
     if (line->sent_end_cycle != 0 && !line->sending) {
-        uint64_t ps = vtime_ps_of_cycle(&board->time, cycle) - vtime_ps_of_cycle(&board->time, line->sent_end_cycle);
+        uint64_t ps =
+            clock_ps_of_cycle(line->wires.clock, cycle) - clock_ps_of_cycle(line->wires.clock, line->sent_end_cycle);
         line->release_most_ps = ps > line->release_most_ps ? ps : line->release_most_ps;
     }
+}
+
+void rs485_init(struct rs485 *line, struct rs485_wires wires)
+{
+    line->wires = wires;
+    wires.usart->listener = (struct usart_listener){.model = line, .begin = on_begin, .end = on_end};
+    clock_attach(wires.clock, EVENT_LINE, on_rs485_event, line);
 }

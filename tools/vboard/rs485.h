@@ -4,7 +4,7 @@
  * unit drives the bus it hears nothing.
  *
  * A script has lines `ms bytes`: the time at which the first start bit begins, and bytes in hexadecimal, back to back,
- * blanks between them or not. Behind a byte, `*` makes its stop bit wrong (framing error) and `~` makes it noisy.
+ * blanks between them or not. After a byte, `*` makes its stop bit wrong (framing error) and `~` makes it noisy.
  */
 #ifndef RS485_H
 #define RS485_H
@@ -13,9 +13,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "clock.h"
 #include "outfile.h"
-
-struct board;
+#include "pins.h"
+#include "usart.h"
 
 struct rs485_byte {
     uint64_t start_ps; /* not before */
@@ -23,7 +24,22 @@ struct rs485_byte {
     uint8_t damage; /* set of enum usart_damage */
 };
 
+/* Who else hears what the unit says; null: nobody. */
+struct rs485_listener {
+    void *model;
+    void (*hear)(void *model, uint8_t value);
+};
+
+struct rs485_wires {
+    struct clock *clock;
+    const struct pins *pins;
+    struct usart *usart; /* of the line */
+    struct rs485_listener listener;
+    uint64_t baud;
+};
+
 struct rs485 {
+    struct rs485_wires wires;
     struct rs485_byte *byte; /* to come, in order */
     size_t bytes;
     size_t room;
@@ -32,7 +48,8 @@ struct rs485 {
     bool disturbed; /* while the unit's driver was on */
     uint64_t arrival_ps;
     uint64_t free_ps; /* the bus is free for the next byte */
-    bool sending;     /* the unit sends a byte */
+    bool driver_on;
+    bool sending; /* the unit sends a byte */
     bool driven_throughout;
     uint64_t sent_end_cycle; /* of the last byte that the unit sent */
     uint64_t sent;           /* bytes that reached the bus */
@@ -43,20 +60,17 @@ struct rs485 {
     struct outfile log;
 };
 
-/* Reads the script and opens the log. False after a complaint. */
-bool rs485_open(struct board *board);
-bool rs485_close(struct board *board);
-void rs485_discard(struct board *board);
+void rs485_init(struct rs485 *line, struct rs485_wires wires);
+
+/* Reads the script and opens the log; null for none. False after a complaint. */
+bool rs485_open(struct rs485 *line, const char *script, const char *log);
+bool rs485_close(struct rs485 *line);
+void rs485_discard(struct rs485 *line);
 
 /* Puts a byte onto the bus as soon as it is free. */
-void rs485_say(struct board *board, uint8_t value);
+void rs485_say(struct rs485 *line, uint8_t value);
 
-void rs485_event(struct board *board, uint64_t cycle);
-
-/* The unit begins or ends a byte; its driver goes on or off. */
-void rs485_begin_sent(struct board *board, unsigned usart, uint64_t cycle);
-void rs485_end_sent(struct board *board, unsigned usart, uint8_t value, bool connected, uint64_t begin_cycle,
-                    uint64_t cycle);
-void rs485_note_driver(struct board *board, bool on, uint64_t cycle);
+/* The driver of the unit goes on or off. */
+void rs485_note_driver(struct rs485 *line, bool on, uint64_t cycle);
 
 #endif

@@ -1,7 +1,7 @@
-/*
- * The loop around Unicorn: what happens between two stretches of emulation.
- */
-#include "board.h"
+#include "run.h"
+
+#include "complain.h"
+#include "hook.h"
 
 enum {
     WIDE_BYTES = 4,
@@ -9,33 +9,11 @@ enum {
 };
 
 #define XPSR_THUMB (UINT32_C(1) << 24)
-#define LR_RESET UINT32_C(0xFFFFFFFF)
 #define PERIPHERALS_BASE UINT32_C(0x40000000)
 #define PERIPHERALS_BYTES UINT32_C(0x20000000)
 #define DEVICES_BASE UINT32_C(0xA0000000)
 #define RETURNS_BASE UINT32_C(0xF0000000)  /* in a handler: EXC_RETURN */
 #define FLUSH_ADDRESS UINT32_C(0xB0000000) /* nothing is there */
-
-void cpu_reset(struct board *board)
-{
-    struct cpu *cpu = &board->cpu;
-    uint32_t sp = 0;
-    uint32_t start = 0;
-    cpu_write(cpu, UC_ARM_REG_CONTROL, 0);
-    cpu_write(cpu, UC_ARM_REG_PRIMASK, 0);
-    cpu_write(cpu, UC_ARM_REG_FAULTMASK, 0);
-    cpu_write(cpu, UC_ARM_REG_BASEPRI, 0);
-    cpu_write_xpsr(cpu, XPSR_THUMB);
-    if (!memory_read_word(&board->memory, 0, &sp) || !memory_read_word(&board->memory, WIDE_BYTES, &start) ||
-        (start & 1U) == 0) {
-        board_fail(board, "the reset vector is %08x, which is no address of code", (unsigned)start);
-    }
-    cpu_write(cpu, UC_ARM_REG_SP, sp & ~UINT32_C(3));
-    cpu_write(cpu, UC_ARM_REG_LR, LR_RESET);
-    cpu->event_register = false;
-    cpu->next = start & ~UINT32_C(1);
-    cpu_poke(cpu);
-}
 
 /* Unicorn keeps translations of addresses in a cache and drops them all when memory is mapped. */
 static void drop_address_cache(uc_engine *engine)
@@ -55,7 +33,8 @@ static void drop_translations(uc_engine *engine)
 #endif
 }
 
-void flash_update_protection(struct board *board)
+/* Makes Unicorn report reads of the flash while it is busy. */
+static void update_protection(struct board *board)
 {
     struct flash *flash = &board->flash;
     uc_engine *engine = board->cpu.engine;
@@ -73,6 +52,21 @@ void flash_update_protection(struct board *board)
     }
 }
 
+/* Lets time pass until something wakes the processor. */
+static void sleep_until_woken(struct board *board)
+{
+    struct clock *clock = &board->clock;
+    clock_run(clock, clock->now);
+    while (!nvic_can_wake(&board->nvic) && !hook_wants_stop(board)) {
+        uint64_t next = clock->next;
+        if (next > clock->now) {
+            clock->asleep_cycles += next - clock->now;
+            clock->now = next;
+        }
+        clock_run(clock, clock->now);
+    }
+}
+
 /* The program has gone to a place from which nothing may be executed: peripherals, devices and the system's own area
  * (ARMv7-M B3.1), or to an even address. */
 static uint32_t after_no_code(struct board *board, uint32_t pc)
@@ -84,7 +78,7 @@ static uint32_t after_no_code(struct board *board, uint32_t pc)
         bits = SCB_CFSR_IACCVIOL;
     }
     cpu_write_xpsr(cpu, xpsr | XPSR_THUMB);
-    return exception_fault(board, bits, pc & ~UINT32_C(1));
+    return exception_fault(&board->exceptions, bits, pc & ~UINT32_C(1));
 }
 
 /* Unicorn takes places at the end of the address space for returns in thread mode, too, and not all of them. */
@@ -93,7 +87,15 @@ static uint32_t after_odd_place(struct board *board)
     struct cpu *cpu = &board->cpu;
     uint32_t pc = cpu_read(cpu, UC_ARM_REG_PC);
     bool in_handler = cpu_read(cpu, UC_ARM_REG_IPSR) != 0;
-    return in_handler && pc >= RETURNS_BASE ? exception_return(board, pc | 1U) : after_no_code(board, pc);
+    if (!in_handler || pc < RETURNS_BASE) {
+        return after_no_code(board, pc);
+    }
+    bool sleeps = false;
+    uint32_t address = exception_return(&board->exceptions, pc | 1U, &sleeps);
+    if (sleeps) {
+        sleep_until_woken(board);
+    }
+    return address;
 }
 
 static uint32_t after_trap(struct board *board)
@@ -104,15 +106,15 @@ static uint32_t after_trap(struct board *board)
     case CPU_TRAP_NO_CODE:
         return after_odd_place(board);
     case CPU_TRAP_SVC:
-        return exception_call(board, NVIC_SVC, cpu->next);
+        return exception_call(&board->exceptions, NVIC_SVC, cpu->next);
     case CPU_TRAP_BKPT:
-        return exception_call(board, NVIC_DEBUG, cpu->at);
+        return exception_call(&board->exceptions, NVIC_DEBUG, cpu->at);
     case CPU_TRAP_NO_COPROCESSOR:
-        return exception_fault(board, SCB_CFSR_NOCP, cpu->next);
+        return exception_fault(&board->exceptions, SCB_CFSR_NOCP, cpu->next);
     case CPU_TRAP_UNALIGNED:
-        return exception_fault(board, SCB_CFSR_UNALIGNED, cpu->at);
+        return exception_fault(&board->exceptions, SCB_CFSR_UNALIGNED, cpu->at);
     default:
-        board_fail(board, "Unicorn reports exception %u", (unsigned)cpu->trap);
+        report_fail(&board->report, "Unicorn reports exception %u", (unsigned)cpu->trap);
         return cpu->next;
     }
 }
@@ -125,23 +127,24 @@ static uint32_t after_error(struct board *board, uc_err error)
     if (error == UC_ERR_INSN_INVALID || error == UC_ERR_EXCEPTION) {
         uint32_t at = thumb ? cpu->at : cpu_read(cpu, UC_ARM_REG_PC);
         cpu_write_xpsr(cpu, cpu_read(cpu, UC_ARM_REG_XPSR) | XPSR_THUMB);
-        return exception_fault(board, thumb ? SCB_CFSR_UNDEFINSTR : SCB_CFSR_INVSTATE, at);
+        return exception_fault(&board->exceptions, thumb ? SCB_CFSR_UNDEFINSTR : SCB_CFSR_INVSTATE, at);
     }
-    board_fail(board, "Unicorn has stopped: %s", uc_strerror(error));
+    report_fail(&board->report, "Unicorn has stopped: %s", uc_strerror(error));
     return cpu->next;
 }
 
 /* WFI and WFE: the instruction itself is done here. */
 static uint32_t after_sleep(struct board *board)
 {
+    struct clock *clock = &board->clock;
     struct cpu *cpu = &board->cpu;
     const uint8_t *code = memory_find(&board->memory, cpu->next, NARROW_BYTES);
     bool wide = code != NULL && (code[1] & 0xF8U) >= 0xE8U;
-    cpu->now++;
+    clock->now++;
     cpu->instructions++;
     board->profile.row->count++;
     if (cpu->stop == CPU_STOP_SLEEP || !cpu->event_register) {
-        board_sleep(board);
+        sleep_until_woken(board);
     }
     if (cpu->stop == CPU_STOP_SLEEP_EVENT) {
         cpu->event_register = false;
@@ -151,21 +154,22 @@ static uint32_t after_sleep(struct board *board)
 
 static uint32_t after_stop(struct board *board, uc_err error)
 {
+    struct clock *clock = &board->clock;
     struct cpu *cpu = &board->cpu;
     switch (cpu->stop) {
     case CPU_STOP_BOUNDARY:
-        return nvic_can_take(board) ? exception_take(board, cpu->next) : cpu->next;
+        return nvic_can_take(&board->nvic) ? exception_take(&board->exceptions, cpu->next) : cpu->next;
     case CPU_STOP_SLEEP:
     case CPU_STOP_SLEEP_EVENT:
         return after_sleep(board);
     case CPU_STOP_HOLD:
-        cpu->now = board->events.next > cpu->now ? board->events.next : cpu->now;
-        events_run(board, cpu->now);
-        return nvic_can_take(board) ? exception_take(board, cpu->next) : cpu->next;
+        clock->now = clock->next > clock->now ? clock->next : clock->now;
+        clock_run(clock, clock->now);
+        return nvic_can_take(&board->nvic) ? exception_take(&board->exceptions, cpu->next) : cpu->next;
     case CPU_STOP_TRAP:
         return after_trap(board);
     case CPU_STOP_FAULT:
-        return exception_fault(board, cpu->fault_bits, cpu->fault_at);
+        return exception_fault(&board->exceptions, cpu->fault_bits, cpu->fault_at);
     case CPU_RUNS:
         break;
     }
@@ -175,34 +179,44 @@ static uint32_t after_stop(struct board *board, uc_err error)
 /* Nothing but time passes until a reset comes. */
 static void wait_for_reset(struct board *board)
 {
-    struct cpu *cpu = &board->cpu;
-    while (board->end == BOARD_RUNS && board->wanted_reset == RESET_NONE) {
-        cpu->now = board->events.next > cpu->now ? board->events.next : cpu->now;
-        events_run(board, cpu->now);
+    struct clock *clock = &board->clock;
+    while (board->report.end == REPORT_RUNS && board->reset.wanted == RESET_NONE) {
+        clock->now = clock->next > clock->now ? clock->next : clock->now;
+        clock_run(clock, clock->now);
     }
 }
 
-void cpu_run(struct board *board)
+static void run_stretch(struct board *board)
 {
     struct cpu *cpu = &board->cpu;
+    faults_apply(&board->faults);
+    update_protection(board);
+    cpu->stop = CPU_RUNS;
+    cpu->counted_all = false;
+    cpu->last = 0;
+    uc_err error = uc_emu_start(cpu->engine, cpu->next | 1U, 0, 0, 0);
+    if (board->report.end == REPORT_RUNS && board->reset.wanted == RESET_NONE) {
+        cpu->next = after_stop(board, error);
+    }
+}
+
+bool run(struct board *board)
+{
     uint64_t begin_ns = tty_real_ns();
-    while (board->end == BOARD_RUNS) {
-        if (board->wanted_reset != RESET_NONE) {
-            board_reset(board, board->wanted_reset);
+    if (!hook_add_all(board)) {
+        complain("the emulator cannot be set up; is there memory enough?");
+        return false;
+    }
+    while (board->report.end == REPORT_RUNS) {
+        if (board->reset.wanted != RESET_NONE) {
+            board_reset(board, board->reset.wanted);
         }
-        if (cpu->stalled_forever) {
+        if (board->cpu.stalled_forever) {
             wait_for_reset(board);
-            continue;
-        }
-        faults_apply(board);
-        flash_update_protection(board);
-        cpu->stop = CPU_RUNS;
-        cpu->counted_all = false;
-        cpu->last = 0;
-        uc_err error = uc_emu_start(cpu->engine, cpu->next | 1U, 0, 0, 0);
-        if (board->end == BOARD_RUNS && board->wanted_reset == RESET_NONE) {
-            cpu->next = after_stop(board, error);
+        } else {
+            run_stretch(board);
         }
     }
     board->real_ns = tty_real_ns() - begin_ns;
+    return true;
 }

@@ -1,7 +1,5 @@
 #include "scb.h"
 
-#include "board.h"
-
 enum {
     OFFSET_CPUID = 0x00,
     OFFSET_ICSR = 0x04,
@@ -47,9 +45,14 @@ enum {
 #define CPACR_FLOAT UINT32_C(0x00F00000)
 #define MPU_TYPE UINT32_C(0x800) /* eight regions */
 
-void scb_reset(struct board *board)
+void scb_init(struct scb *scb, struct scb_wires wires)
 {
-    board->scb = (struct scb){.ccr = CCR_RESET, .fpccr = FPCCR_RESET};
+    scb->wires = wires;
+}
+
+void scb_reset(struct scb *scb)
+{
+    *scb = (struct scb){.wires = scb->wires, .ccr = CCR_RESET, .fpccr = FPCCR_RESET};
 }
 
 bool scb_float_is_enabled(const struct scb *scb)
@@ -57,10 +60,10 @@ bool scb_float_is_enabled(const struct scb *scb)
     return (scb->cpacr & CPACR_FLOAT) == CPACR_FLOAT;
 }
 
-static uint32_t read_icsr(struct board *board)
+static uint32_t read_icsr(struct scb *scb)
 {
-    const struct nvic *nvic = &board->nvic;
-    uint32_t running = cpu_read(&board->cpu, UC_ARM_REG_IPSR);
+    const struct nvic *nvic = scb->wires.nvic;
+    uint32_t running = cpu_read(scb->wires.cpu, UC_ARM_REG_IPSR);
     unsigned pending = nvic_next_pending(nvic);
     bool irq_pending = nvic->pending[0] >> NVIC_IRQ0 != 0 || nvic->pending[1] != 0;
     unsigned active = 0;
@@ -72,10 +75,10 @@ static uint32_t read_icsr(struct board *board)
            ((nvic->pending[0] >> NVIC_PENDSV & 1U) != 0 ? ICSR_PENDSVSET : 0U);
 }
 
-static uint32_t read_shcsr(const struct board *board)
+static uint32_t read_shcsr(const struct scb *scb)
 {
-    const struct nvic *nvic = &board->nvic;
-    uint32_t value = board->scb.shcsr_enables;
+    const struct nvic *nvic = scb->wires.nvic;
+    uint32_t value = scb->shcsr_enables;
     value |= nvic_is_active(nvic, NVIC_MEM_MANAGE) ? 1U << 0 : 0U;
     value |= nvic_is_active(nvic, NVIC_BUS_FAULT) ? 1U << 1 : 0U;
     value |= nvic_is_active(nvic, NVIC_USAGE_FAULT) ? 1U << 3 : 0U;
@@ -85,11 +88,11 @@ static uint32_t read_shcsr(const struct board *board)
     return value;
 }
 
-static uint32_t read_priorities(const struct board *board, uint32_t offset)
+static uint32_t read_priorities(const struct scb *scb, uint32_t offset)
 {
     uint32_t value = 0;
     for (unsigned i = 0; i < 4; i++) {
-        value |= (uint32_t)board->nvic.priority[FIRST_WITH_PRIORITY + (offset - OFFSET_SHPR1) + i] << 8U * i;
+        value |= (uint32_t)scb->wires.nvic->priority[FIRST_WITH_PRIORITY + (offset - OFFSET_SHPR1) + i] << 8U * i;
     }
     return value;
 }
@@ -138,9 +141,8 @@ static uint32_t *find_status(struct scb *scb, uint32_t offset)
     }
 }
 
-bool scb_read(struct board *board, uint32_t offset, uint32_t *value)
+bool scb_read(struct scb *scb, uint32_t offset, uint32_t *value)
 {
-    struct scb *scb = &board->scb;
     const uint32_t *known = find_plain(scb, offset);
     known = known == NULL ? find_status(scb, offset) : known;
     if (known != NULL) {
@@ -148,7 +150,7 @@ bool scb_read(struct board *board, uint32_t offset, uint32_t *value)
         return true;
     }
     if (offset >= OFFSET_SHPR1 && offset <= OFFSET_SHPR3) {
-        *value = read_priorities(board, offset);
+        *value = read_priorities(scb, offset);
         return true;
     }
     switch (offset) {
@@ -156,13 +158,13 @@ bool scb_read(struct board *board, uint32_t offset, uint32_t *value)
         *value = CPUID;
         return true;
     case OFFSET_ICSR:
-        *value = read_icsr(board);
+        *value = read_icsr(scb);
         return true;
     case OFFSET_AIRCR:
-        *value = AIRCR_KEY_READ << 16 | board->nvic.group_bits << 8;
+        *value = AIRCR_KEY_READ << 16 | scb->wires.nvic->group_bits << 8;
         return true;
     case OFFSET_SHCSR:
-        *value = read_shcsr(board);
+        *value = read_shcsr(scb);
         return true;
     case OFFSET_MPU_TYPE:
         *value = MPU_TYPE;
@@ -177,73 +179,73 @@ bool scb_read(struct board *board, uint32_t offset, uint32_t *value)
     }
 }
 
-static void write_icsr(struct board *board, uint32_t value)
+static void write_icsr(struct scb *scb, uint32_t value)
 {
     bool both_sv = (value & ICSR_PENDSVSET) != 0 && (value & ICSR_PENDSVCLR) != 0;
     bool both_st = (value & ICSR_PENDSTSET) != 0 && (value & ICSR_PENDSTCLR) != 0;
     if (both_sv || both_st) {
-        board_fail(board, "SCB_ICSR: an exception is set and cleared at once (PM0214 4.4.3)");
+        report_fail(scb->wires.report, "SCB_ICSR: an exception is set and cleared at once (PM0214 4.4.3)");
     }
     if ((value & ICSR_NMIPENDSET) != 0) {
-        nvic_pend(board, NVIC_NMI);
+        nvic_pend(scb->wires.nvic, NVIC_NMI);
     }
     if ((value & ICSR_PENDSVSET) != 0) {
-        nvic_pend(board, NVIC_PENDSV);
+        nvic_pend(scb->wires.nvic, NVIC_PENDSV);
     } else if ((value & ICSR_PENDSVCLR) != 0) {
-        nvic_unpend(board, NVIC_PENDSV);
+        nvic_unpend(scb->wires.nvic, NVIC_PENDSV);
     }
     if ((value & ICSR_PENDSTSET) != 0) {
-        nvic_pend(board, NVIC_SYSTICK);
+        nvic_pend(scb->wires.nvic, NVIC_SYSTICK);
     } else if ((value & ICSR_PENDSTCLR) != 0) {
-        nvic_unpend(board, NVIC_SYSTICK);
+        nvic_unpend(scb->wires.nvic, NVIC_SYSTICK);
     }
 }
 
-static void write_aircr(struct board *board, uint32_t value)
+static void write_aircr(struct scb *scb, uint32_t value)
 {
     if (value >> 16 != AIRCR_KEY) {
-        board_fail(board, "SCB_AIRCR: written without its key, and lost (PM0214 4.4.5)");
+        report_fail(scb->wires.report, "SCB_AIRCR: written without its key, and lost (PM0214 4.4.5)");
         return;
     }
-    board->nvic.group_bits = value >> 8 & 7U;
+    scb->wires.nvic->group_bits = value >> 8 & 7U;
     if ((value & AIRCR_SYSRESETREQ) != 0) {
-        board_request_reset(board, RESET_SOFTWARE);
+        reset_request(scb->wires.reset, RESET_SOFTWARE);
     }
 }
 
-static void write_shcsr(struct board *board, uint32_t value)
+static void write_shcsr(struct scb *scb, uint32_t value)
 {
-    board->scb.shcsr_enables = value & SHCSR_ENABLES;
-    nvic_enable(&board->nvic, NVIC_MEM_MANAGE, (value >> 16 & 1U) != 0);
-    nvic_enable(&board->nvic, NVIC_BUS_FAULT, (value >> 17 & 1U) != 0);
-    nvic_enable(&board->nvic, NVIC_USAGE_FAULT, (value >> 18 & 1U) != 0);
+    scb->shcsr_enables = value & SHCSR_ENABLES;
+    nvic_enable(scb->wires.nvic, NVIC_MEM_MANAGE, (value >> 16 & 1U) != 0);
+    nvic_enable(scb->wires.nvic, NVIC_BUS_FAULT, (value >> 17 & 1U) != 0);
+    nvic_enable(scb->wires.nvic, NVIC_USAGE_FAULT, (value >> 18 & 1U) != 0);
 }
 
-static void write_priorities(struct board *board, uint32_t offset, uint32_t value, uint32_t mask)
+static void write_priorities(struct scb *scb, uint32_t offset, uint32_t value, uint32_t mask)
 {
     for (unsigned i = 0; i < 4; i++) {
         if ((mask >> 8U * i & 0xFFU) != 0) {
-            board->nvic.priority[FIRST_WITH_PRIORITY + (offset - OFFSET_SHPR1) + i] =
+            scb->wires.nvic->priority[FIRST_WITH_PRIORITY + (offset - OFFSET_SHPR1) + i] =
                 (uint8_t)(value >> 8U * i & 0xF0U);
         }
     }
 }
 
-static bool write_special(struct board *board, uint32_t offset, uint32_t value, uint32_t mask)
+static bool write_special(struct scb *scb, uint32_t offset, uint32_t value, uint32_t mask)
 {
     switch (offset) {
     case OFFSET_ICSR:
-        write_icsr(board, value & mask);
+        write_icsr(scb, value & mask);
         return true;
     case OFFSET_AIRCR:
-        write_aircr(board, value & mask);
+        write_aircr(scb, value & mask);
         return true;
     case OFFSET_SHCSR:
-        write_shcsr(board, (board->scb.shcsr_enables & ~mask) | (value & mask));
+        write_shcsr(scb, (scb->shcsr_enables & ~mask) | (value & mask));
         return true;
     case OFFSET_STIR:
         if ((value & mask) < NVIC_IRQS) {
-            nvic_pend(board, NVIC_IRQ0 + (value & mask));
+            nvic_pend(scb->wires.nvic, NVIC_IRQ0 + (value & mask));
         }
         return (value & mask) < NVIC_IRQS;
     case OFFSET_MPU_CTRL: /* off, as it is */
@@ -253,12 +255,11 @@ static bool write_special(struct board *board, uint32_t offset, uint32_t value, 
     }
 }
 
-bool scb_write(struct board *board, uint32_t offset, uint32_t value, uint32_t mask)
+bool scb_write(struct scb *scb, uint32_t offset, uint32_t value, uint32_t mask)
 {
-    struct scb *scb = &board->scb;
     uint32_t *plain = find_plain(scb, offset);
     uint32_t *status = find_status(scb, offset);
-    cpu_poke(&board->cpu);
+    clock_poke(scb->wires.clock);
     if (plain != NULL) {
         *plain = (*plain & ~mask) | (value & mask);
         scb->vtor &= VTOR_MASK;
@@ -270,8 +271,8 @@ bool scb_write(struct board *board, uint32_t offset, uint32_t value, uint32_t ma
         return true;
     }
     if (offset >= OFFSET_SHPR1 && offset <= OFFSET_SHPR3) {
-        write_priorities(board, offset, value, mask);
+        write_priorities(scb, offset, value, mask);
         return true;
     }
-    return write_special(board, offset, value, mask);
+    return write_special(scb, offset, value, mask);
 }

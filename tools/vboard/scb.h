@@ -8,7 +8,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct board;
+#include "clock.h"
+#include "cpu.h"
+#include "nvic.h"
+#include "report.h"
+#include "reset.h"
 
 #define SCB_CFSR_IACCVIOL (UINT32_C(1) << 0)
 #define SCB_CFSR_IBUSERR (UINT32_C(1) << 8)
@@ -31,7 +35,16 @@ struct board;
 #define SCB_SCR_SEVONPEND (UINT32_C(1) << 4)
 #define SCB_DEMCR_TRCENA (UINT32_C(1) << 24)
 
+struct scb_wires {
+    struct clock *clock;
+    struct cpu *cpu;
+    struct nvic *nvic;
+    struct report *report;
+    struct reset *reset;
+};
+
 struct scb {
+    struct scb_wires wires;
     uint32_t vtor;
     uint32_t scr;
     uint32_t ccr;
@@ -48,11 +61,12 @@ struct scb {
     uint32_t demcr;
 };
 
-void scb_reset(struct board *board);
+void scb_init(struct scb *scb, struct scb_wires wires);
+void scb_reset(struct scb *scb);
 
 /* Registers at E000ED00 on, and those at E000E004 and E000EF00. False: there is none. */
-bool scb_read(struct board *board, uint32_t offset, uint32_t *value);
-bool scb_write(struct board *board, uint32_t offset, uint32_t value, uint32_t mask);
+bool scb_read(struct scb *scb, uint32_t offset, uint32_t *value);
+bool scb_write(struct scb *scb, uint32_t offset, uint32_t value, uint32_t mask);
 
 /* Whether floating-point instructions may run: CPACR gives full access to both coprocessors. */
 bool scb_float_is_enabled(const struct scb *scb);

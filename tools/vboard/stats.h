@@ -7,6 +7,8 @@
 
 #include <stdint.h>
 
+#include "clock.h"
+#include "cpu.h"
 #include "nvic.h"
 
 enum {
@@ -29,7 +31,14 @@ struct stats_frame {
     uint64_t inner; /* cycles of what interrupted it */
 };
 
+struct stats_wires {
+    const struct clock *clock;
+    const struct cpu *cpu;
+    const struct nvic *nvic;
+};
+
 struct stats {
+    struct stats_wires wires;
     struct stats_vector vector[NVIC_EXCEPTIONS];
     struct stats_frame frame[STATS_DEPTH];
     unsigned depth;
@@ -45,14 +54,14 @@ struct stats {
 };
 
 /* Begins to count anew. */
-void stats_reset(struct board *board);
+void stats_reset(struct stats *stats);
 
 /* An entry begins at a cycle; then its exception is known; then it is over. */
-void stats_begin(struct board *board, uint64_t cycle);
-void stats_enter(struct board *board, unsigned exception);
-void stats_leave(struct board *board, unsigned exception);
+void stats_begin(struct stats *stats, uint64_t cycle);
+void stats_enter(struct stats *stats, unsigned exception);
+void stats_leave(struct stats *stats, unsigned exception);
 
-void stats_note_fault(struct board *board, uint32_t bits, uint32_t at);
+void stats_note_fault(struct stats *stats, uint32_t bits, uint32_t at);
 
 /* The median of the cycles of a vector. */
 uint64_t stats_median(const struct stats_vector *vector);

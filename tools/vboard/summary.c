@@ -100,30 +100,32 @@ static const char *exception_name(unsigned exception)
 static void print_run(const struct board *board)
 {
     static const char *const ends[] = {"", "time", "reached", "power_cut", "error"};
+    const struct clock *clock = &board->clock;
     const struct cpu *cpu = &board->cpu;
     const struct stats *stats = &board->stats;
-    uint64_t cycles = cpu->now - stats->since_cycle;
-    uint64_t asleep = cpu->asleep_cycles - stats->since_asleep;
-    (void)printf("\"ended\":\"%s\",\"error\":", ends[board->end]);
-    put_string(board->text);
+    uint64_t cycles = clock->now - stats->since_cycle;
+    uint64_t asleep = clock->asleep_cycles - stats->since_asleep;
+    (void)printf("\"ended\":\"%s\",\"error\":", ends[board->report.end]);
+    put_string(board->report.text);
     (void)putchar(',');
-    put_us("microseconds", board_now_ps(board));
-    put_number("hclk_hz", board->time.hclk_hz);
+    put_us("microseconds", clock_now_ps(&board->clock));
+    put_number("hclk_hz", board->clock.time.hclk_hz);
     (void)printf("\"model\":{\"refill\":%u,\"wait_states\":%u,\"apb_wait\":%u,\"art\":%s},", (unsigned)cpu->refill,
-                 (unsigned)cpu->wait_states, (unsigned)board->bus.apb_wait, cpu->art_modelled ? "true" : "false");
+                 (unsigned)board->flash.wait_states, (unsigned)board->bus.wires.apb_wait,
+                 board->fetch.art_modelled ? "true" : "false");
     put_number("cycles", cycles);
     put_number("asleep_cycles", asleep);
-    put_number("stalled_cycles", cpu->stalled_cycles - stats->since_stalled);
+    put_number("stalled_cycles", clock->stalled_cycles - stats->since_stalled);
     put_number("instructions", cpu->instructions - stats->since_instructions);
     put_ratio("load", cycles - asleep, cycles);
     put_us("real_microseconds", board->real_ns * VTIME_PS_PER_NS);
-    put_ratio("emulated_mhz", cpu->now - cpu->asleep_cycles - cpu->stalled_cycles, board->real_ns / 1000U);
+    put_ratio("emulated_mhz", clock->now - clock->asleep_cycles - clock->stalled_cycles, board->real_ns / 1000U);
     (void)printf("\"resets\":{\"power\":%u,\"software\":%u,\"watchdog\":%u},\"lockups\":%u,\"warnings\":%u,",
                  board->resets[RESET_POWER], board->resets[RESET_SOFTWARE], board->resets[RESET_WATCHDOG],
-                 board->lockups, board->warnings);
+                 board->exceptions.lockups, board->report.warnings);
     (void)printf("\"supply\":{\"mv\":%u,\"least_mv\":%u,\"held\":%s,\"brown_outs\":%u},\"pin_resets\":%u,",
-                 (unsigned)board->supply.mv, (unsigned)board->supply.least_mv, board->supply.held ? "true" : "false",
-                 board->supply.brown_outs, board->resets[RESET_PIN]);
+                 (unsigned)board->conditions.supply_mv, (unsigned)board->supply.least_mv,
+                 board->supply.held ? "true" : "false", board->supply.brown_outs, board->resets[RESET_PIN]);
     (void)printf("\"last_reset\":{");
     put_us("microseconds", board->reset_ps);
     (void)printf("\"steps\":%u,\"outputs\":%u},", board->reset_steps, board->reset_outputs);
@@ -171,7 +173,7 @@ static void print_motors(const struct board *board)
         (void)printf("\"step\":%d,\"dir\":%d,\"led\":%d,\"position\":%" PRId64 "}", recorder->level[SIGNAL_STEP + i],
                      recorder->level[SIGNAL_DIRECTION + i], recorder->level[SIGNAL_LED + i], motor->position);
     }
-    (void)printf("],\n\"outputs\":%u,", recorder_active(board, SIGNAL_OUTPUT, PINS_OUTPUTS));
+    (void)printf("],\n\"outputs\":%u,", recorder_active(&board->recorder, SIGNAL_OUTPUT, PINS_OUTPUTS));
 }
 
 static void print_peripherals(const struct board *board)
@@ -179,7 +181,7 @@ static void print_peripherals(const struct board *board)
     const struct rs485 *line = &board->line;
     const struct usart *usart = &board->usart[board->pins.usart];
     (void)printf("\"line\":{");
-    put_number("baud", usart_baud(board, board->pins.usart));
+    put_number("baud", usart_baud(usart));
     put_number("sent", line->sent);
     put_number("unheard", line->unheard);
     put_number("heard", line->heard);

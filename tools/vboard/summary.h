@@ -4,7 +4,7 @@
 #ifndef SUMMARY_H
 #define SUMMARY_H
 
-struct board;
+#include "board.h"
 
 void summary_print(struct board *board);
 

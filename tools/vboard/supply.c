@@ -2,7 +2,6 @@
 
 #include <string.h>
 
-#include "board.h"
 #include "complain.h"
 #include "line.h"
 
@@ -91,71 +90,69 @@ static uint64_t next_change(const struct supply *supply, uint64_t ps)
 static void watch_voltage(struct supply *supply)
 {
     const struct threshold *level = &detector[(supply->pwr_cr & PWR_CR_PLS) >> 5];
-    supply->low = supply->mv < (supply->low ? level->rising : level->falling)[supply->corner];
+    supply->low = supply->wires.conditions->supply_mv < (supply->low ? level->rising : level->falling)[supply->corner];
 }
 
 /* The reset begins; the RAM forgets only below the level that is always there. */
-static void hold(struct board *board)
+static void hold(struct supply *supply)
 {
-    struct supply *supply = &board->supply;
     supply->held = true;
     supply->release_ps = VTIME_NEVER;
-    flash_cut(board);
-    board_request_reset(board, RESET_HELD);
+    flash_cut(supply->wires.flash);
+    reset_request(supply->wires.reset, RESET_HELD);
 }
 
-static void release(struct board *board)
+static void release(struct supply *supply)
 {
-    struct supply *supply = &board->supply;
     bool forgotten = supply->forgotten;
     supply->held = false;
     supply->forgotten = false;
     supply->brown_outs += forgotten ? 0U : 1U;
-    board_request_reset(board, forgotten ? RESET_POWER : RESET_BROWN_OUT);
+    reset_request(supply->wires.reset, forgotten ? RESET_POWER : RESET_BROWN_OUT);
 }
 
-static void watch_reset(struct board *board, uint64_t ps)
+static void watch_reset(struct supply *supply, uint64_t ps)
 {
-    struct supply *supply = &board->supply;
-    const struct threshold *level = &reset_levels[flash_brown_out_level(&board->flash)];
-    supply->forgotten |= supply->mv < reset_levels[OFF].falling[supply->corner];
+    const struct threshold *level = &reset_levels[flash_brown_out_level(supply->wires.flash)];
+    supply->forgotten |= supply->wires.conditions->supply_mv < reset_levels[OFF].falling[supply->corner];
     if (!supply->held) {
-        if (supply->mv < level->falling[supply->corner]) {
-            hold(board);
+        if (supply->wires.conditions->supply_mv < level->falling[supply->corner]) {
+            hold(supply);
         }
-    } else if (supply->mv < level->rising[supply->corner]) {
+    } else if (supply->wires.conditions->supply_mv < level->rising[supply->corner]) {
         supply->release_ps = VTIME_NEVER;
     } else if (supply->release_ps == VTIME_NEVER) {
         supply->release_ps = ps + release_us[supply->corner] * VTIME_PS_PER_US;
     } else if (ps >= supply->release_ps) {
-        release(board);
+        release(supply);
     }
 }
 
-void supply_event(struct board *board, uint64_t cycle)
+static void on_supply_event(void *model, uint64_t cycle)
 {
-    struct supply *supply = &board->supply;
-    uint64_t ps = vtime_ps_of_cycle(&board->time, cycle);
-    supply->mv = voltage_at(supply, ps);
-    supply->least_mv = supply->mv < supply->least_mv ? supply->mv : supply->least_mv;
+    struct supply *supply = model;
+    uint64_t ps = clock_ps_of_cycle(supply->wires.clock, cycle);
+    supply->wires.conditions->supply_mv = voltage_at(supply, ps);
+    supply->least_mv =
+        supply->wires.conditions->supply_mv < supply->least_mv ? supply->wires.conditions->supply_mv : supply->least_mv;
     watch_voltage(supply);
-    watch_reset(board, ps);
+    watch_reset(supply, ps);
     uint64_t next = next_change(supply, ps);
     if (supply->held) {
         next = supply->release_ps < next ? supply->release_ps : next;
     } else {
-        flash_watch_supply(board);
-        rcc_check_limits(board);
+        flash_watch_supply(supply->wires.flash);
+        conditions_check(supply->wires.conditions);
     }
     if (next != VTIME_NEVER) {
-        events_set_ps(board, EVENT_SUPPLY, next);
+        clock_set_ps(supply->wires.clock, EVENT_SUPPLY, next);
     }
 }
 
-void supply_reset(struct board *board)
+void supply_reset(struct supply *supply)
 {
-    board->supply.pwr_cr = PWR_CR_RESET;
-    board->supply.settled_ps = VTIME_NEVER;
+    supply->pwr_cr = PWR_CR_RESET;
+    supply->settled_ps = VTIME_NEVER;
 }
 
 /* MS: of a point after the first one. */
@@ -197,54 +194,58 @@ static bool read_points(struct supply *supply, const char *at)
     return false;
 }
 
-bool supply_open(struct board *board)
+bool supply_open(struct supply *supply, const char *text, enum supply_corner corner)
 {
-    struct supply *supply = &board->supply;
-    const char *text = board->options->supply == NULL ? "3.3" : board->options->supply;
-    *supply = (struct supply){.corner = board->options->thresholds, .least_mv = MV_MAX, .release_ps = VTIME_NEVER};
+    text = text == NULL ? "3.3" : text;
+    *supply = (struct supply){.wires = supply->wires, .corner = corner, .least_mv = MV_MAX, .release_ps = VTIME_NEVER};
     if (!read_points(supply, text)) {
         complain("--supply %s: not volts, or volts and times; write for example 3.3,50:3.3,60:2.5", text);
         return false;
     }
-    supply->mv = supply->point[0].mv;
-    supply->held = supply->mv < reset_levels[flash_brown_out_level(&board->flash)].rising[supply->corner];
+    supply->wires.conditions->supply_mv = supply->point[0].mv;
+    supply->held = supply->wires.conditions->supply_mv <
+                   reset_levels[flash_brown_out_level(supply->wires.flash)].rising[supply->corner];
     supply->forgotten = supply->held;
-    events_set_ps(board, EVENT_SUPPLY, 0);
+    clock_set_ps(supply->wires.clock, EVENT_SUPPLY, 0);
     return true;
 }
 
-bool pwr_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
+bool pwr_read(void *model, uint32_t offset, uint32_t *value)
 {
-    const struct supply *supply = &board->supply;
+    const struct supply *supply = model;
     bool on = (supply->pwr_cr & PWR_CR_PVDE) != 0;
-    (void)instance;
-    if (offset == PWR_CSR && on && board_now_ps(board) < supply->settled_ps) {
-        board_fail(board, "PWR_CSR is read before the voltage detector, just switched on, can be believed");
+    if (offset == PWR_CSR && on && clock_now_ps(supply->wires.clock) < supply->settled_ps) {
+        report_fail(supply->wires.report,
+                    "PWR_CSR is read before the voltage detector, just switched on, can be believed");
     }
     *value = offset == PWR_CR ? supply->pwr_cr : PWR_CSR_VOSRDY | (on && supply->low ? PWR_CSR_PVDO : 0U);
     return offset == PWR_CR || offset == PWR_CSR;
 }
 
 /* Between its two thresholds a detector that is switched on, or to another level, says "low". */
-static void start_detector(struct board *board)
+static void start_detector(struct supply *supply)
 {
-    struct supply *supply = &board->supply;
     supply->low = true;
     watch_voltage(supply);
-    supply->settled_ps = board_now_ps(board) + SETTLE_PS;
+    supply->settled_ps = clock_now_ps(supply->wires.clock) + SETTLE_PS;
 }
 
-bool pwr_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask)
+bool pwr_write(void *model, uint32_t offset, uint32_t value, uint32_t mask)
 {
-    struct supply *supply = &board->supply;
+    struct supply *supply = model;
     uint32_t before = supply->pwr_cr;
-    (void)instance;
     if (offset != PWR_CR) {
         return false;
     }
     supply->pwr_cr = ((before & ~mask) | (value & mask)) & PWR_CR_MASK;
     if ((supply->pwr_cr & PWR_CR_PVDE) != 0 && ((before ^ supply->pwr_cr) & (PWR_CR_PVDE | PWR_CR_PLS)) != 0) {
-        start_detector(board);
+        start_detector(supply);
     }
     return true;
+}
+
+void supply_init(struct supply *supply, struct supply_wires wires)
+{
+    supply->wires = wires;
+    clock_attach(wires.clock, EVENT_SUPPLY, on_supply_event, supply);
 }

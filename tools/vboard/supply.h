@@ -9,7 +9,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct board;
+#include "clock.h"
+#include "conditions.h"
+#include "flash.h"
+#include "report.h"
+#include "reset.h"
 
 enum {
     SUPPLY_POINTS_MAX = 16
@@ -22,14 +26,22 @@ enum supply_corner {
     SUPPLY_HIGH,
 };
 
+struct supply_wires {
+    struct clock *clock;
+    struct report *report;
+    struct reset *reset;
+    struct conditions *conditions; /* which get the voltage */
+    struct flash *flash;
+};
+
 struct supply {
+    struct supply_wires wires;
     struct {
         uint64_t ps;
         uint32_t mv;
     } point[SUPPLY_POINTS_MAX]; /* sorted by time; straight lines between them */
     unsigned points;
     enum supply_corner corner;
-    uint32_t mv;         /* now */
     uint32_t least_mv;   /* of the whole run */
     bool held;           /* in reset: the supply is too low, or was a moment ago */
     bool forgotten;      /* it has been so low that the RAM forgets */
@@ -40,13 +52,14 @@ struct supply {
     unsigned brown_outs; /* resets by it */
 };
 
-/* Reads what the options ask for. False after a complaint. */
-bool supply_open(struct board *board);
+void supply_init(struct supply *supply, struct supply_wires wires);
 
-void supply_reset(struct board *board);
-void supply_event(struct board *board, uint64_t cycle);
+/* Reads the voltages, null for 3.3 V all the time. False after a complaint. */
+bool supply_open(struct supply *supply, const char *text, enum supply_corner corner);
 
-bool pwr_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);
-bool pwr_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask);
+void supply_reset(struct supply *supply);
+
+bool pwr_read(void *model, uint32_t offset, uint32_t *value);
+bool pwr_write(void *model, uint32_t offset, uint32_t value, uint32_t mask);
 
 #endif

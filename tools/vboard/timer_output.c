@@ -1,9 +1,4 @@
-/*
- * From a match of a timer's channel to the level of its pins (RM0090 sections 18.3.8 to 18.3.10 and 18.4.7; the pins
- * are those of the data sheet's table of alternate functions).
- */
-#include "board.h"
-#include "timer_private.h"
+#include "timer_output.h"
 
 enum {
     MODE_FROZEN,
@@ -21,6 +16,7 @@ enum {
 #define NO_PIN {.port = NO_PORT}
 #define PIN(letter, bit) {.port = (letter) - 'A', .number = (bit)}
 
+/* The data sheet's table of alternate functions. */
 static const struct pin pins[TIMERS][TIMER_CHANNELS][PINS_PER_CHANNEL] = {
     {{PIN('A', 0), PIN('A', 5), PIN('A', 15)},
      {PIN('A', 1), PIN('B', 3), NO_PIN},
@@ -40,14 +36,13 @@ static const struct pin pins[TIMERS][TIMER_CHANNELS][PINS_PER_CHANNEL] = {
      {PIN('A', 3), PIN('I', 0), NO_PIN}},
 };
 
-unsigned timer_output_mode(const struct timer *timer, unsigned channel)
+static unsigned output_mode(const struct timer *timer, unsigned channel)
 {
     return timer->ccmr[channel / 2U] >> (8U * (channel % 2U) + 4U) & 7U;
 }
 
-static void tell_pins(struct board *board, unsigned instance, unsigned channel, uint64_t cycle)
+static void tell_pins(struct timer *timer, unsigned channel, uint64_t cycle)
 {
-    struct timer *timer = &board->timer[instance];
     struct timer_channel *at = &timer->channel[channel];
     uint32_t enable = timer->ccer >> 4U * channel;
     bool driven = (enable & 1U) != 0;
@@ -58,22 +53,22 @@ static void tell_pins(struct board *board, unsigned instance, unsigned channel, 
     at->pin_level = level;
     at->pin_driven = driven;
     for (unsigned i = 0; i < PINS_PER_CHANNEL; i++) {
-        if (pins[instance][channel][i].port != NO_PORT) {
-            unsigned function = instance == 0 ? GPIO_AF_TIM2 : GPIO_AF_TIM3_TO_5;
-            gpio_drive(board, pins[instance][channel][i], function, driven, level, cycle);
+        if (pins[timer->wires.number][channel][i].port != NO_PORT) {
+            unsigned function = timer->wires.number == 0 ? GPIO_AF_TIM2 : GPIO_AF_TIM3_TO_5;
+            gpio_drive(timer->wires.gpio, pins[timer->wires.number][channel][i], function, driven, level, cycle);
         }
     }
 }
 
 /* Section 18.4.7: in PWM mode the level changes only when the result of the comparison does, or when the mode was
  * "frozen" before. What a channel shows that comes from another mode is not said; --pwm-at-once: the comparison. */
-void timer_update_output(struct board *board, unsigned instance, unsigned channel, uint64_t cycle)
+void timer_update_output(struct timer *timer, unsigned channel, uint64_t cycle)
 {
-    struct timer *timer = &board->timer[instance];
     struct timer_channel *at = &timer->channel[channel];
-    unsigned mode = timer_output_mode(timer, channel);
-    bool below = timer_count_at(board, instance, cycle) < at->compare;
-    bool follows = below != at->below || at->mode == MODE_FROZEN || (board->options->pwm_at_once && mode != at->mode);
+    unsigned mode = output_mode(timer, channel);
+    bool below = timer_count_at(timer, cycle) < at->compare;
+    bool follows =
+        below != at->below || at->mode == MODE_FROZEN || (timer->wires.settings->pwm_at_once && mode != at->mode);
     at->mode = (uint8_t)mode;
     at->below = below;
     switch (mode) {
@@ -88,20 +83,20 @@ void timer_update_output(struct board *board, unsigned instance, unsigned channe
     default:
         break;
     }
-    tell_pins(board, instance, channel, cycle);
+    tell_pins(timer, channel, cycle);
 }
 
-void timer_update_outputs(struct board *board, unsigned instance, uint64_t cycle)
+void timer_update_outputs(struct timer *timer, uint64_t cycle)
 {
     for (unsigned i = 0; i < TIMER_CHANNELS; i++) {
-        timer_update_output(board, instance, i, cycle);
+        timer_update_output(timer, i, cycle);
     }
 }
 
-void timer_match_output(struct board *board, unsigned instance, unsigned channel, uint64_t cycle)
+void timer_match_output(struct timer *timer, unsigned channel, uint64_t cycle)
 {
-    struct timer_channel *at = &board->timer[instance].channel[channel];
-    switch (timer_output_mode(&board->timer[instance], channel)) {
+    struct timer_channel *at = &timer->channel[channel];
+    switch (output_mode(timer, channel)) {
     case MODE_ACTIVE:
         at->reference = true;
         break;
@@ -114,5 +109,5 @@ void timer_match_output(struct board *board, unsigned instance, unsigned channel
     default:
         break;
     }
-    timer_update_output(board, instance, channel, cycle);
+    timer_update_output(timer, channel, cycle);
 }

@@ -1,6 +1,7 @@
-#include "timer_private.h"
+#include "timer_registers.h"
 
-#include "board.h"
+#include "timer.h"
+#include "timer_output.h"
 
 enum {
     TIM_CR1 = 0x00,
@@ -25,15 +26,16 @@ enum {
     CCER_MODELLED = 0x3333,
 };
 
-bool timer_register_is_wide(unsigned instance, uint32_t offset)
+bool timer_register_is_wide(const void *model, uint32_t offset)
 {
+    const struct timer *timer = model;
     bool counts = offset == TIM_CNT || offset == TIM_ARR || (offset >= TIM_CCR1 && offset <= TIM_CCR4);
-    return timer_is_wide(instance) && counts;
+    return timer_is_wide(timer) && counts;
 }
 
-bool timer_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
+bool timer_read(void *model, uint32_t offset, uint32_t *value)
 {
-    const struct timer *timer = &board->timer[instance];
+    const struct timer *timer = model;
     if (offset >= TIM_CCR1 && offset <= TIM_CCR4) {
         *value = timer->channel[(offset - TIM_CCR1) / 4U].preload;
         return true;
@@ -63,7 +65,7 @@ bool timer_read(struct board *board, unsigned instance, uint32_t offset, uint32_
         *value = timer->ccer;
         return true;
     case TIM_CNT:
-        *value = timer_count_at(board, instance, board->cpu.now);
+        *value = timer_count_at(timer, timer->wires.clock->now);
         return true;
     case TIM_PSC:
         *value = timer->psc;
@@ -73,49 +75,47 @@ bool timer_read(struct board *board, unsigned instance, uint32_t offset, uint32_
         return true;
     case TIM_OR:
         *value = timer->remap;
-        return timer_is_wide(instance);
+        return timer_is_wide(timer);
     default:
         return false;
     }
 }
 
-static void refuse(struct board *board, const char *what)
+static void refuse(struct timer *timer, const char *what)
 {
-    board_fail(board, "a timer is asked for %s, which is not modelled", what);
+    report_fail(timer->wires.report, "a timer is asked for %s, which is not modelled", what);
 }
 
-static void write_cr1(struct board *board, unsigned instance, uint32_t value)
+static void write_cr1(struct timer *timer, uint32_t value)
 {
-    struct timer *timer = &board->timer[instance];
     if ((value & ~(uint32_t)CR1_MODELLED) != 0) {
-        refuse(board, "counting down or centre-aligned");
+        refuse(timer, "counting down or centre-aligned");
     }
-    timer_move_anchor(board, instance, board->cpu.now);
+    timer_move_anchor(timer, timer->wires.clock->now);
     if (!timer_runs(timer) && (value & TIMER_CR1_CEN) != 0) {
         /* It begins to count one clock after CEN is set (section 18.3.2). */
-        timer->anchor_cycle = board->cpu.now + board->rcc.timer1_divider;
+        timer->anchor_cycle = timer->wires.clock->now + timer->wires.conditions->timer1_divider;
         if (timer->start_cycle == VTIME_NEVER) {
             timer->start_cycle = timer->anchor_cycle;
-            timer->count += instance == 0 ? (uint32_t)board->options->timer_start : 0U;
+            timer->count += timer->wires.number == 0 ? (uint32_t)timer->wires.settings->start : 0U;
         }
     }
     timer->cr1 = value;
     timer->arr_used = (value & TIMER_CR1_ARPE) != 0 ? timer->arr_used : timer->arr;
-    timer_plan(board, instance, board->cpu.now);
+    timer_plan(timer, timer->wires.clock->now);
 }
 
-static void write_egr(struct board *board, unsigned instance, uint32_t value)
+static void write_egr(struct timer *timer, uint32_t value)
 {
-    struct timer *timer = &board->timer[instance];
-    uint64_t now = board->cpu.now;
+    uint64_t now = timer->wires.clock->now;
     if ((value & 1U) != 0) {
         timer->count = 0;
         timer->anchor_cycle = now;
-        timer_update_event(board, instance, true);
+        timer_update_event(timer, true);
     }
     timer->sr |= value & CHANNEL_FLAGS; /* the flags; of the outputs section 18.4.6 says nothing */
-    timer_plan(board, instance, now);
-    timer_update_outputs(board, instance, now);
+    timer_plan(timer, now);
+    timer_update_outputs(timer, now);
 }
 
 /* Section 18.4.7, OCxPE: without preload what is written to the register is what the counter is compared with. */
@@ -124,83 +124,81 @@ static bool preloads(const struct timer *timer, unsigned channel)
     return (timer->ccmr[channel / 2U] >> 8U * (channel % 2U) & CCMR_PRELOAD) != 0;
 }
 
-static void take_compare(struct board *board, unsigned instance, unsigned channel)
+static void take_compare(struct timer *timer, unsigned channel)
 {
-    struct timer_channel *at = &board->timer[instance].channel[channel];
+    struct timer_channel *at = &timer->channel[channel];
     at->compare = at->preload;
-    timer_find_match(board, instance, channel, board->cpu.now);
-    timer_set_event(board, instance);
-    timer_update_output(board, instance, channel, board->cpu.now);
+    timer_find_match(timer, channel, timer->wires.clock->now);
+    timer_set_event(timer);
+    timer_update_output(timer, channel, timer->wires.clock->now);
 }
 
-static void write_ccmr(struct board *board, unsigned instance, unsigned index, uint32_t value)
+static void write_ccmr(struct timer *timer, unsigned index, uint32_t value)
 {
-    struct timer *timer = &board->timer[instance];
     if ((value & 0x0303U) != 0) {
-        refuse(board, "input capture");
+        refuse(timer, "input capture");
     }
     if ((value & 0x8080U) != 0) {
-        refuse(board, "clearing outputs by ETRF");
+        refuse(timer, "clearing outputs by ETRF");
     }
     timer->ccmr[index] = value;
     for (unsigned i = 2U * index; i < 2U * index + 2U; i++) {
         if (!preloads(timer, i) && timer->channel[i].compare != timer->channel[i].preload) {
-            take_compare(board, instance, i);
+            take_compare(timer, i);
         } else {
-            timer_update_output(board, instance, i, board->cpu.now);
+            timer_update_output(timer, i, timer->wires.clock->now);
         }
     }
 }
 
-static void write_compare(struct board *board, unsigned instance, unsigned channel, uint32_t value)
+static void write_compare(struct timer *timer, unsigned channel, uint32_t value)
 {
-    struct timer *timer = &board->timer[instance];
-    timer->channel[channel].preload = value & timer_width_mask(instance);
+    timer->channel[channel].preload = value & timer_width_mask(timer);
     if (!preloads(timer, channel)) {
-        take_compare(board, instance, channel);
+        take_compare(timer, channel);
     }
 }
 
-static bool write_counter(struct board *board, unsigned instance, uint32_t offset, uint32_t value)
+static bool write_counter(void *model, uint32_t offset, uint32_t value)
 {
-    struct timer *timer = &board->timer[instance];
-    timer_move_anchor(board, instance, board->cpu.now);
+    struct timer *timer = model;
+    timer_move_anchor(timer, timer->wires.clock->now);
     switch (offset) {
     case TIM_CNT:
-        timer->count = value & timer_width_mask(instance);
-        timer->anchor_cycle = board->cpu.now;
+        timer->count = value & timer_width_mask(timer);
+        timer->anchor_cycle = timer->wires.clock->now;
         break;
     case TIM_PSC:
         timer->psc = value & 0xFFFFU;
         break;
     default:
-        timer->arr = value & timer_width_mask(instance);
+        timer->arr = value & timer_width_mask(timer);
         timer->arr_used = (timer->cr1 & TIMER_CR1_ARPE) != 0 ? timer->arr_used : timer->arr;
         break;
     }
-    timer_plan(board, instance, board->cpu.now);
-    timer_update_outputs(board, instance, board->cpu.now);
+    timer_plan(timer, timer->wires.clock->now);
+    timer_update_outputs(timer, timer->wires.clock->now);
     return true;
 }
 
-static bool write_register(struct board *board, unsigned instance, uint32_t offset, uint32_t value)
+static bool write_register(void *model, uint32_t offset, uint32_t value)
 {
-    struct timer *timer = &board->timer[instance];
+    struct timer *timer = model;
     switch (offset) {
     case TIM_CR1:
-        write_cr1(board, instance, value);
+        write_cr1(timer, value);
         return true;
     case TIM_CR2:
         timer->cr2 = value;
         return true;
     case TIM_SMCR:
         if (value != 0) {
-            refuse(board, "slave mode");
+            refuse(timer, "slave mode");
         }
         return true;
     case TIM_DIER:
         if ((value & ~(uint32_t)TIMER_DIER_MODELLED) != 0) {
-            refuse(board, "DMA or trigger interrupts");
+            refuse(timer, "DMA or trigger interrupts");
         }
         timer->dier = value;
         return true;
@@ -208,46 +206,47 @@ static bool write_register(struct board *board, unsigned instance, uint32_t offs
         timer->sr &= value | ~(uint32_t)SR_FLAGS;
         return true;
     case TIM_EGR:
-        write_egr(board, instance, value);
+        write_egr(timer, value);
         return true;
     case TIM_CCMR1:
     case TIM_CCMR2:
-        write_ccmr(board, instance, (offset - TIM_CCMR1) / 4U, value);
+        write_ccmr(timer, (offset - TIM_CCMR1) / 4U, value);
         return true;
     case TIM_CCER:
         if ((value & ~(uint32_t)CCER_MODELLED) != 0) {
-            board_fail(board, "TIM_CCER: CCxNP must be kept cleared for an output (RM0090 18.4.9)");
+            report_fail(timer->wires.report, "TIM_CCER: CCxNP must be kept cleared for an output (RM0090 18.4.9)");
         }
         timer->ccer = value & CCER_MODELLED;
-        timer_update_outputs(board, instance, board->cpu.now);
+        timer_update_outputs(timer, timer->wires.clock->now);
         return true;
     case TIM_CNT:
     case TIM_PSC:
     case TIM_ARR:
-        return write_counter(board, instance, offset, value);
+        return write_counter(timer, offset, value);
     case TIM_OR:
         timer->remap = value;
-        return timer_is_wide(instance) && value == 0;
+        return timer_is_wide(timer) && value == 0;
     default:
         return false;
     }
 }
 
-bool timer_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask)
+bool timer_write(void *model, uint32_t offset, uint32_t value, uint32_t mask)
 {
+    struct timer *timer = model;
     bool known = true;
     if (mask != UINT32_MAX && offset != TIM_SR) {
         uint32_t before = 0;
-        known = timer_read(board, instance, offset, &before);
+        known = timer_read(timer, offset, &before);
         value = (before & ~mask) | (value & mask);
     } else if (mask != UINT32_MAX) {
         value |= ~mask;
     }
     if (offset >= TIM_CCR1 && offset <= TIM_CCR4) {
-        write_compare(board, instance, (offset - TIM_CCR1) / 4U, value);
+        write_compare(timer, (offset - TIM_CCR1) / 4U, value);
     } else {
-        known = known && write_register(board, instance, offset, value);
+        known = known && write_register(timer, offset, value);
     }
-    timer_update_interrupt(board, instance);
+    timer_update_interrupt(timer);
     return known;
 }

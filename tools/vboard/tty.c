@@ -13,7 +13,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "board.h"
 #include "complain.h"
 
 enum {
@@ -37,10 +36,18 @@ static void announce(const char *where)
     (void)fflush(stderr);
 }
 
-static bool open_pty(struct tty *tty, const char *link)
+static void start(struct tty *tty)
+{
+    tty->open = true;
+    tty->real_start_ns = tty_real_ns();
+    clock_set_ps(tty->clock, EVENT_THROTTLE, PERIOD_PS);
+}
+
+bool tty_open_pty(struct tty *tty, const char *link)
 {
     char name[NAME_BYTES_MAX];
     struct termios settings;
+    start(tty);
     tty->stream = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
     if (tty->stream < 0 || grantpt(tty->stream) != 0 || unlockpt(tty->stream) != 0 ||
         ptsname_r(tty->stream, name, sizeof name) != 0) {
@@ -62,12 +69,13 @@ static bool open_pty(struct tty *tty, const char *link)
     return true;
 }
 
-static bool open_tcp(struct tty *tty, unsigned port)
+bool tty_open_tcp(struct tty *tty, unsigned port)
 {
     struct sockaddr_in address = {.sin_family = AF_INET, .sin_port = htons((uint16_t)port)};
     socklen_t length = sizeof address;
     int yes = 1;
     char where[NAME_BYTES_MAX];
+    start(tty);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     tty->listener = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0);
     (void)setsockopt(tty->listener, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -81,23 +89,8 @@ static bool open_tcp(struct tty *tty, unsigned port)
     return true;
 }
 
-bool tty_open(struct board *board)
+void tty_close(struct tty *tty)
 {
-    struct tty *tty = &board->tty;
-    const struct options *options = board->options;
-    *tty = (struct tty){.listener = -1, .stream = -1, .peer = -1};
-    if (options->pty == NULL && !options->tcp) {
-        return true;
-    }
-    tty->open = true;
-    tty->real_start_ns = tty_real_ns();
-    events_set_ps(board, EVENT_THROTTLE, PERIOD_PS);
-    return options->pty != NULL ? open_pty(tty, options->pty) : open_tcp(tty, options->tcp_port);
-}
-
-void tty_close(struct board *board)
-{
-    struct tty *tty = &board->tty;
     const int files[] = {tty->listener, tty->stream, tty->peer};
     for (unsigned i = 0; tty->open && i < sizeof files / sizeof *files; i++) {
         if (files[i] >= 0) {
@@ -110,18 +103,18 @@ void tty_close(struct board *board)
     tty->open = false;
 }
 
-void tty_send(struct board *board, uint8_t value)
+void tty_send(void *model, uint8_t value)
 {
+    struct tty *tty = model;
     /* With nobody there, or too slow, the byte is lost as on a real line. */
-    if (board->tty.stream >= 0 && write(board->tty.stream, &value, 1) < 0 && errno == EPIPE) {
-        (void)close(board->tty.stream);
-        board->tty.stream = -1;
+    if (tty->stream >= 0 && write(tty->stream, &value, 1) < 0 && errno == EPIPE) {
+        (void)close(tty->stream);
+        tty->stream = -1;
     }
 }
 
-static void take_in(struct board *board)
+static void take_in(struct tty *tty)
 {
-    struct tty *tty = &board->tty;
     uint8_t bytes[CHUNK_BYTES];
     if (tty->stream < 0 && tty->listener >= 0) {
         tty->stream = accept4(tty->listener, NULL, NULL, SOCK_NONBLOCK);
@@ -131,7 +124,7 @@ static void take_in(struct board *board)
     }
     ssize_t length = read(tty->stream, bytes, sizeof bytes);
     for (ssize_t i = 0; i < length; i++) {
-        rs485_say(board, bytes[i]);
+        rs485_say(tty->line, bytes[i]);
     }
     if (length == 0 && tty->listener >= 0) {
         (void)close(tty->stream);
@@ -139,10 +132,10 @@ static void take_in(struct board *board)
     }
 }
 
-void tty_event(struct board *board, uint64_t cycle)
+static void on_tty_event(void *model, uint64_t cycle)
 {
-    struct tty *tty = &board->tty;
-    uint64_t virtual_ps = vtime_ps_of_cycle(&board->time, cycle);
+    struct tty *tty = model;
+    uint64_t virtual_ps = clock_ps_of_cycle(tty->clock, cycle);
     uint64_t due_ns = tty->real_start_ns + virtual_ps / VTIME_PS_PER_NS;
     uint64_t now_ns = tty_real_ns();
     if (now_ns < due_ns) {
@@ -150,6 +143,12 @@ void tty_event(struct board *board, uint64_t cycle)
                                 .tv_nsec = (long)((due_ns - now_ns) % NS_PER_SECOND)};
         (void)nanosleep(&rest, NULL);
     }
-    take_in(board);
-    events_set_ps(board, EVENT_THROTTLE, virtual_ps + PERIOD_PS);
+    take_in(tty);
+    clock_set_ps(tty->clock, EVENT_THROTTLE, virtual_ps + PERIOD_PS);
+}
+
+void tty_init(struct tty *tty, struct clock *clock, struct rs485 *line)
+{
+    *tty = (struct tty){.clock = clock, .line = line, .listener = -1, .stream = -1, .peer = -1};
+    clock_attach(clock, EVENT_THROTTLE, on_tty_event, tty);
 }

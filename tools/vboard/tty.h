@@ -7,9 +7,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct board;
+#include "clock.h"
+#include "rs485.h"
 
 struct tty {
+    struct clock *clock;
+    struct rs485 *line;
     bool open;
     int listener;     /* of TCP; -1: none */
     int stream;       /* the pseudo-terminal or the connection; -1: none yet */
@@ -18,15 +21,16 @@ struct tty {
     uint64_t real_start_ns;
 };
 
-/* Opens what the options ask for and says where it listens. False after a complaint. */
-bool tty_open(struct board *board);
-void tty_close(struct board *board);
+void tty_init(struct tty *tty, struct clock *clock, struct rs485 *line);
 
-/* A byte that the unit has sent. */
-void tty_send(struct board *board, uint8_t value);
+/* Opens a pseudo-terminal with this link, or else a TCP port; says where it listens. From then on what comes is taken
+ * in each millisecond of virtual time, which waits for real time. False after a complaint. */
+bool tty_open_pty(struct tty *tty, const char *link);
+bool tty_open_tcp(struct tty *tty, unsigned port);
+void tty_close(struct tty *tty);
 
-/* Each millisecond of virtual time: takes in what has come and waits for real time. */
-void tty_event(struct board *board, uint64_t cycle);
+/* A byte that the unit has sent, for a struct tty. */
+void tty_send(void *model, uint8_t value);
 
 /* Nanoseconds of real time. */
 uint64_t tty_real_ns(void);

@@ -1,6 +1,6 @@
 #include "usart.h"
 
-#include "board.h"
+#include <stddef.h>
 
 enum {
     USART_SR = 0x00,
@@ -50,19 +50,19 @@ static const struct pin receive_pins[USARTS][PINS] = {
 static const struct pin transmit_pins[USARTS][PINS] = {
     {PIN('A', 9), PIN('B', 6), NO_PIN}, {PIN('A', 2), PIN('D', 5), NO_PIN}, {PIN('B', 10), PIN('C', 10), PIN('D', 8)}};
 
-static bool is_connected(const struct board *board, const struct pin pins[PINS])
+static bool is_connected(const struct usart *usart, const struct pin pins[PINS])
 {
     for (unsigned i = 0; i < PINS; i++) {
-        if (pins[i].port != NO_PORT && gpio_has_function(board, pins[i], GPIO_AF_USART1_TO_3)) {
+        if (pins[i].port != NO_PORT && gpio_has_function(usart->wires.gpio, pins[i], GPIO_AF_USART1_TO_3)) {
             return true;
         }
     }
     return false;
 }
 
-static uint64_t pclk_divider(const struct board *board, unsigned instance)
+static uint64_t pclk_divider(const struct usart *usart)
 {
-    return instance == 0 ? board->rcc.pclk2_divider : board->rcc.pclk1_divider;
+    return usart->wires.number == 0 ? usart->wires.conditions->pclk2_divider : usart->wires.conditions->pclk1_divider;
 }
 
 /* Clocks of the bus in one bit: USARTDIV times the oversampling (section 30.3.4). */
@@ -71,33 +71,31 @@ static uint32_t bit_clocks(const struct usart *usart)
     return (usart->cr1 & CR1_OVER8) != 0 ? (usart->brr >> 4) * 8U + (usart->brr & 7U) : usart->brr;
 }
 
-static uint64_t bit_cycles(const struct board *board, unsigned instance)
+static uint64_t bit_cycles(const struct usart *usart)
 {
-    return bit_clocks(&board->usart[instance]) * pclk_divider(board, instance);
+    return bit_clocks(usart) * pclk_divider(usart);
 }
 
-uint64_t usart_baud(const struct board *board, unsigned instance)
+uint64_t usart_baud(const struct usart *usart)
 {
-    uint64_t cycles = bit_cycles(board, instance);
-    return cycles == 0 ? 0 : (board->time.hclk_hz + cycles / 2U) / cycles;
+    uint64_t cycles = bit_cycles(usart);
+    return cycles == 0 ? 0 : (usart->wires.clock->time.hclk_hz + cycles / 2U) / cycles;
 }
 
-static void update_interrupt(struct board *board, unsigned instance)
+static void update_interrupt(struct usart *usart)
 {
-    const struct usart *usart = &board->usart[instance];
     uint32_t sr = usart->sr;
     uint32_t cr1 = usart->cr1;
     bool wanted = ((cr1 & CR1_RXNEIE) != 0 && (sr & (SR_RXNE | SR_ORE)) != 0) ||
                   ((cr1 & CR1_TXEIE) != 0 && (sr & SR_TXE) != 0) || ((cr1 & CR1_TCIE) != 0 && (sr & SR_TC) != 0) ||
                   ((cr1 & CR1_IDLEIE) != 0 && (sr & SR_IDLE) != 0);
-    nvic_set_line(board, irqs[instance], wanted);
+    nvic_set_line(usart->wires.nvic, irqs[usart->wires.number], wanted);
 }
 
-static void set_event(struct board *board, unsigned instance)
+static void set_event(struct usart *usart)
 {
-    const struct usart *usart = &board->usart[instance];
     uint64_t due = usart->shift_due < usart->idle_due ? usart->shift_due : usart->idle_due;
-    events_set(board, (enum event)(EVENT_USART1 + instance), due);
+    clock_set(usart->wires.clock, (enum event)(EVENT_USART1 + usart->wires.number), due);
 }
 
 static bool can_send(const struct usart *usart)
@@ -105,12 +103,11 @@ static bool can_send(const struct usart *usart)
     return (usart->cr1 & (CR1_UE | CR1_TE)) == (CR1_UE | CR1_TE);
 }
 
-static void shift_out(struct board *board, unsigned instance, bool idle_frame, uint64_t cycle)
+static void shift_out(struct usart *usart, bool idle_frame, uint64_t cycle)
 {
-    struct usart *usart = &board->usart[instance];
-    uint64_t cycles = bit_cycles(board, instance);
+    uint64_t cycles = bit_cycles(usart);
     if (cycles == 0) {
-        board_fail(board, "USART%u is told to send and BRR is 0", instance + 1U);
+        report_fail(usart->wires.report, "USART%u is told to send and BRR is 0", usart->wires.number + 1U);
         return;
     }
     usart->shifting = true;
@@ -120,55 +117,46 @@ static void shift_out(struct board *board, unsigned instance, bool idle_frame, u
     if (!idle_frame) {
         usart->shifted = usart->to_send;
         usart->sr |= SR_TXE;
-        rs485_begin_sent(board, instance, cycle);
+        if (usart->listener.begin != NULL) {
+            usart->listener.begin(usart->listener.model);
+        }
     }
-    set_event(board, instance);
+    set_event(usart);
 }
 
-static void end_shift(struct board *board, unsigned instance, uint64_t cycle)
+static void end_shift(struct usart *usart, uint64_t cycle)
 {
-    struct usart *usart = &board->usart[instance];
     usart->shifting = false;
     usart->shift_due = VTIME_NEVER;
     if (!usart->idle_frame) {
-        bool connected = is_connected(board, transmit_pins[instance]);
+        bool connected = is_connected(usart, transmit_pins[usart->wires.number]);
         usart->sent++;
-        rs485_end_sent(board, instance, usart->shifted, connected, usart->shift_begin, cycle);
+        if (usart->listener.end != NULL) {
+            usart->listener.end(usart->listener.model, (struct usart_sent){.value = usart->shifted,
+                                                                           .connected = connected,
+                                                                           .begin = usart->shift_begin,
+                                                                           .end = cycle});
+        }
     }
     if ((usart->sr & SR_TXE) == 0 && can_send(usart)) {
-        shift_out(board, instance, false, cycle);
+        shift_out(usart, false, cycle);
     } else if (!usart->idle_frame) {
         usart->sr |= SR_TC;
     }
 }
 
-static void usart_event(struct board *board, unsigned instance, uint64_t cycle)
+static void on_event(void *model, uint64_t cycle)
 {
-    struct usart *usart = &board->usart[instance];
+    struct usart *usart = model;
     if (usart->shift_due <= cycle) {
-        end_shift(board, instance, cycle);
+        end_shift(usart, cycle);
     }
     if (usart->idle_due <= cycle) {
         usart->idle_due = VTIME_NEVER;
         usart->sr |= SR_IDLE;
     }
-    set_event(board, instance);
-    update_interrupt(board, instance);
-}
-
-void usart1_event(struct board *board, uint64_t cycle)
-{
-    usart_event(board, 0, cycle);
-}
-
-void usart2_event(struct board *board, uint64_t cycle)
-{
-    usart_event(board, 1, cycle);
-}
-
-void usart3_event(struct board *board, uint64_t cycle)
-{
-    usart_event(board, 2, cycle);
+    set_event(usart);
+    update_interrupt(usart);
 }
 
 static bool rates_fit(uint64_t baud, uint64_t line_baud)
@@ -178,19 +166,18 @@ static bool rates_fit(uint64_t baud, uint64_t line_baud)
 }
 
 /* Section 30.3.3: an overrun keeps what is in RDR and loses the new byte. */
-void usart_receive(struct board *board, unsigned instance, uint8_t value, unsigned damage, uint64_t baud,
-                   uint64_t cycle)
+void usart_receive(struct usart *usart, uint8_t value, unsigned damage, uint64_t baud, uint64_t cycle)
 {
-    struct usart *usart = &board->usart[instance];
-    if ((usart->cr1 & (CR1_UE | CR1_RE)) != (CR1_UE | CR1_RE) || !is_connected(board, receive_pins[instance])) {
+    if ((usart->cr1 & (CR1_UE | CR1_RE)) != (CR1_UE | CR1_RE) ||
+        !is_connected(usart, receive_pins[usart->wires.number])) {
         usart->deaf++;
         return;
     }
-    if (!rates_fit(usart_baud(board, instance), baud)) {
+    if (!rates_fit(usart_baud(usart), baud)) {
         damage |= USART_FRAMING;
         value = (uint8_t)~value;
     }
-    usart->idle_due = cycle + (FRAME_BITS + 1U) * bit_cycles(board, instance);
+    usart->idle_due = cycle + (FRAME_BITS + 1U) * bit_cycles(usart);
     if ((usart->sr & SR_RXNE) != 0) {
         usart->sr |= SR_ORE;
         usart->overruns++;
@@ -199,29 +186,23 @@ void usart_receive(struct board *board, unsigned instance, uint8_t value, unsign
         usart->received = value;
         usart->taken++;
     }
-    set_event(board, instance);
-    update_interrupt(board, instance);
+    set_event(usart);
+    update_interrupt(usart);
 }
 
-void usart_reset(struct board *board, unsigned instance)
+void usart_reset(struct usart *usart)
 {
-    struct usart *usart = &board->usart[instance];
-    *usart = (struct usart){.sr = SR_RESET,
+    *usart = (struct usart){.wires = usart->wires,
+                            .listener = usart->listener,
+                            .sr = SR_RESET,
                             .shift_due = VTIME_NEVER,
                             .idle_due = VTIME_NEVER,
                             .sent = usart->sent,
                             .taken = usart->taken,
                             .overruns = usart->overruns,
                             .deaf = usart->deaf};
-    set_event(board, instance);
-    update_interrupt(board, instance);
-}
-
-void usarts_reset(struct board *board)
-{
-    for (unsigned i = 0; i < USARTS; i++) {
-        usart_reset(board, i);
-    }
+    set_event(usart);
+    update_interrupt(usart);
 }
 
 /* A read of SR, then one of DR, clears the errors and IDLE; the latter clears RXNE on its own. */
@@ -233,9 +214,9 @@ static uint32_t read_data(struct usart *usart)
     return usart->received;
 }
 
-bool usart_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value)
+bool usart_read(void *model, uint32_t offset, uint32_t *value)
 {
-    struct usart *usart = &board->usart[instance];
+    struct usart *usart = model;
     switch (offset) {
     case USART_SR:
         *value = usart->sr;
@@ -243,7 +224,7 @@ bool usart_read(struct board *board, unsigned instance, uint32_t offset, uint32_
         return true;
     case USART_DR:
         *value = read_data(usart);
-        update_interrupt(board, instance);
+        update_interrupt(usart);
         return true;
     case USART_BRR:
         *value = usart->brr;
@@ -265,15 +246,16 @@ bool usart_read(struct board *board, unsigned instance, uint32_t offset, uint32_
     }
 }
 
-static void write_data(struct board *board, unsigned instance, uint32_t value)
+static void write_data(struct usart *usart, uint32_t value)
 {
-    struct usart *usart = &board->usart[instance];
     if (!can_send(usart)) {
-        board_warn(board, "USART%u: a byte is given to a transmitter that is off, and lost", instance + 1U);
+        report_warn(usart->wires.report, "USART%u: a byte is given to a transmitter that is off, and lost",
+                    usart->wires.number + 1U);
         return;
     }
     if ((usart->sr & SR_TXE) == 0) {
-        board_warn(board, "USART%u: a byte is given before the one in DR has left, which is lost", instance + 1U);
+        report_warn(usart->wires.report, "USART%u: a byte is given before the one in DR has left, which is lost",
+                    usart->wires.number + 1U);
     }
     usart->to_send = (uint8_t)value;
     usart->sr &= ~(uint32_t)SR_TXE;
@@ -281,54 +263,56 @@ static void write_data(struct board *board, unsigned instance, uint32_t value)
         usart->sr &= ~(uint32_t)SR_TC;
     }
     if (!usart->shifting) {
-        shift_out(board, instance, false, board->cpu.now);
+        shift_out(usart, false, usart->wires.clock->now);
     }
 }
 
 /* A rate of less than one sample, or a fraction that eight samples a bit do not have. */
-static void write_brr(struct board *board, unsigned instance, uint32_t value)
+static void write_brr(struct usart *usart, uint32_t value)
 {
-    struct usart *usart = &board->usart[instance];
     bool by_8 = (usart->cr1 & CR1_OVER8) != 0;
     if (usart->shifting && value != usart->brr) {
-        board_fail(board, "USART%u: BRR is changed while a character is sent (RM0090 30.3.4)", instance + 1U);
+        report_fail(usart->wires.report, "USART%u: BRR is changed while a character is sent (RM0090 30.3.4)",
+                    usart->wires.number + 1U);
     } else if (value >> 4 == 0 || (by_8 && (value & 8U) != 0)) {
-        board_fail(board, "USART%u: BRR %04x is no rate (RM0090 30.3.4, 30.6.3)", instance + 1U, value);
+        report_fail(usart->wires.report, "USART%u: BRR %04x is no rate (RM0090 30.3.4, 30.6.3)",
+                    usart->wires.number + 1U, value);
     }
     usart->brr = value;
 }
 
-static void write_cr1(struct board *board, unsigned instance, uint32_t value)
+static void write_cr1(struct usart *usart, uint32_t value)
 {
-    struct usart *usart = &board->usart[instance];
     if ((value & 0xFFFFU & ~(uint32_t)CR1_MODELLED) != 0) {
-        board_fail(board, "USART%u: CR1 %04x asks for what is not modelled", instance + 1U, value);
+        report_fail(usart->wires.report, "USART%u: CR1 %04x asks for what is not modelled", usart->wires.number + 1U,
+                    value);
     }
     bool could = can_send(usart);
     if (usart->shifting && !usart->idle_frame && (value & (CR1_UE | CR1_TE)) != (CR1_UE | CR1_TE)) {
-        board_fail(board, "USART%u: the transmitter is switched off in a character (RM0090 30.3.2)", instance + 1U);
+        report_fail(usart->wires.report, "USART%u: the transmitter is switched off in a character (RM0090 30.3.2)",
+                    usart->wires.number + 1U);
     }
     usart->cr1 = value;
     if (can_send(usart) && !could && !usart->shifting) {
-        shift_out(board, instance, true, board->cpu.now); /* section 30.3.2: an idle frame comes first */
+        shift_out(usart, true, usart->wires.clock->now); /* section 30.3.2: an idle frame comes first */
     }
 }
 
-static bool write_register(struct board *board, unsigned instance, uint32_t offset, uint32_t value)
+static bool write_register(void *model, uint32_t offset, uint32_t value)
 {
-    struct usart *usart = &board->usart[instance];
+    struct usart *usart = model;
     switch (offset) {
     case USART_SR:
         usart->sr &= value | ~(uint32_t)SR_WRITE_CLEARS;
         return true;
     case USART_DR:
-        write_data(board, instance, value);
+        write_data(usart, value);
         return true;
     case USART_BRR:
-        write_brr(board, instance, value);
+        write_brr(usart, value);
         return true;
     case USART_CR1:
-        write_cr1(board, instance, value);
+        write_cr1(usart, value);
         return true;
     case USART_CR2: /* the length of the stop bit is all that is asked of it, and only one bit is modelled */
         usart->cr2 = value;
@@ -343,10 +327,17 @@ static bool write_register(struct board *board, unsigned instance, uint32_t offs
     }
 }
 
-bool usart_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask)
+bool usart_write(void *model, uint32_t offset, uint32_t value, uint32_t mask)
 {
+    struct usart *usart = model;
     uint32_t kept = offset == USART_SR ? UINT32_MAX : 0;
-    bool known = write_register(board, instance, offset, (value & mask) | (kept & ~mask));
-    update_interrupt(board, instance);
+    bool known = write_register(usart, offset, (value & mask) | (kept & ~mask));
+    update_interrupt(usart);
     return known;
+}
+
+void usart_init(struct usart *usart, struct usart_wires wires)
+{
+    usart->wires = wires;
+    clock_attach(wires.clock, (enum event)(EVENT_USART1 + wires.number), on_event, usart);
 }

@@ -8,9 +8,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "clock.h"
+#include "conditions.h"
 #include "gpio.h"
-
-struct board;
+#include "nvic.h"
+#include "report.h"
 
 enum {
     USARTS = 3
@@ -21,7 +23,33 @@ enum usart_damage {
     USART_NOISE = 1 << 2,
 };
 
+/* A byte that was sent. */
+struct usart_sent {
+    uint8_t value;
+    bool connected; /* whether the pin was the USART's */
+    uint64_t begin; /* cycle */
+    uint64_t end;
+};
+
+/* What is connected to the pin of the transmitter; null: nothing. */
+struct usart_listener {
+    void *model;
+    void (*begin)(void *model);
+    void (*end)(void *model, struct usart_sent sent);
+};
+
+struct usart_wires {
+    unsigned number; /* 0: USART1 */
+    struct clock *clock;
+    struct report *report;
+    struct nvic *nvic;
+    const struct conditions *conditions;
+    const struct gpio *gpio;
+};
+
 struct usart {
+    struct usart_wires wires;
+    struct usart_listener listener;
     uint32_t sr;
     uint32_t cr1;
     uint32_t cr2;
@@ -42,19 +70,15 @@ struct usart {
     uint64_t deaf; /* bytes that came while the receiver was off or its pin not connected */
 };
 
-void usarts_reset(struct board *board);
-void usart_reset(struct board *board, unsigned instance);
-bool usart_read(struct board *board, unsigned instance, uint32_t offset, uint32_t *value);
-bool usart_write(struct board *board, unsigned instance, uint32_t offset, uint32_t value, uint32_t mask);
-void usart1_event(struct board *board, uint64_t cycle);
-void usart2_event(struct board *board, uint64_t cycle);
-void usart3_event(struct board *board, uint64_t cycle);
+void usart_init(struct usart *usart, struct usart_wires wires);
+void usart_reset(struct usart *usart);
+bool usart_read(void *model, uint32_t offset, uint32_t *value);
+bool usart_write(void *model, uint32_t offset, uint32_t value, uint32_t mask);
 
 /* The middle of the stop bit of a byte that came with this rate. `damage` is a set of enum usart_damage. */
-void usart_receive(struct board *board, unsigned instance, uint8_t value, unsigned damage, uint64_t baud,
-                   uint64_t cycle);
+void usart_receive(struct usart *usart, uint8_t value, unsigned damage, uint64_t baud, uint64_t cycle);
 
 /* The rate in Bd that BRR gives, 0 if it is not set. */
-uint64_t usart_baud(const struct board *board, unsigned instance);
+uint64_t usart_baud(const struct usart *usart);
 
 #endif

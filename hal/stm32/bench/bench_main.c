@@ -5,7 +5,7 @@
  */
 #include "hal_board.h"
 #include "hal_time.h"
-#include "unit.h"
+#include "rkm04.h"
 
 enum {
     AHEAD_TICKS = 5 * TICKS_PER_MS, /* all moves have been laid by then */
@@ -22,7 +22,7 @@ struct bench_move {
 
 struct bench_table {
     struct bench_move move[UNIT_MOTORS];
-    uint32_t stop_at_late; /* not 0: nothing matters behind the first late step */
+    uint32_t stop_at_late; /* not 0: nothing matters after the first late step */
 };
 
 struct bench_report {
@@ -53,7 +53,7 @@ __attribute__((noinline)) void bench_done(void)
     __asm__ volatile("nop" ::: "memory");
 }
 
-static void start_move(struct unit *unit, unsigned motor, uint64_t tick)
+static void start_move(struct rkm04 *unit, unsigned motor, uint64_t tick)
 {
     const struct bench_move *move = &table()->move[motor];
     struct motion_order order = {.sections = 1, .start_speed_steps_per_s = move->start_speed_steps_per_s};
@@ -62,47 +62,47 @@ static void start_move(struct unit *unit, unsigned motor, uint64_t tick)
         .speed_steps_per_s = move->speed_steps_per_s,
         .accel_steps_per_s2 = move->accel_steps_per_s2,
     };
-    const struct mover_guards none = {.stop_high = 0};
+    const struct axis_guards none = {.stop_high = 0};
     if (move->steps != 0) {
-        mover_start(&unit->mover[motor], &order, false, tick + move->delay_ticks, &none);
+        axis_begin(&unit->axis[motor], &order, false, tick + move->delay_ticks, &none);
     }
 }
 
-static bool is_moving(const struct unit *unit)
+static bool is_moving(const struct rkm04 *unit)
 {
     bool moving = false;
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        moving = moving || mover_is_moving(&unit->mover[motor]);
+        moving = moving || axis_is_moving(&unit->axis[motor]);
     }
     return moving;
 }
 
 /* One pass, as in the main of the unit; the interpreters rest, so the ends of moves are looked for here. */
-static void pass(struct unit *unit)
+static void pass(struct rkm04 *unit)
 {
-    uint64_t wake = unit_poll(unit);
+    uint64_t wake = rkm04_poll(unit);
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        mover_poll(&unit->mover[motor]);
+        axis_poll(&unit->axis[motor]);
     }
     hal_board_idle(wake);
 }
 
-static void report(const struct unit *unit)
+static void report(const struct rkm04 *unit)
 {
     bench_report.late_steps = hal_board_late_steps();
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        bench_report.position_steps[motor] = (int32_t)mover_position_steps(&unit->mover[motor]);
-        bench_report.moves += mover_is_moving(&unit->mover[motor]) || table()->move[motor].steps == 0 ? 0U : 1U;
+        bench_report.position_steps[motor] = (int32_t)axis_position_steps(&unit->axis[motor]);
+        bench_report.moves += axis_is_moving(&unit->axis[motor]) || table()->move[motor].steps == 0 ? 0U : 1U;
     }
     bench_done();
 }
 
 int main(void)
 {
-    static struct unit unit;
+    static struct rkm04 unit;
     hal_board_init();
-    unit_init(&unit);
-    unit_start(&unit);
+    rkm04_init(&unit);
+    rkm04_start(&unit);
     uint64_t start = hal_time_now() + AHEAD_TICKS;
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         start_move(&unit, motor, start);

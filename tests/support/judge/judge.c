@@ -229,7 +229,7 @@ void judge_direction(struct judge *judge, uint64_t tick, unsigned number, bool b
     struct judge_motor *motor = &judge->motor[number];
     if (motor->has_pulse && tick - motor->last_tick < judge->limits.dir_hold_ticks) {
         judge_complain(judge, judge_key(JUDGE_RULE_DIR, number, 0),
-                       "motor %u: DIR moves behind a pulse at tick %" PRIu64, number, tick);
+                       "motor %u: DIR moves after a pulse at tick %" PRIu64, number, tick);
     }
     motor->dir = backward ? -1 : 1;
     motor->dir_tick = tick;
@@ -264,7 +264,7 @@ void judge_interpreter(struct judge *judge, unsigned number, const struct interp
     bool good = interpreter->state <= INTERPRETER_FAILED && interpreter->resume_state <= INTERPRETER_FAILED &&
                 interpreter->next <= memory->written && interpreter->place <= memory->written &&
                 interpreter->loop_depth <= INTERPRETER_LOOPS_MAX && interpreter->call_depth <= INTERPRETER_CALLS_MAX &&
-                interpreter->order.sections <= MOTION_SECTIONS && interpreter->compound.sections <= MOTION_SECTIONS;
+                interpreter->compound.order.sections <= MOTION_SECTIONS;
     for (unsigned i = 0; good && i < interpreter->loop_depth; i++) {
         good = interpreter->loops[i].body <= memory->written && interpreter->loops[i].left >= 1;
     }

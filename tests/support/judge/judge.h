@@ -16,9 +16,9 @@
  *    reference                                 acceleration between neighbours and at both ends of a move is bounded
  *  4 monotone on ramps, equal in cruise        neighbouring intervals of one leg of the plan
  *  5 the way left is a stopping distance       speed of each interval against the way left, section by section
- *  6 ends at the target, no pulse behind       `done` against pulses, plan and target; pulses outside of moves
+ *  6 ends at the target, no pulse after       `done` against pulses, plan and target; pulses outside of moves
  *    `done`, no `done` before the last pulse
- *  7 DIR stands still around each pulse, STEP  DIR edges against pulses; on the host machine not how soon behind one,
+ *  7 DIR stands still around each pulse, STEP  DIR edges against pulses; on the host machine not how soon after one,
  *    high and low long enough                  and not the width of STEP: the board's driver has both in
  *                                              hal/stm32/stm32_step_setup.c, tests/tools/test_stm32_step.py shows them.
  *                                              STEP low is what is left of the interval, bounded by 2. Both are
@@ -128,7 +128,7 @@ void judge_direction(struct judge *judge, uint64_t tick, unsigned motor, bool ba
 /* An event of the trace; motor 0: the unit. */
 void judge_event(struct judge *judge, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value);
 
-/* Right behind the event MOVE: what was ordered, and the position. From now on the move is judged pulse by pulse. */
+/* Right after the event MOVE: what was ordered, and the position. From now on the move is judged pulse by pulse. */
 void judge_order(struct judge *judge, unsigned motor, const struct motion_order *order, int64_t position);
 
 /* STEP and DIR of a motor are disconnected (T41) or connected again: never inside a move. Pulses are told as before. */

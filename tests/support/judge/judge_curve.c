@@ -8,7 +8,7 @@
 struct stretch {
     int64_t end;
     int64_t top;   /* w */
-    int64_t bound; /* the greatest w at its end from which all behind it can be kept */
+    int64_t bound; /* the greatest w at its end from which all after it can be kept */
     int64_t accel;
 };
 
@@ -32,7 +32,7 @@ static int64_t slow_w(const struct judge_curve *curve)
     return square(curve->order.start_speed_steps_per_s);
 }
 
-/* The sections behind a position, with the look-ahead of the table in motion.md: backward from the last one. */
+/* The sections after a position, with the look-ahead of the table in motion.md: backward from the last one. */
 static struct stretches lay_stretches(const struct judge_curve *curve, int64_t position)
 {
     struct stretches all = {.count = 0};
@@ -64,8 +64,8 @@ static long double ticks_between(const struct judge_leg *leg, long double from, 
         return (to - from) * (long double)TICK_HZ / sqrtl(leg->anchor_w);
     }
     long double before = leg->anchor_w + 2.0L * leg->accel * (from - leg->anchor);
-    long double behind = leg->anchor_w + 2.0L * leg->accel * (to - leg->anchor);
-    return (sqrtl(behind) - sqrtl(before)) * (long double)TICK_HZ / leg->accel;
+    long double after = leg->anchor_w + 2.0L * leg->accel * (to - leg->anchor);
+    return (sqrtl(after) - sqrtl(before)) * (long double)TICK_HZ / leg->accel;
 }
 
 static long double leg_w(const struct judge_leg *leg, long double position)
@@ -150,7 +150,7 @@ static int64_t taken_at_once(const struct judge_curve *curve, int64_t at, int64_
     return stretch->top < w && w <= slow ? stretch->top : w;
 }
 
-/* All legs behind a pulse at which the motor has w. */
+/* All legs after a pulse at which the motor has w. */
 static void lay(struct judge_curve *curve, uint64_t pulse, int64_t w, long double tick)
 {
     int64_t at = (int64_t)pulse;
@@ -168,7 +168,7 @@ static void lay(struct judge_curve *curve, uint64_t pulse, int64_t w, long doubl
     for (unsigned i = 0; i < curve->count; i++) {
         curve->legs[i].start += tick;
     }
-    curve->last = at >= (int64_t)MOTION_ENDLESS_STEPS ? UINT64_MAX : (uint64_t)at;
+    curve->last = motion_order_is_endless(&curve->order) ? UINT64_MAX : (uint64_t)at;
 }
 
 void judge_curve_begin(struct judge_curve *curve, const struct motion_order *order)
@@ -192,7 +192,7 @@ long double judge_curve_tick(struct judge_curve *curve, uint64_t pulse)
     return leg->start + ticks_between(leg, leg->from, (long double)pulse);
 }
 
-/* w at a pulse, behind the jump where it jumps. */
+/* w at a pulse, after the jump where it jumps. */
 static int64_t pulse_w(struct judge_curve *curve, uint64_t pulse)
 {
     const struct judge_leg *leg = judge_curve_leg(curve, pulse);

@@ -46,7 +46,7 @@ void judge_curve_begin(struct judge_curve *curve, const struct motion_order *ord
 /* A stop takes effect at a pulse that is due on the curve: from there down the ramp to S. */
 void judge_curve_stop(struct judge_curve *curve, uint64_t pulse);
 
-/* No pulse comes behind this one. */
+/* No pulse comes after this one. */
 void judge_curve_halt(struct judge_curve *curve, uint64_t pulse);
 
 /* A change of speed takes effect at a pulse that is due on the curve. */
@@ -56,7 +56,7 @@ void judge_curve_change_speed(struct judge_curve *curve, uint64_t pulse, uint32_
 long double judge_curve_tick(struct judge_curve *curve, uint64_t pulse);
 const struct judge_leg *judge_curve_leg(struct judge_curve *curve, uint64_t pulse);
 
-/* The greatest w from which the motor can still brake to S on the way behind a pulse. */
+/* The greatest w from which the motor can still brake to S on the way after a pulse. */
 long double judge_curve_stoppable_w(const struct judge_curve *curve, uint64_t pulse);
 
 #endif

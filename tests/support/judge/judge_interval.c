@@ -52,7 +52,7 @@ void judge_planned_interval(struct judge *judge, unsigned number, uint64_t tick,
     motor->leg = leg;
 }
 
-/* i steps behind the start w is at most S^2 + 2*A*i, and so it is before the end, where a stopped move may stand up to
+/* i steps after the start w is at most S^2 + 2*A*i, and so it is before the end, where a stopped move may stand up to
  * a step before the end of its ramp: i + 1. The end is not known yet, so the greatest w - 2*A*i is kept until then. The
  * pulse before the move, if there is one, ends an interval too. */
 static void judge_ends(struct judge *judge, unsigned number, uint64_t tick)

@@ -133,7 +133,7 @@ static void end_move(struct judge *judge, uint64_t tick, unsigned number, int64_
 }
 
 /* A stop, or an error: it explains why a move ends early, and a plan that is known says where. It takes effect at the
- * first pulse behind its cause; an interrupt that is late may have seen that pulse come. */
+ * first pulse after its cause; an interrupt that is late may have seen that pulse come. */
 static void cut_move(struct judge *judge, uint64_t tick, unsigned number, int64_t cause)
 {
     struct judge_motor *motor = &judge->motor[number];
@@ -147,7 +147,7 @@ static void cut_move(struct judge *judge, uint64_t tick, unsigned number, int64_
     if (!motor->planned) {
         return;
     }
-    if (cause == HAL_TRACE_STOP_LIMIT) {
+    if (cause == AXIS_CAUSE_LIMIT) {
         judge_curve_halt(&motor->curve, motor->made);
     } else {
         bool took_back = motor->made > 0 && tick < motor->last_tick;

@@ -70,8 +70,8 @@ static void plan_isr(void *context)
 
 static void start_unit(struct bench *bench)
 {
-    unit_init(&bench->unit);
-    unit_start(&bench->unit);
+    rkm04_init(&bench->unit);
+    rkm04_start(&bench->unit);
     bench->machine.client =
         (struct hal_client){.context = bench, .step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
 }
@@ -114,20 +114,20 @@ void bench_restart_badly(struct bench *bench)
 
 void bench_message(struct bench *bench, const void *request, uint32_t length)
 {
-    bench->answer_length = unit_message(&bench->unit, request, length, bench->answer);
-    bool wanted = length >= 1 && length <= PROTOCOL_REQUEST_BYTES_MAX;
+    bench->answer_length = rkm04_message(&bench->unit, request, length, bench->answer);
+    bool wanted = length >= 1 && length <= MESSAGES_REQUEST_BYTES_MAX;
     judge_exchange(&bench->judge, wanted ? 1 : 0, bench->answer_length != 0 ? 1 : 0);
 }
 
 uint8_t bench_send(struct bench *bench, unsigned motor, const char *text)
 {
-    uint8_t request[PROTOCOL_REQUEST_BYTES_MAX] = {PROTOCOL_SET_COMMAND, (uint8_t)('0' + motor)};
+    uint8_t request[MESSAGES_REQUEST_BYTES_MAX] = {MESSAGES_SET_COMMAND, (uint8_t)('0' + motor)};
     size_t length = strlen(text);
     TEST_ASSERT_LESS_OR_EQUAL_size_t_MESSAGE(BENCH_TEXT_BYTES_MAX, length, "text too long for a message");
     memcpy(request + 2, text, length);
     bench_message(bench, request, (uint32_t)length + 2U);
     TEST_ASSERT_EQUAL_UINT32(4, bench->answer_length);
-    TEST_ASSERT_EQUAL_UINT8(PROTOCOL_SET_COMMAND, bench->answer[0]);
+    TEST_ASSERT_EQUAL_UINT8(MESSAGES_SET_COMMAND, bench->answer[0]);
     return bench->answer[2];
 }
 
@@ -155,7 +155,7 @@ uint8_t *bench_find_in_flash(struct bench *bench, const char *text)
 static bool is_idle(void *context)
 {
     const struct bench *bench = context;
-    return unit_is_idle(&bench->unit);
+    return rkm04_is_idle(&bench->unit);
 }
 
 static bool has_pulses(void *context)
@@ -177,7 +177,7 @@ void bench_run_ms(struct bench *bench, uint32_t milliseconds)
 void bench_run_idle(struct bench *bench)
 {
     host_machine_run(&bench->machine, bench->machine.now + IDLE_LIMIT_TICKS, judge_unit_pass, is_idle, bench);
-    TEST_ASSERT_TRUE_MESSAGE(unit_is_idle(&bench->unit), "still busy after a minute");
+    TEST_ASSERT_TRUE_MESSAGE(rkm04_is_idle(&bench->unit), "still busy after a minute");
 }
 
 void bench_run_pulses(struct bench *bench, unsigned motor, uint32_t pulses)
@@ -272,7 +272,7 @@ const struct bench_event *bench_event(const struct bench *bench, unsigned motor,
 
 int64_t bench_position(const struct bench *bench, unsigned motor)
 {
-    return mover_position_steps(&bench->unit.mover[motor - 1U]);
+    return axis_position_steps(&bench->unit.axis[motor - 1U]);
 }
 
 enum interpreter_state bench_state(const struct bench *bench, unsigned motor)

@@ -16,14 +16,14 @@
 #include "hal_trace.h"
 #include "host_machine.h"
 #include "judge_unit.h"
-#include "unit.h"
+#include "rkm04.h"
 
 enum {
     BENCH_PULSES_MAX = 200000,
     BENCH_EVENTS_MAX = 8192,
     BENCH_EDGES_MAX = 1024,
     BENCH_INPUTS_MAX = 256,
-    BENCH_TEXT_BYTES_MAX = PROTOCOL_REQUEST_BYTES_MAX - 2,
+    BENCH_TEXT_BYTES_MAX = MESSAGES_REQUEST_BYTES_MAX - 2,
 };
 
 struct bench_pulse {
@@ -49,7 +49,7 @@ struct bench_edge {
 struct bench {
     struct judged_unit judged;
     struct host_machine machine;
-    struct unit unit;
+    struct rkm04 unit;
     struct bench_pulse pulses[BENCH_PULSES_MAX];
     uint32_t pulse_count;
     uint32_t made[UNIT_MOTORS + 1]; /* pulses of each motor */
@@ -59,7 +59,7 @@ struct bench {
     struct bench_edge edges[BENCH_EDGES_MAX];
     uint32_t edge_count;
     struct host_input script[BENCH_INPUTS_MAX];
-    uint8_t answer[PROTOCOL_ANSWER_BYTES_MAX + 1]; /* and the end of a string */
+    uint8_t answer[MESSAGES_ANSWER_BYTES_MAX + 1]; /* and the end of a string */
     uint32_t answer_length;
     struct judge judge;
 

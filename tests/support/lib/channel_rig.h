@@ -73,8 +73,8 @@ static inline void channel_rig_check(void)
     TEST_ASSERT_EQUAL_UINT_MESSAGE(0, holds, "the step interrupt is still held off");
 }
 
-/* Pulses INTERVAL ticks apart, the first one INTERVAL behind pulse number `pulse` of the move. */
-static inline struct step_segment segment_behind(uint32_t pulse, uint32_t steps)
+/* Pulses INTERVAL ticks apart, the first one INTERVAL after pulse number `pulse` of the move. */
+static inline struct step_segment segment_after(uint32_t pulse, uint32_t steps)
 {
     struct step_segment segment = {
         .slope = STEP_QUANTA / INTERVAL,
@@ -88,7 +88,7 @@ static inline struct step_segment segment_behind(uint32_t pulse, uint32_t steps)
 
 static inline void push(uint32_t pulse, uint32_t steps)
 {
-    struct step_segment segment = segment_behind(pulse, steps);
+    struct step_segment segment = segment_after(pulse, steps);
     step_channel_push(&channel, &segment);
 }
 
@@ -99,7 +99,7 @@ static inline void begin_move(uint32_t steps)
     step_channel_run(&channel);
 }
 
-/* Two segments: pulses 1 to `first` and as many behind them as `second`. */
+/* Two segments: pulses 1 to `first` and as many after them as `second`. */
 static inline void begin_two(uint32_t first, uint32_t second)
 {
     step_channel_begin(&channel, START, false);

@@ -37,23 +37,22 @@ void judge_unit_direction(void *judged, uint64_t tick, unsigned motor, bool back
 void judge_unit_trace(void *judged, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
 {
     struct judged_unit *self = judged;
-    struct unit *unit = self->unit;
+    struct rkm04 *unit = self->unit;
     if (event == HAL_TRACE_DONE) { /* before the program can write the counter */
-        judge_position(self->judge, motor, mover_position_steps(&unit->mover[motor - 1U]));
+        judge_position(self->judge, motor, axis_position_steps(&unit->axis[motor - 1U]));
     }
     judge_event(self->judge, tick, motor, event, value);
     if (event == HAL_TRACE_MOVE) {
-        judge_order(self->judge, motor, &unit->interpreter[motor - 1U].order,
-                    mover_position_steps(&unit->mover[motor - 1U]));
+        judge_order(self->judge, motor, &unit->axis[motor - 1U].order, axis_position_steps(&unit->axis[motor - 1U]));
     }
 }
 
 uint64_t judge_unit_pass(void *judged)
 {
     struct judged_unit *self = judged;
-    uint64_t wake = unit_poll(self->unit);
+    uint64_t wake = rkm04_poll(self->unit);
     for (unsigned i = 0; i < UNIT_MOTORS; i++) {
-        judge_position(self->judge, i + 1U, mover_position_steps(&self->unit->mover[i]));
+        judge_position(self->judge, i + 1U, axis_position_steps(&self->unit->axis[i]));
         judge_interpreter(self->judge, i + 1U, &self->unit->interpreter[i]);
     }
     judge_pass(self->judge);

@@ -10,11 +10,11 @@
 
 #include "host_machine.h"
 #include "judge.h"
-#include "unit.h"
+#include "rkm04.h"
 
 /* A bench has this first, so that the functions below can be given the bench. */
 struct judged_unit {
-    struct unit *unit;
+    struct rkm04 *unit;
     struct judge *judge;
     struct host_machine *machine;
 };

@@ -1,5 +1,5 @@
 /*
- * The rig of a late mover: a mover on a backend whose clock runs while main works. Planning takes ticks, which pass
+ * The rig of a late axis: an axis on a backend whose clock runs while main works. Planning takes ticks, which pass
  * before the step interrupt is held off to cut the queue, and in which the motor goes on.
  *
  * To be included by one test program alone, after the mocks.
@@ -12,10 +12,10 @@
 #include "mock_hal_step.h"
 #include "mock_hal_time.h"
 #include "mock_hal_trace.h"
-#include "mover.h"
+#include "axis.h"
 #include "unity.h"
 
-static struct mover mover;
+static struct axis axis;
 static uint64_t now;
 static uint64_t armed;
 static bool is_armed;
@@ -24,7 +24,7 @@ static uint64_t planning_ticks; /* that pass until the cut */
 static uint64_t handing_ticks;  /* that pass after the cut */
 static uint64_t looking_ticks;  /* that pass between the first look of a stop and its brake */
 static uint64_t braking_ticks;  /* that pass while a stop is planned */
-static unsigned holds;          /* since planning began: first to foresee, then to cut; a stop looks, brakes, joins */
+static unsigned holds; /* since planning began: first to look ahead, then to replace; a stop finds, brakes, joins */
 static bool stops;
 static bool changes;
 static unsigned cuts_tried;
@@ -46,7 +46,7 @@ static inline void make_pulses_until(uint64_t tick)
         is_armed = false;
         pulse_tick[pulses] = armed;
         pulses++;
-        (void)mover_pulse_isr(&mover);
+        (void)axis_pulse_isr(&axis);
     }
     now = tick > now ? tick : now;
 }
@@ -136,15 +136,15 @@ static inline void late_rig_init(void)
     hal_run_hold_plan_Ignore();
     hal_run_release_plan_Ignore();
     hal_trace_Stub(traced);
-    mover_init(&mover, 0);
+    axis_init(&axis, 0);
 }
 
 /* Starts and makes some pulses, so that the next one is due in 5250 ticks. */
 static inline void start(const struct motion_order *order, unsigned made)
 {
-    static const struct mover_guards none = {0};
-    mover_start(&mover, order, false, now, &none);
-    while (mover_feed(&mover)) {
+    static const struct axis_guards none = {0};
+    axis_begin(&axis, order, false, now, &none);
+    while (axis_feed(&axis)) {
     }
     for (unsigned i = 0; i < made; i++) {
         make_pulses_until(armed);
@@ -156,14 +156,14 @@ static inline void stop(void)
 {
     holds = 0;
     stops = true;
-    mover_stop(&mover, HAL_TRACE_STOP_COMMAND);
+    axis_stop(&axis, AXIS_CAUSE_PAUSE);
     stops = false;
 }
 
 static inline void change_speed(uint32_t speed_steps_per_s)
 {
     changes = true;
-    mover_change_speed(&mover, speed_steps_per_s);
+    axis_change_speed(&axis, speed_steps_per_s);
     changes = false;
 }
 
@@ -171,13 +171,13 @@ static inline void run_to_the_end(void)
 {
     planning_ticks = 0;
     handing_ticks = 0;
-    for (mover_poll(&mover); mover_is_moving(&mover); mover_poll(&mover)) {
+    for (axis_poll(&axis); axis_is_moving(&axis); axis_poll(&axis)) {
         TEST_ASSERT_TRUE(is_armed);
-        while (mover_feed(&mover)) {
+        while (axis_feed(&axis)) {
         }
         make_pulses_until(armed);
     }
-    TEST_ASSERT_EQUAL_UINT64(pulses, mover_steps_made(&mover));
+    TEST_ASSERT_EQUAL_UINT64(pulses, axis_steps_made(&axis));
 }
 
 #endif

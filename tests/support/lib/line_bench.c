@@ -70,7 +70,7 @@ void line_run(struct line_bench *line)
 
 uint64_t line_request(struct line_bench *line, uint8_t address, uint8_t number, uint8_t message, const char *text)
 {
-    uint8_t bytes[PROTOCOL_REQUEST_BYTES_MAX] = {message};
+    uint8_t bytes[MESSAGES_REQUEST_BYTES_MAX] = {message};
     size_t length = strlen(text);
     TEST_ASSERT_LESS_THAN_size_t(sizeof bytes, length);
     memcpy(bytes + 1, text, length);
@@ -118,8 +118,8 @@ void line_open(struct line_bench *line)
 
 void line_check(struct line_bench *line)
 {
-    line_request(line, LINE_BENCH_NODE, 99, PROTOCOL_VERSION, "");
-    TEST_ASSERT_EQUAL_STRING("\x10" UNIT_VERSION, line_answer(line, 99));
+    line_request(line, LINE_BENCH_NODE, 99, MESSAGES_VERSION, "");
+    TEST_ASSERT_EQUAL_STRING("\x10" RKM04_VERSION, line_answer(line, 99));
 }
 
 /* xorshift64* */

@@ -13,7 +13,7 @@ enum {
     LINE_BENCH_NODE = 1, /* of the unit, unless set */
     LINE_BENCH_SCRIPT_MAX = 40000,
     LINE_BENCH_SENT_MAX = 60000,
-    LINE_BENCH_FRAME_MAX = FRAME_BYTES_MAX(PROTOCOL_ANSWER_BYTES_MAX),
+    LINE_BENCH_FRAME_MAX = FRAME_BYTES_MAX(MESSAGES_ANSWER_BYTES_MAX),
 };
 
 #define LINE_BENCH_BYTE_TICKS ((uint64_t)HOST_LINE_BYTE_TICKS)
@@ -33,7 +33,7 @@ struct line_bench {
 /* Nothing said yet. The line takes the bench's listener of the line; the bench must be a static one, alone. */
 void line_init(struct line_bench *line, struct bench *bench);
 
-/* Bytes at the rate of the line, behind what was planned before or from now on. Returns the tick of the last one. */
+/* Bytes at the rate of the line, after what was planned before or from now on. Returns the tick of the last one. */
 uint64_t line_plan(struct line_bench *line, const uint8_t *bytes, uint32_t length);
 uint64_t line_plan_frame(struct line_bench *line, uint8_t address, uint8_t number, const void *text, uint32_t length);
 
@@ -46,7 +46,7 @@ uint64_t line_request(struct line_bench *line, uint8_t address, uint8_t number, 
 /* Runs until the unit has sent all that it has to send, which must have an end. */
 void line_drain(struct line_bench *line);
 
-/* Runs for the time of an answer and until it has gone out. Returns what follows its message number, with a 0 behind;
+/* Runs for the time of an answer and until it has gone out. Returns what follows its message number, with a 0 after;
  * NULL: there was none. Fails if what was sent is not one frame with this number that answers the last message. */
 const char *line_answer(struct line_bench *line, uint8_t number);
 

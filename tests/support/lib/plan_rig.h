@@ -1,7 +1,7 @@
 /*
  * The rig of the tests of a plan: one plan, and the segments that were taken from it.
  *
- * A move begins at PLAN_START; its stops and changes lie at PLAN_CUT. To be included by one test program alone.
+ * A move begins at PLAN_START; its stops and changes lie at PLAN_REPLACED. To be included by one test program alone.
  */
 #ifndef PLAN_RIG_H
 #define PLAN_RIG_H
@@ -12,7 +12,7 @@
 enum {
     SEGMENTS_MAX = 64,
     PLAN_START = 1000,
-    PLAN_CUT = 500000
+    PLAN_REPLACED = 500000
 };
 
 static struct motion_plan plan;
@@ -23,6 +23,15 @@ static inline struct motion_order order_single(uint64_t steps, uint32_t start_sp
 {
     return (struct motion_order){
         .section = {{steps, speed, accel}},
+        .start_speed_steps_per_s = start_speed,
+        .sections = 1,
+    };
+}
+
+static inline struct motion_order order_endless(uint32_t start_speed, uint32_t speed, uint32_t accel)
+{
+    return (struct motion_order){
+        .section = {motion_order_endless(speed, accel)},
         .start_speed_steps_per_s = start_speed,
         .sections = 1,
     };
@@ -44,7 +53,7 @@ static inline void begin_two(uint32_t start_speed, struct motion_section first, 
 
 static inline struct motion_point point_at(uint64_t step, uint64_t speed2)
 {
-    return (struct motion_point){.time = {.ticks = PLAN_CUT}, .step = step, .speed2 = speed2};
+    return (struct motion_point){.time = {.ticks = PLAN_REPLACED}, .step = step, .speed2 = speed2};
 }
 
 static inline bool stop_at(uint64_t step, uint64_t speed2)

@@ -20,7 +20,7 @@ static inline void walk_begin(const struct motion_order *order, uint64_t start_t
     step_generator_start(&cursor.generator, (uint32_t)start_tick);
 }
 
-/* Moves on by a pulse; false behind the last one. */
+/* Moves on by a pulse; false after the last one. */
 static inline bool walk_on(void)
 {
     if (cursor.left == 0) {

@@ -6,11 +6,11 @@
 #ifndef STATUS_VECTORS_H
 #define STATUS_VECTORS_H
 
-#include "protocol_status.h"
+#include "messages_status.h"
 
 struct status_vector {
     const char *name;
-    struct protocol_status status;
+    struct messages_status status;
     const char *answer; /* what follows the message number */
     uint32_t length;
 };
@@ -40,7 +40,7 @@ static const struct status_vector status_vectors[] = {
      "\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00"
      "\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00"
      "\x00", 101},
-    {"behind the watchdog",
+    {"after the watchdog",
      {0, 0, 2, 2, {0, 0, 0, 0}, {0, 0, 0, 0},
       {INT64_C(0), INT64_C(0), INT64_C(0), INT64_C(0)}, 0U,
       {0U, 0U, 0U, 0U, 0U, 0U,

@@ -22,7 +22,7 @@ void setUp(void)
     begin(CAPACITY);
 }
 
-/* Nothing is ever written behind the text. */
+/* Nothing is ever written after the text. */
 void tearDown(void)
 {
     TEST_ASSERT_LESS_OR_EQUAL_UINT32(text.capacity, text.length);

@@ -115,7 +115,7 @@ void test_a_stop_down_the_ramp_passes(void)
     lay_log(CRUISE_PULSE);
     begin();
     feed(1, CRUISE_PULSE - 1);
-    judge_event(&judge, ticks[CRUISE_PULSE - 1] + 1, 1, HAL_TRACE_STOP, HAL_TRACE_STOP_COMMAND);
+    judge_event(&judge, ticks[CRUISE_PULSE - 1] + 1, 1, HAL_TRACE_STOP, AXIS_CAUSE_PAUSE);
     feed(CRUISE_PULSE, (unsigned)done_steps);
     end();
     TEST_ASSERT_EQUAL_INT64(CRUISE_PULSE + 247, done_steps);
@@ -143,7 +143,7 @@ void test_a_change_of_speed_passes(void)
 void test_a_guard_that_has_its_level_at_the_start_lets_no_pulse_come(void)
 {
     begin();
-    judge_event(&judge, START, 1, HAL_TRACE_STOP, HAL_TRACE_STOP_HIGH);
+    judge_event(&judge, START, 1, HAL_TRACE_STOP, AXIS_CAUSE_HIGH);
     judge_event(&judge, START, 1, HAL_TRACE_DONE, 0);
     judge_finish(&judge, START + TICK_HZ);
     assert_none();
@@ -241,7 +241,7 @@ void test_7_dir_that_moves_behind_a_pulse_is_found(void)
     judge.limits.dir_hold_ticks = 2U * TICKS_PER_US;
     feed_all();
     judge_direction(&judge, done_tick + TICKS_PER_US, 1, true);
-    assert_found("DIR moves behind a pulse");
+    assert_found("DIR moves after a pulse");
 }
 
 void test_7_dir_that_shows_the_other_way_is_found(void)
@@ -283,7 +283,7 @@ void test_9_a_pulse_too_many_after_a_stop_is_found(void)
     lay_log(CRUISE_PULSE);
     begin();
     feed(1, CRUISE_PULSE - 1);
-    judge_event(&judge, ticks[CRUISE_PULSE - 1] + 1, 1, HAL_TRACE_STOP, HAL_TRACE_STOP_HIGH);
+    judge_event(&judge, ticks[CRUISE_PULSE - 1] + 1, 1, HAL_TRACE_STOP, AXIS_CAUSE_HIGH);
     feed(CRUISE_PULSE, (unsigned)done_steps);
     judge_pulse(&judge, done_tick + TICK_HZ / 100U, 1, false);
     assert_found("makes more pulses than its plan or a stop allow");
@@ -291,10 +291,10 @@ void test_9_a_pulse_too_many_after_a_stop_is_found(void)
 
 void test_9_a_pulse_behind_the_end_of_a_limit_run_is_found(void)
 {
-    order.section[0] = (struct motion_section){MOTION_ENDLESS_STEPS, 100, 2000};
+    order.section[0] = motion_order_endless(100, 2000);
     begin();
     judge_pulse(&judge, START + TICK_HZ / 100U, 1, false);
-    judge_event(&judge, START + TICK_HZ / 99U, 1, HAL_TRACE_STOP, HAL_TRACE_STOP_LIMIT);
+    judge_event(&judge, START + TICK_HZ / 99U, 1, HAL_TRACE_STOP, AXIS_CAUSE_LIMIT);
     assert_none();
     judge_pulse(&judge, START + TICK_HZ / 50U, 1, false);
     assert_found("makes more pulses than its plan or a stop allow");

@@ -16,27 +16,27 @@ static struct store store;
 static uint8_t longest[STORE_TEXT_BYTES_MAX];
 static uint8_t loaded[STORE_TEXT_BYTES_MAX];
 
-static enum store_error save(unsigned motor, const char *text)
+static enum store_error save(unsigned slot, const char *text)
 {
-    return store_save(&store, motor, (const uint8_t *)text, (uint32_t)strlen(text));
+    return store_save(&store, slot, (const uint8_t *)text, (uint32_t)strlen(text));
 }
 
 /* The longest text there is, another one each time. */
-static enum store_error save_longest(unsigned motor)
+static enum store_error save_longest(unsigned slot)
 {
     static uint8_t change;
     memset(longest, 'R', sizeof longest);
     longest[sizeof longest - 1] = ++change;
-    return store_save(&store, motor, longest, STORE_TEXT_BYTES_MAX);
+    return store_save(&store, slot, longest, STORE_TEXT_BYTES_MAX);
 }
 
-static void assert_text(unsigned motor, const char *text)
+static void assert_text(unsigned slot, const char *text)
 {
     memset(loaded, 0, sizeof loaded);
-    uint32_t length = store_load(&store, motor, loaded);
+    uint32_t length = store_load(&store, slot, loaded);
     TEST_ASSERT_EQUAL_UINT32(strlen(text), length);
     TEST_ASSERT_EQUAL_STRING(text, loaded);
-    TEST_ASSERT_FALSE(store_is_damaged(&store, motor));
+    TEST_ASSERT_FALSE(store_is_damaged(&store, slot));
 }
 
 static void restart(void)
@@ -59,9 +59,9 @@ void tearDown(void)
 
 void test_erased_flash_holds_nothing(void)
 {
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        TEST_ASSERT_EQUAL_UINT32(0, store_load(&store, motor, loaded));
-        TEST_ASSERT_FALSE(store_is_damaged(&store, motor));
+    for (unsigned slot = 0; slot < STORE_SLOTS; slot++) {
+        TEST_ASSERT_EQUAL_UINT32(0, store_load(&store, slot, loaded));
+        TEST_ASSERT_FALSE(store_is_damaged(&store, slot));
     }
 }
 
@@ -231,7 +231,7 @@ void test_a_restart_finds_what_the_store_knew(void)
 
     TEST_ASSERT_EQUAL_UINT32(before.generation, store.generation);
     TEST_ASSERT_EQUAL_UINT32(before.end, store.end);
-    TEST_ASSERT_EQUAL_UINT32_ARRAY(before.image, store.image, UNIT_MOTORS);
+    TEST_ASSERT_EQUAL_UINT32_ARRAY(before.image, store.image, STORE_SLOTS);
     TEST_ASSERT_EQUAL_UINT8(before.area, store.area);
     TEST_ASSERT_TRUE(store.usable);
 }
@@ -255,8 +255,8 @@ void test_an_area_takes_fifteen_of_the_longest_texts(void)
 void test_the_rotation_takes_eleven_of_the_longest_texts_beside_four_copies(void)
 {
     unsigned stores = 0;
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        (void)save_longest(motor);
+    for (unsigned slot = 0; slot < STORE_SLOTS; slot++) {
+        (void)save_longest(slot);
     }
     store.end = HAL_FLASH_AREA_BYTES;
     (void)save_longest(0);
@@ -265,7 +265,7 @@ void test_the_rotation_takes_eleven_of_the_longest_texts_beside_four_copies(void
         TEST_ASSERT_EQUAL_INT(STORE_OK, save_longest(1));
     }
 
-    TEST_ASSERT_EQUAL_UINT(LONGEST_RECORDS - UNIT_MOTORS, stores);
+    TEST_ASSERT_EQUAL_UINT(LONGEST_RECORDS - STORE_SLOTS, stores);
 }
 
 void test_all_motors_keep_their_texts_when_the_area_changes(void)

@@ -17,7 +17,7 @@ enum {
     LONGEST_RECORDS = (HAL_FLASH_AREA_BYTES - STORE_RECORD_EXTRA_BYTES) / LONGEST_RECORD_BYTES,
 };
 
-static const char *const texts[UNIT_MOTORS] = {
+static const char *const texts[STORE_SLOTS] = {
     "S100V1000A2000@01F1000RW500DRW1000J01",
     "B2000R",
     "L3F500RW200DRW1000E",
@@ -35,15 +35,15 @@ static uint32_t random_below(uint32_t limit)
     return (uint32_t)(((uint64_t)random_state * limit) >> 32U);
 }
 
-static enum store_error save(unsigned motor, const char *text)
+static enum store_error save(unsigned slot, const char *text)
 {
-    return store_save(&store, motor, (const uint8_t *)text, (uint32_t)strlen(text));
+    return store_save(&store, slot, (const uint8_t *)text, (uint32_t)strlen(text));
 }
 
-static bool is_there(unsigned motor, const char *text)
+static bool is_there(unsigned slot, const char *text)
 {
-    uint32_t length = store_load(&store, motor, loaded);
-    return !store_is_damaged(&store, motor) && length == strlen(text) && memcmp(loaded, text, length) == 0;
+    uint32_t length = store_load(&store, slot, loaded);
+    return !store_is_damaged(&store, slot) && length == strlen(text) && memcmp(loaded, text, length) == 0;
 }
 
 static void restart(void)
@@ -55,13 +55,13 @@ static void restart(void)
 /* Old texts, then the ones that count; the other area has old texts too. */
 static void save_all(void)
 {
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        (void)save(motor, "OLD");
+    for (unsigned slot = 0; slot < STORE_SLOTS; slot++) {
+        (void)save(slot, "OLD");
     }
     store.end = HAL_FLASH_AREA_BYTES;
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        (void)save(motor, "OLDER");
-        (void)save(motor, texts[motor]);
+    for (unsigned slot = 0; slot < STORE_SLOTS; slot++) {
+        (void)save(slot, "OLDER");
+        (void)save(slot, texts[slot]);
     }
 }
 
@@ -69,12 +69,12 @@ static void save_all(void)
 static unsigned count_damaged(void)
 {
     unsigned damaged = 0;
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        if (store_is_damaged(&store, motor)) {
+    for (unsigned slot = 0; slot < STORE_SLOTS; slot++) {
+        if (store_is_damaged(&store, slot)) {
             damaged++;
-            TEST_ASSERT_EQUAL_UINT32(0, store_load(&store, motor, loaded));
+            TEST_ASSERT_EQUAL_UINT32(0, store_load(&store, slot, loaded));
         } else {
-            TEST_ASSERT_TRUE(is_there(motor, texts[motor]));
+            TEST_ASSERT_TRUE(is_there(slot, texts[slot]));
         }
     }
     return damaged;
@@ -92,9 +92,9 @@ static void break_heads(unsigned area, uint32_t offset)
     machine.flash[area][offset + STORE_HEAD_BYTES + 5] ^= 1U;
 }
 
-static void break_text(unsigned motor)
+static void break_text(unsigned slot)
 {
-    machine.flash[store.area][store.image[motor] + HEADS_BYTES] ^= 1U;
+    machine.flash[store.area][store.image[slot] + HEADS_BYTES] ^= 1U;
 }
 
 static void put_number(uint8_t *bytes, unsigned count, uint32_t number)
@@ -105,13 +105,13 @@ static void put_number(uint8_t *bytes, unsigned count, uint32_t number)
 }
 
 /* A head whose CRC is right, whatever its fields. */
-static void forge_head(unsigned area, uint32_t offset, uint32_t length, unsigned motor)
+static void forge_head(unsigned area, uint32_t offset, uint32_t length, unsigned slot)
 {
     uint8_t *head = &machine.flash[area][offset];
     memcpy(head, "RK4\1", 4);
     put_number(&head[4], 4, 1);
     put_number(&head[8], 2, length);
-    put_number(&head[10], 2, motor);
+    put_number(&head[10], 2, slot);
     put_number(&head[12], 4, 0);
     put_number(&head[16], 4, crc32_append(0, head, 16));
     memcpy(&head[STORE_HEAD_BYTES], head, STORE_HEAD_BYTES);
@@ -196,12 +196,12 @@ void test_garbage_holds_no_text_and_can_be_stored_to(void)
             machine.flash[1][byte] = (uint8_t)random_below(UINT8_MAX + 1);
         }
         restart();
-        for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-            TEST_ASSERT_EQUAL_UINT32(0, store_load(&store, motor, loaded));
+        for (unsigned slot = 0; slot < STORE_SLOTS; slot++) {
+            TEST_ASSERT_EQUAL_UINT32(0, store_load(&store, slot, loaded));
         }
 
-        for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-            TEST_ASSERT_EQUAL_INT(STORE_OK, save(motor, texts[motor]));
+        for (unsigned slot = 0; slot < STORE_SLOTS; slot++) {
+            TEST_ASSERT_EQUAL_INT(STORE_OK, save(slot, texts[slot]));
         }
 
         restart();
@@ -312,7 +312,7 @@ void test_a_record_without_readable_heads_damages_all_motors(void)
 
     restart();
 
-    TEST_ASSERT_EQUAL_UINT(UNIT_MOTORS, count_damaged());
+    TEST_ASSERT_EQUAL_UINT(STORE_SLOTS, count_damaged());
 }
 
 void test_after_a_record_without_readable_heads_texts_can_be_stored(void)
@@ -337,7 +337,7 @@ void test_the_texts_of_an_area_that_is_void_are_never_taken(void)
 
     restart();
 
-    TEST_ASSERT_EQUAL_UINT(UNIT_MOTORS, count_damaged());
+    TEST_ASSERT_EQUAL_UINT(STORE_SLOTS, count_damaged());
 }
 
 void test_an_area_that_is_void_tells_that_texts_have_been_lost(void)
@@ -347,7 +347,7 @@ void test_an_area_that_is_void_tells_that_texts_have_been_lost(void)
 
     restart();
 
-    TEST_ASSERT_EQUAL_UINT(UNIT_MOTORS, count_damaged());
+    TEST_ASSERT_EQUAL_UINT(STORE_SLOTS, count_damaged());
 }
 
 void test_an_area_whose_begin_is_unreadable_damages_all_motors(void)
@@ -357,7 +357,7 @@ void test_an_area_whose_begin_is_unreadable_damages_all_motors(void)
 
     restart();
 
-    TEST_ASSERT_EQUAL_UINT(UNIT_MOTORS, count_damaged());
+    TEST_ASSERT_EQUAL_UINT(STORE_SLOTS, count_damaged());
 }
 
 /* With the present area in either place. */
@@ -389,11 +389,11 @@ void test_a_cut_store_after_all_was_lost_brings_no_old_text_back(int moves)
 /* Heads that are right in themselves but cannot be ours. */
 TEST_CASE(STORE_TEXT_BYTES_MAX, 0, STORE_RECORD_UNFINISHED)
 TEST_CASE(STORE_TEXT_BYTES_MAX + 1, 0, STORE_RECORD_LOST)
-TEST_CASE(0, UNIT_MOTORS - 1, STORE_RECORD_UNFINISHED)
-TEST_CASE(0, UNIT_MOTORS, STORE_RECORD_LOST)
-void test_a_head_is_readable_within_its_limits(int length, int motor, int state)
+TEST_CASE(0, STORE_SLOTS - 1, STORE_RECORD_UNFINISHED)
+TEST_CASE(0, STORE_SLOTS, STORE_RECORD_LOST)
+void test_a_head_is_readable_within_its_limits(int length, int slot, int state)
 {
-    forge_head(0, STORE_RECORD_EXTRA_BYTES, (uint32_t)length, (unsigned)motor);
+    forge_head(0, STORE_RECORD_EXTRA_BYTES, (uint32_t)length, (unsigned)slot);
 
     TEST_ASSERT_EQUAL_INT(state, store_record_read(0, STORE_RECORD_EXTRA_BYTES).state);
 }

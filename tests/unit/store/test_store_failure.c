@@ -16,15 +16,15 @@ static struct store store;
 static struct store store_before;
 static uint8_t loaded[STORE_TEXT_BYTES_MAX];
 
-static enum store_error save(unsigned motor, const char *text)
+static enum store_error save(unsigned slot, const char *text)
 {
-    return store_save(&store, motor, (const uint8_t *)text, (uint32_t)strlen(text));
+    return store_save(&store, slot, (const uint8_t *)text, (uint32_t)strlen(text));
 }
 
-static void assert_text(unsigned motor, const char *text)
+static void assert_text(unsigned slot, const char *text)
 {
-    uint32_t length = store_load(&store, motor, loaded);
-    TEST_ASSERT_FALSE(store_is_damaged(&store, motor));
+    uint32_t length = store_load(&store, slot, loaded);
+    TEST_ASSERT_FALSE(store_is_damaged(&store, slot));
     TEST_ASSERT_EQUAL_UINT32(strlen(text), length);
     TEST_ASSERT_EQUAL_INT(0, memcmp(loaded, text, length));
 }
@@ -56,7 +56,7 @@ static void take_back(void)
     store = store_before;
 }
 
-/* Lets each operation of storing "NEW TEXT" for motor 1 fail, in each way. */
+/* Lets each operation of storing "NEW TEXT" for slot 1 fail, in each way. */
 static void fail_everywhere(const char *zero, const char *one)
 {
     keep();
@@ -167,7 +167,7 @@ void test_a_failed_store_can_be_cut_when_it_has_been_made_void(void)
     assert_texts("F1000R", "");
 }
 
-/* In a head, in the text or far behind them a byte has worn out: it reads 0. */
+/* In a head, in the text or far after them a byte has worn out: it reads 0. */
 TEST_CASE(0)
 TEST_CASE(20)
 TEST_CASE(40)
@@ -215,11 +215,11 @@ void test_a_part_without_the_memory_keeps_nothing_and_says_so(void)
     (void)save(0, "F1000R");
     machine.faults.no_flash = true;
     store_init(&store);
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        TEST_ASSERT_TRUE(store_is_damaged(&store, motor));
-        TEST_ASSERT_EQUAL_UINT32(0, store_load(&store, motor, loaded));
-        TEST_ASSERT_EQUAL_INT(STORE_WRITE_FAILED, save(motor, "B500R"));
-        TEST_ASSERT_TRUE(store_is_damaged(&store, motor));
+    for (unsigned slot = 0; slot < STORE_SLOTS; slot++) {
+        TEST_ASSERT_TRUE(store_is_damaged(&store, slot));
+        TEST_ASSERT_EQUAL_UINT32(0, store_load(&store, slot, loaded));
+        TEST_ASSERT_EQUAL_INT(STORE_WRITE_FAILED, save(slot, "B500R"));
+        TEST_ASSERT_TRUE(store_is_damaged(&store, slot));
     }
     uint8_t word[HAL_FLASH_WORD_BYTES] = {0};
     TEST_ASSERT_FALSE(hal_flash_write_word(0, 0, word));
@@ -236,7 +236,7 @@ void test_a_silent_failure_is_noticed(void)
     go_wrong_everywhere();
 }
 
-/* What is left of old records lies in the way of the copies, or behind them. */
+/* What is left of old records lies in the way of the copies, or after them. */
 TEST_CASE(0)
 TEST_CASE(HAL_FLASH_AREA_BYTES - 4)
 void test_a_silent_failure_while_the_area_changes_is_noticed(uint32_t left)

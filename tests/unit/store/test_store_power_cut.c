@@ -24,7 +24,7 @@ struct text {
 static struct host_machine machine;
 static uint8_t flash_before[HAL_FLASH_AREAS][HAL_FLASH_AREA_BYTES];
 static struct store store;
-static struct text known[UNIT_MOTORS]; /* what must be there */
+static struct text known[STORE_SLOTS]; /* what must be there */
 static struct text fresh;              /* what is being stored */
 static uint8_t loaded[STORE_TEXT_BYTES_MAX];
 static uint32_t random_state;
@@ -54,44 +54,44 @@ static void restart(void)
     store_init(&store);
 }
 
-static bool is_there(unsigned motor, const struct text *text)
+static bool is_there(unsigned slot, const struct text *text)
 {
-    return !store_is_damaged(&store, motor) && store_load(&store, motor, loaded) == text->length &&
+    return !store_is_damaged(&store, slot) && store_load(&store, slot, loaded) == text->length &&
            memcmp(loaded, text->bytes, text->length) == 0;
 }
 
 static void assert_all_known(void)
 {
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        TEST_ASSERT_TRUE(is_there(motor, &known[motor]));
+    for (unsigned slot = 0; slot < STORE_SLOTS; slot++) {
+        TEST_ASSERT_TRUE(is_there(slot, &known[slot]));
     }
 }
 
-/* After a cut of storing `fresh`: its motor has the old text or the new one, the others theirs. */
-static void assert_old_or_new(unsigned stored_motor)
+/* After a cut of storing `fresh`: its slot has the old text or the new one, the others theirs. */
+static void assert_old_or_new(unsigned stored_slot)
 {
     points++;
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        if (motor != stored_motor || is_there(motor, &known[motor])) {
-            old_seen += motor == stored_motor ? 1U : 0U;
-            TEST_ASSERT_TRUE(is_there(motor, &known[motor]));
+    for (unsigned slot = 0; slot < STORE_SLOTS; slot++) {
+        if (slot != stored_slot || is_there(slot, &known[slot])) {
+            old_seen += slot == stored_slot ? 1U : 0U;
+            TEST_ASSERT_TRUE(is_there(slot, &known[slot]));
         } else {
             new_seen++;
-            TEST_ASSERT_TRUE(is_there(motor, &fresh));
+            TEST_ASSERT_TRUE(is_there(slot, &fresh));
         }
     }
 }
 
-static enum store_error save_fresh(unsigned motor)
+static enum store_error save_fresh(unsigned slot)
 {
-    return store_save(&store, motor, fresh.bytes, fresh.length);
+    return store_save(&store, slot, fresh.bytes, fresh.length);
 }
 
-static void save_known(unsigned motor, uint32_t length)
+static void save_known(unsigned slot, uint32_t length)
 {
     make_text(&fresh, length);
-    TEST_ASSERT_EQUAL_INT(STORE_OK, save_fresh(motor));
-    known[motor] = fresh;
+    TEST_ASSERT_EQUAL_INT(STORE_OK, save_fresh(slot));
+    known[slot] = fresh;
 }
 
 static void keep_flash(void)
@@ -106,10 +106,10 @@ static void restore_flash(void)
     store.end = area_is_full ? HAL_FLASH_AREA_BYTES : store.end;
 }
 
-static uint32_t count_operations(unsigned motor)
+static uint32_t count_operations(unsigned slot)
 {
     restore_flash();
-    TEST_ASSERT_EQUAL_INT(STORE_OK, save_fresh(motor));
+    TEST_ASSERT_EQUAL_INT(STORE_OK, save_fresh(slot));
     uint32_t operations = machine.flash_operations;
     restore_flash();
     return operations;
@@ -122,7 +122,7 @@ static void cut_at(uint32_t operation, unsigned done)
 }
 
 /* The power fails a second time while the store looks for its images; the third time it comes up. */
-static void cut_recovery(unsigned motor, uint32_t operations)
+static void cut_recovery(unsigned slot, uint32_t operations)
 {
     static uint8_t flash[HAL_FLASH_AREAS][HAL_FLASH_AREA_BYTES];
     memcpy(flash, machine.flash, sizeof flash);
@@ -133,49 +133,49 @@ static void cut_recovery(unsigned motor, uint32_t operations)
             cut_at(operation, done);
             store_init(&store);
             restart();
-            assert_old_or_new(motor);
+            assert_old_or_new(slot);
         }
     }
     memcpy(machine.flash, flash, sizeof flash);
 }
 
-static void cut_save(unsigned motor, uint32_t operation, unsigned done)
+static void cut_save(unsigned slot, uint32_t operation, unsigned done)
 {
     restore_flash();
     cut_at(operation, done);
-    (void)save_fresh(motor);
+    (void)save_fresh(slot);
     TEST_ASSERT_GREATER_OR_EQUAL_UINT32(operation, machine.flash_operations);
     host_machine_restart(&machine);
     static uint8_t flash[HAL_FLASH_AREAS][HAL_FLASH_AREA_BYTES];
     memcpy(flash, machine.flash, sizeof flash);
     store_init(&store);
     uint32_t operations = machine.flash_operations;
-    assert_old_or_new(motor);
+    assert_old_or_new(slot);
     if (operations > 0) {
         memcpy(machine.flash, flash, sizeof flash);
-        cut_recovery(motor, operations);
+        cut_recovery(slot, operations);
         restart();
     }
 }
 
 /* Cuts the store of `fresh` at each operation and in each way, and then does it. */
-static void sweep(unsigned motor, bool full)
+static void sweep(unsigned slot, bool full)
 {
     area_is_full = full;
     keep_flash();
-    uint32_t operations = count_operations(motor);
+    uint32_t operations = count_operations(slot);
     bool all = getenv("RKM04_LONG") != NULL;
     for (uint32_t operation = 1; operation <= operations; operation++) {
         bool near_an_end = operation <= SWEEP_OPERATIONS || operation + SWEEP_OPERATIONS > operations;
         if (all || near_an_end || operation % SWEEP_STRIDE == 0) {
             for (unsigned done = 0; done < FLASH_DONE_KINDS; done++) {
-                cut_save(motor, operation, done);
+                cut_save(slot, operation, done);
             }
         }
     }
     restore_flash();
-    TEST_ASSERT_EQUAL_INT(STORE_OK, save_fresh(motor));
-    known[motor] = fresh;
+    TEST_ASSERT_EQUAL_INT(STORE_OK, save_fresh(slot));
+    known[slot] = fresh;
     area_is_full = false;
     restart();
     assert_all_known();
@@ -214,9 +214,9 @@ void test_a_cut_at_any_operation_of_many_stores_leaves_the_old_text_or_the_new_o
     for (unsigned i = 0; i < 80; i++) {
         make_text(&fresh, random_below(40));
 
-        sweep(random_below(UNIT_MOTORS), i % 5 == 0);
+        sweep(random_below(STORE_SLOTS), i % 5 == 0);
 
-        save_known(random_below(UNIT_MOTORS), random_below(200));
+        save_known(random_below(STORE_SLOTS), random_below(200));
     }
     TEST_ASSERT_GREATER_THAN_UINT(0, old_seen);
     TEST_ASSERT_GREATER_THAN_UINT(0, new_seen);
@@ -232,8 +232,8 @@ void test_a_cut_of_a_store_of_the_longest_text_leaves_the_old_text_or_the_new_on
 
 void test_a_cut_while_the_area_changes_leaves_the_old_text_or_the_new_one(void)
 {
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        save_known(motor, random_below(20));
+    for (unsigned slot = 0; slot < STORE_SLOTS; slot++) {
+        save_known(slot, random_below(20));
     }
     for (unsigned i = 0; i < 4; i++) {
         unsigned area = store.area;
@@ -255,7 +255,7 @@ void test_a_cut_while_the_area_changes_leaves_the_old_text_or_the_new_one(void)
 void test_a_cut_while_an_area_full_of_the_longest_texts_changes_leaves_the_old_text_or_the_new_one(void)
 {
     for (unsigned i = 0; i < 15; i++) {
-        save_known(i % UNIT_MOTORS, STORE_TEXT_BYTES_MAX);
+        save_known(i % STORE_SLOTS, STORE_TEXT_BYTES_MAX);
     }
     make_text(&fresh, STORE_TEXT_BYTES_MAX);
     unsigned area = store.area;
@@ -267,7 +267,7 @@ void test_a_cut_while_an_area_full_of_the_longest_texts_changes_leaves_the_old_t
 
 void test_after_a_cut_the_store_works_on(void)
 {
-    static struct text known_before[UNIT_MOTORS];
+    static struct text known_before[STORE_SLOTS];
     struct text interrupted;
     save_known(0, 9);
     make_text(&interrupted, 17);
@@ -280,8 +280,8 @@ void test_after_a_cut_the_store_works_on(void)
         fresh = interrupted;
         cut_save(1, operation, operation % FLASH_DONE_KINDS);
 
-        for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-            save_known(motor, 5 + motor);
+        for (unsigned slot = 0; slot < STORE_SLOTS; slot++) {
+            save_known(slot, 5 + slot);
         }
 
         restart();
@@ -290,7 +290,7 @@ void test_after_a_cut_the_store_works_on(void)
 }
 
 /* A store is cut, and the one that follows it is cut again: at every pair of operations. */
-static void sweep_pairs(unsigned motor, bool full)
+static void sweep_pairs(unsigned slot, bool full)
 {
     static uint8_t flash_at_start[HAL_FLASH_AREAS][HAL_FLASH_AREA_BYTES];
     area_is_full = full;
@@ -301,17 +301,17 @@ static void sweep_pairs(unsigned motor, bool full)
         memcpy(flash_before, flash_at_start, sizeof flash_before);
         restore_flash();
         cut_at(first, first % FLASH_DONE_KINDS);
-        (void)save_fresh(motor);
+        (void)save_fresh(slot);
         bool cut = machine.flash_operations >= first;
         restart();
         keep_flash();
         for (uint32_t second = 1;; second++) {
             restore_flash();
             cut_at(second, second % FLASH_DONE_KINDS);
-            (void)save_fresh(motor);
+            (void)save_fresh(slot);
             bool cut_again = machine.flash_operations >= second;
             restart();
-            assert_old_or_new(motor);
+            assert_old_or_new(slot);
             if (!cut_again) {
                 break;
             }

@@ -3,7 +3,7 @@
  * phases that a generator of random numbers chooses: an edge is armed, and the channel halted somewhere around it; or
  * an edge is armed shortly before its time, and a second one follows so soon that the interrupt comes just in time for
  * it, or too late. What the channels have counted stands in `disarm_report`; what the pins have shown is known to the
- * virtual board. Built with the image (target rkm04_disarm).
+ * virtual board. Built with the image (target disarm_image).
  */
 #include "hal_board.h"
 #include "hal_run.h"

@@ -103,7 +103,7 @@ int main(void)
     return 0;
 }
 #elif defined MOVES
-/* PWM mode 2, a free-running counter: the value is written ahead of the counter and behind it. */
+/* PWM mode 2, a free-running counter: the value is written ahead of the counter and after it. */
 int main(void)
 {
     start(0xFFFFFFFF);
@@ -126,7 +126,7 @@ int main(void)
     TIM_SR(TIM2) = ~(uint32_t)FLAG1;
     TIM_CCR(TIM2, 1) = 60;
     note_pin();
-    TIM_CCR(TIM2, 1) = 30; /* behind: high at once, and no match */
+    TIM_CCR(TIM2, 1) = 30; /* after: high at once, and no match */
     note_pin();
     note(TIM_SR(TIM2) & FLAG1);
     TIM_CCR(TIM2, 1) = 60;

@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from rkm04_tools.check import Checked, Diagnostic, check_source
-from rkm04_tools.complaint import CONDITION, NUMBER
 from rkm04_tools.failure import Failure
-from rkm04_tools.lint import stored
+from rkm04_tools.host import stored
 from rkm04_tools.record import read_inputs
 from rkm04_tools.service.trouble import as_json
 from rkm04_tools.source import Source, read_source
@@ -27,7 +26,7 @@ def check(text: str) -> dict[str, Any]:
     checked = check_source(Source(NAME, text))
     told = checked.diagnostics[:PROBLEMS_MAX]
     return {
-        "problems": [_problem(checked.source, each) for each in told],
+        "problems": [_problem(each) for each in told],
         "more": len(checked.diagnostics) - len(told) + checked.parsed.more,
         "commands": len(stored(checked.parsed.commands)),
     }
@@ -58,20 +57,12 @@ def _example(path: Path) -> dict[str, Any]:
     return {"name": path.name, "text": read_source(path).text, "inputs": rows}
 
 
-def _problem(source: Source, diagnostic: Diagnostic) -> dict[str, Any]:
+def _problem(diagnostic: Diagnostic) -> dict[str, Any]:
     place = diagnostic.place
     return {
         "line": place.line,
         "column": place.column,
-        "end_column": place.column + _width(source.line(place.line)[place.column - 1 :]),
+        "end_column": diagnostic.end_column,
         "severity": diagnostic.severity,
         "message": diagnostic.message,
     }
-
-
-def _width(rest: str) -> int:
-    """Characters of the command that a line has at a place; of an unclosed comment, all of it."""
-    if rest.startswith("{"):
-        return len(rest)
-    match = (CONDITION if rest.startswith("I") else NUMBER).match(rest, 1)
-    return max(1, match.end() if match else 1)

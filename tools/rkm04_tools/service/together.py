@@ -9,10 +9,10 @@ from dataclasses import replace
 from rkm04_tools.check import check_source
 from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.line import Motor, Unit
-from rkm04_tools.lint import COMMANDS_MAX
 from rkm04_tools.messages import ALL_MOTORS, MOTORS
 from rkm04_tools.sending import (
     BRACKETS,
+    COMMANDS_MAX,
     POLL_SECONDS,
     STAND_SECONDS,
     Plan,

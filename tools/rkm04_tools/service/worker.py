@@ -123,7 +123,7 @@ class Worker:
         self._thread.start()
 
     def give(self, order: Work, asked: Asked) -> None:
-        """Put an order behind those that wait."""
+        """Put an order after those that wait."""
         with self._wakes:
             if len(self._waiting) >= ORDERS_MAX:
                 raise Failure("too much is waiting for the line; wait for the answers")

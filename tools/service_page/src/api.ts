@@ -1,3 +1,4 @@
+import { NoEngine, engine } from "./engine";
 import type { Curve, CurveRequest, Example, Trouble, Verdict } from "./protocol";
 import { troubleText } from "./trouble";
 
@@ -22,18 +23,28 @@ async function post<T>(path: string, body: unknown): Promise<T | null> {
     return answer;
 }
 
+/** What the page does itself where there is no service. */
+async function alone<T>(work: Promise<T>): Promise<T> {
+    return work.catch((error: unknown) => {
+        throw error instanceof NoEngine ? new Refused(error.message) : error;
+    });
+}
+
 /** What the firmware's parser says of a program. */
 export async function checkProgram(text: string): Promise<Verdict> {
-    const answer = await post<Verdict>("/api/check", { text });
+    const answer = engine ? await alone(engine.check(text)) : await post<Verdict>("/api/check", { text });
     return answer ?? { problems: [] };
 }
 
 /** What programs would do; null if a later call took the place of this one. */
 export function computeCurve(request: CurveRequest): Promise<Curve | null> {
-    return post<Curve>("/api/curve", request);
+    return engine ? alone(engine.curve(request)) : post<Curve>("/api/curve", request);
 }
 
 export async function fetchExamples(): Promise<Example[]> {
+    if (engine) {
+        return engine.examples;
+    }
     const response = await fetch("/api/examples");
     return response.ok ? ((await response.json()) as Example[]) : [];
 }

@@ -1,4 +1,5 @@
 import { byId, make } from "./dom";
+import { engine } from "./engine";
 import { language, numberText, t } from "./i18n";
 import type { Link } from "./link";
 import type { Presence } from "./presence";
@@ -128,7 +129,7 @@ export class Connection {
         const state = this.#state;
         const isOpen = this.#link.isOpen.value;
         const isFresh = this.#presence.isFresh.value;
-        const isBad = !isOpen || (state?.error && !state.connected);
+        const isBad = (!isOpen && engine === null) || (state?.error && !state.connected);
         this.#pill.dataset.kind = isFresh ? "good" : isBad ? "bad" : "idle";
         const [place, ...more] = this.#stateText(isOpen, isFresh);
         this.#pill.replaceChildren(
@@ -150,6 +151,9 @@ export class Connection {
     }
 
     #troubleText(isOpen: boolean): string {
+        if (engine !== null) {
+            return "";
+        }
         if (!isOpen) {
             return t("state.lost");
         }
@@ -160,6 +164,9 @@ export class Connection {
     /** The place first, which gives way where there is no room for it. */
     #stateText(isOpen: boolean, isFresh: boolean): string[] {
         const state = this.#state;
+        if (engine !== null) {
+            return [t("alone.state")];
+        }
         if (!isOpen) {
             return [t("state.noService")];
         }

@@ -38,6 +38,11 @@ export const cs: Dictionary = {
         + "Stránka se znovu spojí sama; pokud ne, spusťte tools/rkm04 service.",
     "state.notSent": "Neodesláno: servisní program neodpovídá",
 
+    "alone.state": "bez jednotky: jen programy",
+    "alone.noWebAssembly":
+        "Tento prohlížeč nemá WebAssembly, které zde kontroluje a simuluje. Použijte jiný, nebo tools/rkm04 service.",
+    "alone.failed": "Simulátor v této stránce selhal; načtěte stránku znovu.",
+
     "message.title": "Povely jednotce",
     "message.motor": "Motor",
     "message.type": "Typ zprávy",
@@ -176,7 +181,7 @@ export const cs: Dictionary = {
     "live.failed": "chyba: {error}",
     "live.late": "opožděné kroky {count}",
     "live.line": "chyby na lince {faults}, opakování {repeats}",
-    "live.lineTitle": "Co jednotka na lince napočítala, jména jsou z firmware/docs/line.md",
+    "live.lineTitle": "Co jednotka na lince napočítala, jména jsou z firmware/rkm04/docs/line.md",
     "live.causeReset": "spuštěna resetem",
     "live.causeWatchdog": "restartována hlídačem",
     "live.causeFault": "restartována po poruše",

@@ -46,7 +46,7 @@ function lineOf(one: MotorCurve, quantity: Quantity): Line {
     return { xs: increasing(xs), ys };
 }
 
-/** Value of a polyline at `x`, from the index of the last point that is not behind it; null outside. */
+/** Value of a polyline at `x`, from the index of the last point that is not after it; null outside. */
 function between({ xs, ys }: Line, index: number, x: number): number | null {
     const [x0, y0] = [xs[index], ys[index]];
     if (x0 === undefined || y0 === undefined) {

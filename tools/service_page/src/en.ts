@@ -36,6 +36,11 @@ export const en = {
         + "The page connects again by itself; if it does not, start tools/rkm04 service.",
     "state.notSent": "Not sent: the service program does not answer",
 
+    "alone.state": "no unit: programs only",
+    "alone.noWebAssembly":
+        "This browser has no WebAssembly, which checks and simulates here. Take one that has it, or tools/rkm04 service.",
+    "alone.failed": "The simulator in this page has failed; load the page again.",
+
     "message.title": "To the unit",
     "message.motor": "Motor",
     "message.type": "Message",
@@ -174,7 +179,7 @@ export const en = {
     "live.failed": "failed: {error}",
     "live.late": "late steps {count}",
     "live.line": "faults on the line {faults}, repeats {repeats}",
-    "live.lineTitle": "What the unit has counted on the line, by the names of firmware/docs/line.md",
+    "live.lineTitle": "What the unit has counted on the line, by the names of firmware/rkm04/docs/line.md",
     "live.causeReset": "started by a reset",
     "live.causeWatchdog": "restarted by the watchdog",
     "live.causeFault": "restarted by a fault",

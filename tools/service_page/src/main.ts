@@ -2,6 +2,7 @@ import { AllPrograms } from "./all_programs";
 import { Commands } from "./commands";
 import { Connection } from "./connection";
 import { byId } from "./dom";
+import { engine } from "./engine";
 import { setUpLanguage, t } from "./i18n";
 import { Link } from "./link";
 import { LiveView } from "./live";
@@ -77,4 +78,9 @@ link.isOpen.onChange((isOpen) => {
     }
 });
 plan.programsChanged();
-link.open();
+if (engine === null) {
+    link.open();
+} else {
+    programs.check();
+    document.body.dataset.alone = "true";
+}

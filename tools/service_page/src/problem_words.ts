@@ -12,7 +12,7 @@ const CZECH: readonly (readonly [pattern: RegExp, words: string])[] = [
     [/^there is no label (\d+) \(@\d+\) in this file$/, "v programu není návěští $1 (@$1)"],
     [/^this loop is nested too deeply; at most (\d+) can be open$/, "příliš vnořená smyčka; nejvýše $1"],
     [/^E without an L before it$/, "E bez předchozího L"],
-    [/^(\S+) without an E behind it$/, "$1 bez následujícího E"],
+    [/^(\S+) without an E after it$/, "$1 bez následujícího E"],
     [/^calls can become more than (\d+) deep here$/, "volání zde může být hlubší než $1"],
     [/^(.+) is never reached$/, "$1 se nikdy neprovede"],
     [/^(\S+) is below (\S+); the move runs at (\S+) throughout$/, "$1 je pod $2; celý pohyb poběží rychlostí $3"],

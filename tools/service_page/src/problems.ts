@@ -3,7 +3,7 @@ import type { Text } from "@codemirror/state";
 import type { Problem } from "./protocol";
 import { translateProblem } from "./problem_words";
 
-/** Columns count characters, the editor counts UTF-16 units: they differ behind characters outside the BMP. */
+/** Columns count characters, the editor counts UTF-16 units: they differ after characters outside the BMP. */
 function unitsBefore(line: string, column: number): number {
     return Array.from(line).slice(0, column - 1).join("").length;
 }

@@ -61,7 +61,7 @@ export interface UnitState {
     seen_ago_s: number | null;
 }
 
-/** What a motor does; see firmware/docs/messages.md, Get Status. An original unit tells positions only. */
+/** What a motor does; see firmware/rkm04/docs/messages.md, Get Status. An original unit tells positions only. */
 export interface MotorLive {
     position: number;
     /** Steps/s, negative backward; null: not known. */

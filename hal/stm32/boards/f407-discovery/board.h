@@ -91,7 +91,7 @@
 #define BOARD_LED_LEVEL 1U
 #define BOARD_S1_LEVEL 0U
 
-/* What the drivers of the motors need at least: STEP high, STEP low, DIR before and behind a rising edge of STEP. These
+/* What the drivers of the motors need at least: STEP high, STEP low, DIR before and after a rising edge of STEP. These
  * are those of common drivers with opto-isolated inputs. */
 #define BOARD_STEP_HIGH_NS 2500U
 #define BOARD_STEP_LOW_NS 2500U

@@ -1,0 +1,171 @@
+#include "path.h"
+
+#include <stddef.h>
+
+#include "path_lay.h"
+#include "path_look.h"
+#include "path_segment.h"
+
+/* From so many ticks on an interval tells the generator nothing about the next one. */
+static const uint64_t GAP_TICKS = UINT64_C(1) << 30;
+
+void path_init(struct path *path, struct path_section *ring, uint32_t size, uint32_t turn_us)
+{
+    *path = (struct path){.ring = ring, .size = size, .turn_us = turn_us};
+}
+
+bool path_is_laid(const struct path *path)
+{
+    return path->laid == path->known;
+}
+
+bool path_add(struct path *path, const struct path_vector *vector)
+{
+    if (path->end - path->first == path->size) {
+        return false;
+    }
+    struct path_section *section = path_section_of(path, path->end);
+    path_section_take(section, vector);
+    if (path->end != path->first) {
+        path_section_mind_turns(section, path_section_of(path, path->end - 1U), path->turn_us);
+    }
+    path->end++;
+    if (!path->stopping && !path_is_laid(path)) {
+        path->known = path->end;
+        path_look(path);
+    }
+    return true;
+}
+
+bool path_lags(const struct path *path)
+{
+    if (path->stopping) {
+        return false;
+    }
+    if (path_is_laid(path)) {
+        return path->known != path->end;
+    }
+    uint64_t exit2 = path_section_of(path, path->laid - 1U)->exit2;
+    return path->held_back && path_look_brakeable(path, path->laid) > exit2;
+}
+
+bool path_start(struct path *path, uint64_t start_tick)
+{
+    if (path->rest.section == path->end) {
+        return false;
+    }
+    struct path_place place = path->rest;
+    place.entry.time = (struct wide){.high = start_tick};
+    path->stopping = false;
+    path_lay_begin(path, &place);
+    return true;
+}
+
+/* Whether there is a section that has been laid, or now is; not one that begins at `until_tick` or later. */
+static bool reach(struct path *path, uint32_t section, uint64_t until_tick)
+{
+    if (section != path->laid) {
+        return true;
+    }
+    if (path_is_laid(path) || path->next.time.high >= until_tick) {
+        return false;
+    }
+    path_lay_next(path);
+    return true;
+}
+
+static void enter_section(struct path_cursor *cursor)
+{
+    cursor->section++;
+    cursor->pulse = 1;
+    cursor->leg = 0;
+    cursor->entered = false;
+    cursor->section_begins = true;
+}
+
+/* Puts the cursor on the leg with its next pulse; false if there is none in its section. */
+static bool seek_leg(struct path_cursor *cursor, const struct path_course *course, uint32_t steps)
+{
+    for (; cursor->leg < course->legs; cursor->leg++) {
+        if (!cursor->entered) {
+            cursor->last = path_course_last_pulse(course, course->leg[cursor->leg].end, steps);
+            cursor->leg_begins = true;
+            cursor->entered = true;
+        }
+        if (cursor->pulse <= cursor->last) {
+            return true;
+        }
+        cursor->entered = false;
+    }
+    return false;
+}
+
+/* Puts the cursor of an axis on its next pulse and returns its course; NULL if there is none so far. */
+static const struct path_course *seek(struct path *path, unsigned axis, uint64_t until_tick)
+{
+    struct path_cursor *cursor = &path->axis[axis];
+    while (reach(path, cursor->section, until_tick)) {
+        uint32_t steps = path_section_steps(path_section_of(path, cursor->section), axis);
+        const struct path_course *course = path_lay_course(path, cursor->section);
+        if (seek_leg(cursor, course, steps)) {
+            return course;
+        }
+        if (cursor->section + 1U == path->known) {
+            break;
+        }
+        enter_section(cursor);
+    }
+    return NULL;
+}
+
+/* Whether the interval before a pulse may mislead the generator. */
+static bool is_alone(const struct path_cursor *cursor, const struct path_course *course, uint32_t steps,
+                     const struct path_pulse *at)
+{
+    const struct path_leg *leg = &course->leg[cursor->leg];
+    bool gap = cursor->fresh || path_segment_tick(at) - cursor->before >= GAP_TICKS;
+    bool brakes = leg->accel < 0 && cursor->leg_begins;
+    return gap || (brakes && (cursor->section_begins || !path_segment_is_fast(course, leg, steps, at)));
+}
+
+static void hand_over(struct path_cursor *cursor, const struct path_segment *segment)
+{
+    cursor->before = segment->tick;
+    cursor->pulse += segment->segment.steps;
+    cursor->fresh = false;
+    cursor->section_begins = false;
+    cursor->leg_begins = false;
+}
+
+bool path_next(struct path *path, unsigned axis, uint64_t until_tick, struct path_segment *segment)
+{
+    struct path_cursor *cursor = &path->axis[axis];
+    const struct path_course *course = seek(path, axis, until_tick);
+    if (course == NULL) {
+        return false;
+    }
+    const struct path_section *section = path_section_of(path, cursor->section);
+    const struct path_leg *leg = &course->leg[cursor->leg];
+    struct path_stretch stretch = {
+        .steps = path_section_steps(section, axis), .pulse = cursor->pulse, .last = cursor->last};
+    struct path_pulse at = path_course_pulse(course, leg, stretch.steps, stretch.pulse);
+    stretch.alone = is_alone(cursor, course, stretch.steps, &at);
+    segment->tick = path_segment_tick(&at);
+    if (segment->tick >= until_tick) {
+        return false;
+    }
+    segment->segment = path_segment_lay(course, leg, &stretch, &at);
+    segment->backward = section->vector.steps[axis] < 0;
+    hand_over(cursor, segment);
+    return true;
+}
+
+void path_set_speed(const struct path *path, uint32_t section, uint32_t speed)
+{
+    path_section_set_speed(path_section_of(path, section), speed);
+}
+
+void path_drop(struct path *path, uint32_t section)
+{
+    path->first = section;
+}

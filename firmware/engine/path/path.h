@@ -1,0 +1,126 @@
+/*
+ * A path: a chain of vectors on one to four axes, from a stand to a stand.
+ *
+ * Comes in: vectors, into a ring of the caller's. Goes out: for each axis segments for the step generator, each with
+ * its direction. Look-ahead over the ring sets the speeds at the borders as high as the vectors, their border speeds
+ * and the axes that turn allow; all axes follow the one curve s(t) that results, and pulse k of an axis with d steps is
+ * due where s = k*L/d. A path may be changed or stopped at any whole step of its longest axis, and in a cruise between
+ * steps too; it rests at a real place and goes on from there, without limit, and every pulse stays on its tick.
+ * Pure arithmetic on the caller's structs; main or plan interrupt, never both at once.
+ */
+#ifndef PATH_H
+#define PATH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "path_course.h"
+#include "path_vector.h"
+#include "../step/step_segment.h"
+
+/* A place at which a change can take effect. Sections are counted from path_init on. */
+struct path_place {
+    uint32_t section; /* count of the section that begins or goes on there */
+    uint32_t accel; /* with which a stop brakes from there, and of whose grains entry.place is; 0: the section's own */
+    struct path_entry entry;
+};
+
+/* What a path hands over. */
+struct path_segment {
+    struct step_segment segment;
+    uint64_t tick; /* of its first pulse, the unit's time; segment.tick is the low half */
+    bool backward; /* DIR: the axis makes negative steps */
+};
+
+/* How far the pulses of an axis have been handed over. */
+struct path_cursor {
+    uint64_t before;     /* tick of the first pulse of the segment before */
+    uint32_t section;    /* count */
+    uint32_t pulse;      /* the next one in that section, from 1 */
+    uint32_t last;       /* the last one on the present leg */
+    unsigned leg;        /* that of the course which it is on; as many as there are: none is left */
+    bool entered;        /* `last` is of `leg` */
+    bool fresh;          /* the next pulse follows a stand or a change */
+    bool section_begins; /* no pulse of the section has been handed over */
+    bool leg_begins;     /* none of the leg */
+};
+
+/* The course of a section that has been laid, kept while it is of use. */
+struct path_kept {
+    struct path_course course;
+    uint32_t section; /* count */
+    bool valid;
+};
+
+enum {
+    PATH_KEPT = 2
+};
+
+struct path {
+    struct path_section *ring;
+    uint32_t size;    /* places of the ring */
+    uint32_t turn_us; /* what DIR wants */
+    uint32_t first;   /* count of the first section in the ring */
+    uint32_t laid;    /* count of the first one whose plan may still change */
+    uint32_t known;   /* count after the last one that is planned */
+    uint32_t end;     /* count after the last one in the ring */
+    bool stopping;
+    bool too_fast;            /* `laid` is left at the speed to which it can be braked */
+    bool held_back;           /* the speed at which `laid` is entered was as low as the end that was known made it */
+    struct path_place origin; /* where the path left a stand, was changed or stopped */
+    struct path_entry next;   /* the entry of section `laid` */
+    struct path_place rest;   /* where it comes to rest: right when laid = known */
+    struct path_kept kept[PATH_KEPT];
+    struct path_cursor axis[PATH_AXES];
+};
+
+/* An empty path that stands. `size` places, a power of two, at least 2. `turn_us`: DIR wants so much time from the last
+ * pulse one way to the first the other way, 1 to 1000. */
+void path_init(struct path *path, struct path_section *ring, uint32_t size, uint32_t turn_us);
+
+/* Appends a vector; false if the ring is full. A path that moves joins it by itself, if not all of it has been laid. */
+bool path_add(struct path *path, const struct path_vector *vector);
+
+/* Whether a change would make the path faster or longer, as vectors have been added after it had been laid so far that
+ * they did not count. */
+bool path_lags(const struct path *path);
+
+/* Leaves a stand at a whole tick: begins, or goes on from where it rests. False if no vector is left. Pulses up to the
+ * rest must have been handed over. */
+bool path_start(struct path *path, uint64_t start_tick);
+
+/* The next segment of an axis; false if there is none whose first pulse is before `until_tick`. Sections that begin
+ * later are not laid, so that vectors may still join without a change. */
+bool path_next(struct path *path, unsigned axis, uint64_t until_tick, struct path_segment *segment);
+
+/* From when on a path is to be changed. */
+struct path_wish {
+    uint64_t tick;
+    uint64_t patience_ticks; /* in a cruise a place between steps is taken if no step is due within so many more */
+    uint32_t accel;          /* for a stop with an acceleration of its own, 1 to PATH_ACCEL_MAX; else 0 */
+};
+
+/* The first whole step of the longest axis that is due at or after the wish, or, in a cruise, a place between steps
+ * about then. False if the path comes to rest before. */
+bool path_find(struct path *path, const struct path_wish *wish, struct path_place *place);
+
+/* Another speed for a section, from the place on at which the path is changed next, or from the next start on. Nothing
+ * may be handed over between this and that. */
+void path_set_speed(const struct path *path, uint32_t section, uint32_t speed);
+
+/* Plans anew from a place that path_find has found. False, and nothing is changed, if an axis has not been handed over
+ * as far as that. Otherwise `back` tells for each axis how many of its last pulses that were handed over are void. */
+bool path_change(struct path *path, const struct path_place *place, uint64_t back[PATH_AXES]);
+
+/* The same, and it brakes to a stand as soon as it can, with the acceleration of each vector that it comes through.
+ * With place->accel it brakes with that one, and so all vectors from there on have it: what is left of the path is not
+ * to be gone on with, or so. */
+bool path_stop(struct path *path, const struct path_place *place, uint64_t back[PATH_AXES]);
+
+/* Whether all that is planned has been laid; then `rest` says where and when the path stands. */
+bool path_is_laid(const struct path *path);
+
+/* Frees the places of sections before `section`, all of whose pulses have been made. */
+void path_drop(struct path *path, uint32_t section);
+
+#endif

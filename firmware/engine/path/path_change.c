@@ -1,0 +1,227 @@
+#include "path.h"
+
+#include "path_fixed.h"
+#include "path_lay.h"
+#include "path_look.h"
+#include "step_scale.h"
+
+/* Where path_find is looking: on a leg of a section's course. */
+struct look {
+    const struct path_course *course;
+    const struct path_leg *leg;
+    uint64_t tick;
+};
+
+/* Whether a time is at or after a tick. */
+static bool is_due(struct wide time, uint64_t tick)
+{
+    return time.high >= tick;
+}
+
+/* The leg that the path is on at a tick; the last one after its end. */
+static const struct path_leg *leg_at(const struct path_course *course, uint64_t tick)
+{
+    const struct path_leg *leg = &course->leg[0];
+    for (unsigned i = 1; i < course->legs; i++) {
+        if (!is_due(course->leg[i].time, tick)) {
+            leg = &course->leg[i];
+        }
+    }
+    return leg;
+}
+
+/* Steps on the way from the beginning of the leg to a tick, whole and the rest in quanta, a little more or less; none
+ * where it begins later. */
+static uint64_t way_at(const struct look *look, uint64_t *rest)
+{
+    uint64_t begin = look->leg->time.high;
+    uint64_t ticks = look->tick > begin ? look->tick - begin : 0;
+    uint64_t slope = look->leg->slope.high;
+    if (look->leg->accel < 0) {
+        uint64_t until_stand = slope / (2U * (uint64_t)-(int64_t)look->leg->accel);
+        ticks = ticks < until_stand ? ticks : until_stand;
+    }
+    uint64_t mean = slope + wide_from_signed(look->leg->accel) * ticks;
+    return wide_divide(wide_multiply(mean, ticks), STEP_QUANTA, rest);
+}
+
+static struct wide grains_of(const struct path_course *course, uint64_t step)
+{
+    return wide_multiply(course->grains_per_step, step);
+}
+
+/* A whole step of the course, on whichever leg it is. */
+static struct path_entry step_at(const struct path_course *course, uint64_t step)
+{
+    struct wide place = grains_of(course, step);
+    const struct path_leg *leg = &course->leg[0];
+    for (unsigned i = 0; i + 1U < course->legs && !wide_is_at_least(course->leg[i].end, place); i++) {
+        leg = &course->leg[i + 1U];
+    }
+    return path_course_at(course, leg, place);
+}
+
+/* The first whole step of the course after its beginning that is due at or after a tick; after the last one if none is.
+ * What way_at tells is less than the way of a tick too much, so the step before that one is due earlier. */
+static uint64_t find_step(const struct look *look)
+{
+    uint64_t rest = 0;
+    uint64_t begin = wide_divide(look->leg->place, look->course->grains_per_step, &rest);
+    uint64_t first = wide_divide(look->course->leg[0].place, look->course->grains_per_step, &rest) + 1U;
+    uint64_t last = wide_divide(look->course->end, look->course->grains_per_step, &rest);
+    uint64_t step = begin + way_at(look, &rest);
+    step = step < first ? first : step;
+    while (step <= last && !is_due(step_at(look->course, step).time, look->tick)) {
+        step++;
+    }
+    return step;
+}
+
+/* A place of a cruise between steps, an even number of grains, at the tick or just after it. */
+static struct wide between_steps(const struct look *look, uint64_t grains_per_step)
+{
+    uint64_t quanta = 0;
+    uint64_t unused = 0;
+    struct wide way = {.high = way_at(look, &quanta)};
+    way.low = wide_divide((struct wide){.high = quanta}, STEP_QUANTA, &unused);
+    way = wide_add(way, path_fixed_divide(look->leg->place, look->course->grains_per_step));
+    struct wide place = wide_multiply(way.high, grains_per_step);
+    place = wide_add(place, (struct wide){.low = wide_multiply(way.low, grains_per_step).high + 2U});
+    place.low &= ~UINT64_C(1);
+    return place;
+}
+
+/* Finds a place in a section; false if the path rests in it before one comes. */
+static bool find_in(const struct look *look, uint64_t patience_ticks, uint64_t grains_per_step,
+                    struct path_entry *entry)
+{
+    uint64_t rest = 0;
+    uint64_t last = wide_divide(look->course->end, look->course->grains_per_step, &rest);
+    uint64_t step = find_step(look);
+    if (step <= last) {
+        *entry = step_at(look->course, step);
+        entry->place = wide_multiply(grains_per_step, step);
+    }
+    bool soon = step <= last && entry->time.high <= look->tick + patience_ticks;
+    if (!soon && look->leg->accel == 0 && !is_due(look->leg->time, look->tick)) {
+        struct path_entry between =
+            path_course_cruise_at(look->course, look->leg, between_steps(look, grains_per_step), grains_per_step);
+        struct wide end = path_course_at(look->course, look->leg, look->leg->end).time;
+        if (!wide_is_at_least(between.time, end)) {
+            *entry = between;
+            return true;
+        }
+    }
+    return step <= last;
+}
+
+/* The last section that is entered before a tick, none before the plan's origin; laid, if the path goes so
+ * far. */
+static uint32_t section_at(struct path *path, uint64_t tick)
+{
+    while (!path_is_laid(path) && (path->laid == path->origin.section || !is_due(path->next.time, tick))) {
+        path_lay_next(path);
+    }
+    uint32_t section = path->laid - 1U;
+    while (section != path->origin.section && is_due(path_section_of(path, section)->entered, tick)) {
+        section--;
+    }
+    return section;
+}
+
+/* The end of a section is the beginning of the next one. */
+static bool pass_border(const struct path *path, struct path_place *place)
+{
+    const struct path_section *section = path_section_of(path, place->section);
+    if (!wide_is_at_least(place->entry.place, wide_multiply(path_lay_grains(path, place), section->length))) {
+        return true;
+    }
+    place->section++;
+    if (place->section == path->known) {
+        return false;
+    }
+    place->entry.place = (struct wide){0};
+    place->entry.speed2 = path_section_from_border2(path_section_of(path, place->section), section->exit2);
+    return true;
+}
+
+bool path_find(struct path *path, const struct path_wish *wish, struct path_place *place)
+{
+    if (path_is_laid(path) && path->laid == path->origin.section) {
+        return false;
+    }
+    place->section = section_at(path, wish->tick);
+    place->accel = wish->accel;
+    struct look look = {.course = path_lay_course(path, place->section), .tick = wish->tick};
+    if (look.course->legs == 0) {
+        return false;
+    }
+    look.leg = leg_at(look.course, wish->tick);
+    return find_in(&look, wish->patience_ticks, path_lay_grains(path, place), &place->entry) &&
+           pass_border(path, place);
+}
+
+/* Whether section a comes before section b. */
+static bool is_before(const struct path *path, uint32_t a, uint32_t b)
+{
+    return a - path->first < b - path->first;
+}
+
+/* Whether all pulses of an axis before a place have been handed over. */
+static bool is_handed_over(const struct path *path, const struct path_place *place, unsigned axis)
+{
+    const struct path_cursor *cursor = &path->axis[axis];
+    uint32_t made = cursor->pulse - 1U;
+    if (is_before(path, place->section, cursor->section)) {
+        return true;
+    }
+    for (uint32_t i = cursor->section; is_before(path, i, place->section); i++) {
+        if (made < path_section_steps(path_section_of(path, i), axis)) {
+            return false;
+        }
+        made = 0;
+    }
+    return made >= path_lay_pulses(path, place, axis);
+}
+
+/* Pulses of an axis that have been handed over and lie after a place. */
+static uint64_t count_void(const struct path *path, const struct path_place *place, unsigned axis)
+{
+    const struct path_cursor *cursor = &path->axis[axis];
+    if (is_before(path, cursor->section, place->section)) {
+        return 0;
+    }
+    uint64_t count = cursor->pulse - 1U;
+    for (uint32_t i = place->section; i != cursor->section; i++) {
+        count += path_section_steps(path_section_of(path, i), axis);
+    }
+    return count - path_lay_pulses(path, place, axis);
+}
+
+static bool plan_from(struct path *path, const struct path_place *place, bool stopping, uint64_t back[PATH_AXES])
+{
+    for (unsigned axis = 0; axis < PATH_AXES; axis++) {
+        if (!is_handed_over(path, place, axis)) {
+            return false;
+        }
+    }
+    for (unsigned axis = 0; axis < PATH_AXES; axis++) {
+        back[axis] = count_void(path, place, axis);
+    }
+    for (uint32_t i = place->section; place->accel != 0 && i != path->end; i++) {
+        path_section_set_accel(path_section_of(path, i), place->accel);
+    }
+    path->stopping = stopping;
+    path_lay_begin(path, place);
+    return true;
+}
+
+bool path_change(struct path *path, const struct path_place *place, uint64_t back[PATH_AXES])
+{
+    return plan_from(path, place, false, back);
+}
+
+bool path_stop(struct path *path, const struct path_place *place, uint64_t back[PATH_AXES])
+{
+    return plan_from(path, place, true, back);
+}

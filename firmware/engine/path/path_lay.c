@@ -1,0 +1,87 @@
+#include "path_lay.h"
+
+#include "path_fixed.h"
+#include "path_look.h"
+
+uint64_t path_lay_grains(const struct path *path, const struct path_place *place)
+{
+    uint64_t own = path_section_grains_per_step(path_section_of(path, place->section));
+    return place->accel != 0 ? PATH_GRAINS_PER_ACCEL * place->accel : own;
+}
+
+uint32_t path_lay_pulses(const struct path *path, const struct path_place *place, unsigned axis)
+{
+    uint64_t rest = 0;
+    const struct path_section *section = path_section_of(path, place->section);
+    struct wide way = path_wide_times(place->entry.place, path_section_steps(section, axis));
+    return (uint32_t)(wide_divide(way, path_lay_grains(path, place), &rest) / section->length);
+}
+
+void path_lay_begin(struct path *path, const struct path_place *place)
+{
+    for (unsigned axis = 0; axis < PATH_AXES; axis++) {
+        path->axis[axis] = (struct path_cursor){
+            .section = place->section,
+            .pulse = path_lay_pulses(path, place, axis) + 1U,
+            .fresh = true,
+            .section_begins = true,
+        };
+    }
+    for (unsigned i = 0; i < PATH_KEPT; i++) {
+        path->kept[i].valid = false;
+    }
+    path->origin = *place;
+    path->next = place->entry;
+    path->laid = place->section;
+    path->known = path->end;
+    path_look(path);
+}
+
+const struct path_course *path_lay_course(struct path *path, uint32_t count)
+{
+    struct path_kept *kept = &path->kept[count % PATH_KEPT];
+    if (!kept->valid || kept->section != count) {
+        const struct path_section *section = path_section_of(path, count);
+        struct path_entry entry = {.time = section->entered, .speed2 = section->enter2};
+        if (count == path->origin.section) {
+            entry.place = path->origin.entry.place;
+        }
+        kept->section = count;
+        kept->valid = true;
+        path_course_lay(&kept->course, section, &entry, path->stopping ? 0 : section->vector.speed, section->leave2);
+    }
+    return &kept->course;
+}
+
+static void come_to_rest(struct path *path, uint32_t section, const struct path_course *course)
+{
+    bool inside = !wide_is_at_least(course->end, path_section_end(path_section_of(path, section)));
+    path->known = path->laid;
+    path->rest = (struct path_place){
+        .section = inside ? section : section + 1U,
+        .entry = {.time = course->end_time, .place = inside ? course->end : (struct wide){0}},
+    };
+}
+
+void path_lay_next(struct path *path)
+{
+    uint32_t count = path->laid;
+    struct path_section *section = path_section_of(path, count);
+    section->entered = path->next.time;
+    section->enter2 = path->next.speed2;
+    section->leave2 =
+        path->too_fast ? section->enter2 - path_look_gain(path) : path_section_from_border2(section, section->exit2);
+    path->too_fast = false;
+    const struct path_course *course = path_lay_course(path, count);
+    path->laid++;
+    if (path_is_laid(path) || (path->stopping && section->exit2 == 0)) {
+        come_to_rest(path, count, course);
+        return;
+    }
+    const struct path_section *after = path_section_of(path, path->laid);
+    path->held_back = section->exit2 == path_look_brakeable(path, path->laid);
+    path->next = (struct path_entry){
+        .time = course->end_time,
+        .speed2 = path_section_from_border2(after, section->exit2),
+    };
+}

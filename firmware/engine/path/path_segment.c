@@ -1,0 +1,121 @@
+#include "path_segment.h"
+
+#include "base_wide.h"
+#include "step_generator.h"
+#include "step_scale.h"
+
+/* A segment lasts at most so long: its pulses are told by the low half of their ticks. */
+static const uint64_t SEGMENT_TICKS_MAX = UINT64_C(1) << 29;
+
+/* An axis below 3.2 steps/s gets each pulse by itself: no interval of a segment is longer than 2^26 ticks. */
+static const uint64_t SLOPE_LEAST = STEP_QUANTA >> 24U;
+
+uint64_t path_segment_tick(const struct path_pulse *pulse)
+{
+    return pulse->ticks + (pulse->fraction >> 31U);
+}
+
+/* The share of an axis in the acceleration, with sign, and whether it is exact. */
+struct share {
+    int32_t accel;
+    bool exact;
+};
+
+static struct share share_of(const struct path_course *course, const struct path_leg *leg, uint32_t steps)
+{
+    uint64_t size = (uint64_t)(leg->accel < 0 ? -leg->accel : leg->accel);
+    uint64_t product = size * steps;
+    uint64_t accel = product / course->length;
+    uint64_t rest = product % course->length;
+    accel += rest >= course->length - rest ? 1U : 0U;
+    return (struct share){.accel = leg->accel < 0 ? -(int32_t)accel : (int32_t)accel, .exact = rest == 0};
+}
+
+/* The slope of the axis at the whole tick, `late` / 2^32 tick after the pulse; not below 0. */
+static uint64_t slope_at(const struct path_course *course, const struct path_leg *leg, uint32_t steps,
+                         const struct path_pulse *at, int64_t late)
+{
+    int64_t gain = 2 * (int64_t)leg->accel * late / (INT64_C(1) << 24);
+    int64_t slope256 = (int64_t)at->slope256 + gain;
+    struct wide product = wide_multiply(slope256 > 0 ? (uint64_t)slope256 : 0U, steps);
+    return wide_divide_nearest(product, (uint64_t)course->length << 8U);
+}
+
+/* The way of the axis in `late` / 2^32 tick, with the slope at the end of that time. */
+static uint64_t residual_at(uint64_t slope, int32_t accel, int64_t late)
+{
+    uint64_t mean = slope - wide_from_signed(accel * late / (INT64_C(1) << 32));
+    return late < 0 ? 0U - wide_scale(mean, (uint32_t)-late) : wide_scale(mean, (uint32_t)late);
+}
+
+static uint64_t lower(uint64_t a, uint64_t b)
+{
+    return a < b ? a : b;
+}
+
+/* For how long a segment is near enough to the path. A brake ends while a quarter of the slope is left: that slope
+ * counts, and the generator needs it. */
+static uint64_t ticks_of(uint64_t slope, struct share share)
+{
+    bool brakes = share.accel < 0;
+    uint64_t least = brakes ? slope / 16U : slope / 4U;
+    uint64_t ticks = share.exact ? least / 16U : wide_root_nearest((struct wide){.low = least}) - 1U;
+    uint64_t size = (uint64_t)(brakes ? -(int64_t)share.accel : share.accel);
+    ticks = lower(ticks, SEGMENT_TICKS_MAX);
+    return brakes ? lower(ticks, 3U * slope / (8U * size)) : ticks;
+}
+
+/* Whole steps on the way of so many ticks. */
+static uint64_t steps_in(uint64_t ticks, uint64_t slope, int32_t accel)
+{
+    uint64_t rest = 0;
+    uint64_t mean = slope + wide_from_signed(accel * (int64_t)ticks);
+    return wide_divide(wide_multiply(mean, ticks), STEP_QUANTA, &rest);
+}
+
+/* Whether what the generator foretells from a first pulse is of any use: from a stand between steps the first pulse may
+ * come so soon and so slow that it is not. accel * Q > 2 * slope^2 says that A/4 > v^2. */
+static bool is_useless(uint64_t slope, int32_t accel)
+{
+    return accel > 0 && (uint64_t)accel > 2U * slope / (STEP_QUANTA / slope + 1U);
+}
+
+static uint32_t pulses_of(const struct path_stretch *stretch, uint64_t slope, struct share share)
+{
+    uint32_t left = stretch->last - stretch->pulse;
+    if (stretch->alone || left == 0 || slope < SLOPE_LEAST || is_useless(slope, share.accel)) {
+        return 1;
+    }
+    return 1U + (uint32_t)lower(left, steps_in(ticks_of(slope, share), slope, share.accel));
+}
+
+struct step_segment path_segment_lay(const struct path_course *course, const struct path_leg *leg,
+                                     const struct path_stretch *stretch, const struct path_pulse *at)
+{
+    uint64_t tick = path_segment_tick(at);
+    int64_t late = (tick > at->ticks ? INT64_C(1) << 32 : 0) - (int64_t)at->fraction;
+    struct share share = share_of(course, leg, stretch->steps);
+    uint64_t slope = slope_at(course, leg, stretch->steps, at, late);
+    return (struct step_segment){
+        .residual = residual_at(slope, share.accel, late),
+        .slope = slope,
+        .accel = share.accel,
+        .tick = (uint32_t)tick,
+        .pace_ticks = share.accel == 0 && slope >= SLOPE_LEAST ? (uint32_t)(STEP_QUANTA / slope) : 0U,
+        .steps = pulses_of(stretch, slope, share),
+    };
+}
+
+/* v^2 >= 8*A: over a step it was at least v^2 - 2*A, so the interval before is 1.16 times as long as at v at most, and
+ * the generator foretells less than its way to a stand. slope256^2 = 2^16 * 2^16*f^2 * v^2 and
+ * PATH_SLOPE2_PER_TWICE_SPEED2 = f^2/2; per step of the axis the path goes L/steps. */
+bool path_segment_is_fast(const struct path_course *course, const struct path_leg *leg, uint32_t steps,
+                          const struct path_pulse *at)
+{
+    uint64_t rest = 0;
+    uint64_t accel = (uint64_t)(leg->accel < 0 ? -leg->accel : leg->accel);
+    uint64_t change = accel * course->length / steps + 1U;
+    struct wide square = wide_multiply(at->slope256, at->slope256);
+    uint64_t scaled = wide_divide(square, STEP_QUANTA, &rest);
+    return scaled >> 20U >= change;
+}

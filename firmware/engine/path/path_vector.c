@@ -1,0 +1,120 @@
+#include "path_vector.h"
+
+#include <stdbool.h>
+
+#include "path_fixed.h"
+
+static const uint32_t US_PER_S = 1000000;
+
+static uint64_t lower(uint64_t a, uint64_t b)
+{
+    return a < b ? a : b;
+}
+
+static uint64_t square(uint32_t value)
+{
+    return (uint64_t)value * value;
+}
+
+/* dividend / divisor rounded down, 2^60 if it is more; the dividend is below 2^126. A divisor of more than 63 bits is
+ * halved like the dividend: that quotient is too high by one at most, as it is small. */
+static uint64_t divide(struct wide dividend, uint64_t divisor)
+{
+    uint64_t rest = 0;
+    if (divisor <= UINT64_C(1) << 63) {
+        return lower(wide_divide(dividend, divisor, &rest), PATH_SPEED2_ENDLESS);
+    }
+    struct wide half = {.high = dividend.high >> 1U, .low = (dividend.low >> 1U) | (dividend.high << 63U)};
+    uint64_t quotient = wide_divide(half, divisor >> 1U, &rest);
+    return wide_is_at_least(dividend, wide_multiply(quotient, divisor)) ? quotient : quotient - 1U;
+}
+
+static bool is_plain(const struct path_section *section)
+{
+    return section->vector.extent2 == square(section->length);
+}
+
+uint64_t path_section_to_border2(const struct path_section *section, uint64_t speed2)
+{
+    if (is_plain(section)) {
+        return speed2;
+    }
+    return divide(wide_multiply(speed2, section->vector.extent2), square(section->length));
+}
+
+uint64_t path_section_to_border2_up(const struct path_section *section, uint64_t speed2)
+{
+    uint64_t border2 = path_section_to_border2(section, speed2);
+    return path_section_from_border2(section, border2) < speed2 ? border2 + 1U : border2;
+}
+
+uint64_t path_section_from_border2(const struct path_section *section, uint64_t border2)
+{
+    if (is_plain(section)) {
+        return border2;
+    }
+    return divide(wide_multiply(border2, square(section->length)), section->vector.extent2);
+}
+
+static uint32_t longest(const struct path_section *section)
+{
+    uint32_t length = 0;
+    for (unsigned axis = 0; axis < PATH_AXES; axis++) {
+        uint32_t steps = path_section_steps(section, axis);
+        length = steps > length ? steps : length;
+    }
+    return length;
+}
+
+/* G*L / (L/E)^2 = G*E^2 / L. */
+static uint64_t gain_of(const struct path_section *section)
+{
+    return divide(wide_multiply(path_section_gain_per_step(section), section->vector.extent2), section->length);
+}
+
+void path_section_take(struct path_section *section, const struct path_vector *vector)
+{
+    *section = (struct path_section){.vector = *vector, .border2 = square(vector->border_speed)};
+    section->length = longest(section);
+    section->gain2 = gain_of(section);
+    path_section_set_speed(section, vector->speed);
+}
+
+void path_section_set_speed(struct path_section *section, uint32_t speed)
+{
+    section->vector.speed = speed;
+    section->speed2 = path_section_to_border2(section, square(speed));
+}
+
+void path_section_set_accel(struct path_section *section, uint32_t accel)
+{
+    section->vector.accel = accel;
+    section->gain2 = gain_of(section);
+}
+
+static bool turns(const struct path_section *a, const struct path_section *b, unsigned axis)
+{
+    int32_t before = a->vector.steps[axis];
+    int32_t after = b->vector.steps[axis];
+    return (before < 0 && after > 0) || (before > 0 && after < 0);
+}
+
+/* The speed at which an axis that accelerates from the border on makes its first pulse after turn_us: with that speed
+ * it goes L/|d| - A*t^2/2 of the path in that time. */
+static uint32_t turn_speed(const struct path_section *section, unsigned axis, uint32_t turn_us)
+{
+    uint64_t way = (uint64_t)PATH_SPEED_UNITS * US_PER_S * section->length;
+    uint64_t speed = way / ((uint64_t)turn_us * path_section_steps(section, axis));
+    uint64_t gain = ((uint64_t)section->vector.accel * turn_us + US_PER_S - 1U) / US_PER_S;
+    return (uint32_t)(speed > gain ? lower(speed - gain, UINT32_MAX) : 0U);
+}
+
+void path_section_mind_turns(struct path_section *section, const struct path_section *before, uint32_t turn_us)
+{
+    for (unsigned axis = 0; axis < PATH_AXES; axis++) {
+        if (turns(before, section, axis)) {
+            uint64_t speed2 = square(turn_speed(section, axis, turn_us));
+            section->border2 = lower(section->border2, path_section_to_border2(section, speed2));
+        }
+    }
+}

@@ -1,0 +1,153 @@
+#include "path_rig.h"
+#include "path_segment.h"
+#include "segment_view.h"
+#include "unity.h"
+
+static struct path_course course;
+static struct path_stretch stretch;
+static unsigned leg;
+
+static void lay(const struct path_vector *vector, uint64_t enter2, uint64_t exit2)
+{
+    struct path_section section;
+    struct path_entry entry = {.time = {.high = 5000}, .speed2 = enter2};
+    path_section_take(&section, vector);
+    path_course_lay(&course, &section, &entry, vector->speed, exit2);
+}
+
+static struct step_segment segment(uint32_t steps, uint32_t pulse)
+{
+    stretch.steps = steps;
+    stretch.pulse = pulse;
+    stretch.last = path_course_last_pulse(&course, course.leg[leg].end, steps);
+    struct path_pulse at = path_course_pulse(&course, &course.leg[leg], steps, pulse);
+    return path_segment_lay(&course, &course.leg[leg], &stretch, &at);
+}
+
+void setUp(void)
+{
+    struct path_vector vector = rig_vector(1000, 333, 10000, 1000000);
+    stretch = (struct path_stretch){0};
+    leg = 0;
+    lay(&vector, 0, 0);
+}
+
+void tearDown(void)
+{
+}
+
+void test_a_pulse_is_on_the_nearest_tick(void)
+{
+    TEST_ASSERT_EQUAL_UINT64(7, path_segment_tick(&(struct path_pulse){.ticks = 7, .fraction = UINT32_C(0x7FFFFFFF)}));
+    TEST_ASSERT_EQUAL_UINT64(8, path_segment_tick(&(struct path_pulse){.ticks = 7, .fraction = UINT32_C(0x80000000)}));
+}
+
+void test_the_longest_axis_has_the_motion_of_the_path(void)
+{
+    struct step_segment ramp = segment(1000, 1);
+    TEST_ASSERT_EQUAL_INT32(128000000, ramp.accel);
+    TEST_ASSERT_EQUAL_UINT32(50, ramp.steps);
+    TEST_ASSERT_EQUAL_UINT32(5000 + 118794, ramp.tick);
+    /* 0.061 tick after its time, at sqrt(2*A) steps/s. */
+    TEST_ASSERT_UINT64_WITHIN(STEP_SLOPE_PER_SPEED, 1415 * STEP_SLOPE_PER_SPEED, ramp.slope);
+    TEST_ASSERT_UINT64_WITHIN(ramp.slope / 500U, ramp.slope / 100U * 6U + ramp.slope / 800U, ramp.residual);
+}
+
+void test_the_other_axes_have_their_share_to_the_nearest(void)
+{
+    TEST_ASSERT_EQUAL_INT32(42624000, segment(333, 1).accel);
+    course.length = 1001;
+    TEST_ASSERT_EQUAL_INT32(42581419, segment(333, 1).accel);
+    leg = 2;
+    TEST_ASSERT_EQUAL_INT32(-42581419, segment(333, 330).accel);
+    TEST_ASSERT_EQUAL_INT32(-84907093, segment(664, 660).accel);
+}
+
+void test_a_cruise_is_one_segment_with_its_pace(void)
+{
+    leg = 1;
+    struct step_segment cruise = segment(1000, 51);
+    TEST_ASSERT_EQUAL_UINT32(8400, cruise.pace_ticks);
+    TEST_ASSERT_EQUAL_UINT32(900, cruise.steps);
+    TEST_ASSERT_EQUAL_UINT64(0, cruise.residual);
+    TEST_ASSERT_EQUAL_UINT32(25225, segment(333, 17).pace_ticks);
+}
+
+void test_a_pulse_that_must_be_alone_is(void)
+{
+    stretch.alone = true;
+    TEST_ASSERT_EQUAL_UINT32(1, segment(1000, 2).steps);
+}
+
+void test_a_brake_is_laid_anew_before_a_quarter_of_its_slope_is_left(void)
+{
+    leg = 2;
+    struct step_segment brake = segment(1000, 951);
+    TEST_ASSERT_TRUE(brake.steps > 40 && brake.steps < 50);
+    struct step_segment last = segment(1000, 1000);
+    TEST_ASSERT_EQUAL_UINT32(1, last.steps);
+    TEST_ASSERT_EQUAL_UINT64(0, last.slope);
+}
+
+/* At a stand the slope would be negative half a tick later. */
+void test_a_slope_is_never_negative(void)
+{
+    leg = 2;
+    stretch = (struct path_stretch){.steps = 1000, .pulse = 1000, .last = 1000};
+    struct path_pulse at = {.ticks = 100, .fraction = UINT32_C(0xC0000000), .slope256 = 0};
+    struct step_segment last = path_segment_lay(&course, &course.leg[leg], &stretch, &at);
+    TEST_ASSERT_EQUAL_UINT64(0, last.slope);
+    TEST_ASSERT_EQUAL_UINT32(101, last.tick);
+}
+
+/* Half a quantum of acceleration is wrong at most: an eighth of a tick after sqrt(slope)/2 ticks. */
+void test_a_share_that_is_a_fraction_is_laid_anew_in_time(void)
+{
+    struct path_vector vector = rig_vector(1000000, 777777, 200000, 1000);
+    lay(&vector, 0, 0);
+    struct step_segment fraction = segment(777777, 1000);
+    struct step_generator end = seen_at(&fraction, fraction.tick + 10000000);
+    (void)end;
+    uint64_t ticks = 0;
+    struct step_generator generator = {0};
+    step_generator_load(&generator, &fraction);
+    for (uint32_t i = 1; i < fraction.steps; i++) {
+        ticks = step_generator_next(&generator) - fraction.tick;
+    }
+    TEST_ASSERT_TRUE(ticks * ticks < fraction.slope / 4U);
+    TEST_ASSERT_TRUE(fraction.steps > 10);
+    TEST_ASSERT_TRUE(segment(1000000, 1000).steps > 100 * fraction.steps);
+}
+
+void test_slow_pulses_are_alone(void)
+{
+    struct path_vector vector = rig_vector(1000, 1, 3, 8000000);
+    lay(&vector, UINT64_C(768) * 768, UINT64_C(768) * 768);
+    TEST_ASSERT_EQUAL_UINT32(1, segment(1000, 1).steps);
+    TEST_ASSERT_EQUAL_UINT32(0, segment(1000, 1).pace_ticks);
+}
+
+/* At 1000 steps/s with 8 000 000 steps/s^2: v^2 < A/4. */
+void test_a_first_pulse_too_slow_to_foretell_the_next_from_is_alone(void)
+{
+    struct path_vector vector = rig_vector(1000, 1, 100000, 8000000);
+    lay(&vector, UINT64_C(256000) * 256000, 0);
+    struct path_pulse at = {.ticks = 5000, .slope256 = 1000 * STEP_SLOPE_PER_SPEED * 256U};
+    stretch = (struct path_stretch){.steps = 1000, .pulse = 1, .last = 100};
+    TEST_ASSERT_EQUAL_UINT32(1, path_segment_lay(&course, &course.leg[0], &stretch, &at).steps);
+    at.slope256 *= 2U;
+    TEST_ASSERT_TRUE(path_segment_lay(&course, &course.leg[0], &stretch, &at).steps > 1);
+}
+
+/* v^2 against 8*A: of an axis with a tenth of the way it takes a path sqrt(10) times as fast. */
+void test_a_brake_is_fast_while_a_step_changes_little_of_its_speed(void)
+{
+    leg = 2;
+    struct path_pulse at = {.slope256 = 2829 * STEP_SLOPE_PER_SPEED * 256U};
+    TEST_ASSERT_TRUE(path_segment_is_fast(&course, &course.leg[leg], 1000, &at));
+    TEST_ASSERT_FALSE(path_segment_is_fast(&course, &course.leg[leg], 100, &at));
+    at.slope256 = 2828 * STEP_SLOPE_PER_SPEED * 256U;
+    TEST_ASSERT_FALSE(path_segment_is_fast(&course, &course.leg[leg], 1000, &at));
+    at.slope256 = 8945 * STEP_SLOPE_PER_SPEED * 256U;
+    TEST_ASSERT_TRUE(path_segment_is_fast(&course, &course.leg[0], 100, &at));
+}

@@ -1,0 +1,86 @@
+import type { Order, Told } from "./engine_worker";
+import { t } from "./i18n";
+import type { Curve, CurveRequest, Example, Verdict } from "./protocol";
+
+/** What a page brings along that no service serves; tools/rkm04 service --static puts it in. */
+interface Brought {
+    /** The program rkm04-host for WebAssembly, base64. */
+    program: string;
+    /** The script of the worker. */
+    worker: string;
+    examples: Example[];
+}
+
+/** The simulator cannot be had; the message is why. */
+export class NoEngine extends Error {}
+
+interface Waiting {
+    take: (answer: never) => void;
+    fail: (error: Error) => void;
+}
+
+/** The simulator in a worker, so that the page, and STOP on it, never wait for it. */
+export class Engine {
+    readonly examples: Example[];
+    readonly #worker: Worker | null;
+    readonly #waiting = new Map<number, Waiting>();
+    #last_id = 0;
+
+    constructor(brought: Brought) {
+        this.examples = brought.examples;
+        this.#worker = typeof WebAssembly === "undefined" ? null : this.#begin(brought);
+    }
+
+    check(text: string): Promise<Verdict> {
+        return this.#ask((id) => ({ kind: "check", id, text }));
+    }
+
+    curve(request: CurveRequest): Promise<Curve> {
+        return this.#ask((id) => ({ kind: "curve", id, request }));
+    }
+
+    #begin({ program, worker }: Brought): Worker {
+        const place = URL.createObjectURL(new Blob([worker], { type: "text/javascript" }));
+        const begun = new Worker(place);
+        begun.onmessage = ({ data }: MessageEvent<Told>) => this.#hear(data);
+        begun.onerror = ({ message }) => this.#lose(message);
+        const bytes = Uint8Array.from(atob(program), (character) => character.charCodeAt(0));
+        begun.postMessage({ kind: "program", bytes } satisfies Order);
+        return begun;
+    }
+
+    #ask<T>(order: (id: number) => Order): Promise<T> {
+        this.#last_id += 1;
+        const id = this.#last_id;
+        return new Promise<T>((take, fail) => {
+            if (this.#worker === null) {
+                fail(new NoEngine(t("alone.noWebAssembly")));
+                return;
+            }
+            this.#waiting.set(id, { take, fail });
+            this.#worker.postMessage(order(id));
+        });
+    }
+
+    #hear(told: Told): void {
+        const waiting = this.#waiting.get(told.id);
+        this.#waiting.delete(told.id);
+        if ("trouble" in told) {
+            waiting?.fail(new NoEngine(told.trouble));
+        } else {
+            waiting?.take(told.answer as never);
+        }
+    }
+
+    /** The worker has ended, or could not begin. */
+    #lose(message: string): void {
+        this.#waiting.forEach(({ fail }) => fail(new NoEngine(`${t("alone.failed")} (${message})`)));
+        this.#waiting.clear();
+    }
+}
+
+/** The engine of a page that no service serves; null: there is a service, and it does the work. */
+export const engine: Engine | null = (() => {
+    const brought = document.getElementById("alone")?.textContent;
+    return brought ? new Engine(JSON.parse(brought) as Brought) : null;
+})();

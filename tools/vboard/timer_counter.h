@@ -1,0 +1,98 @@
+/*
+ * The counter of a timer (RM0090 section 18.3): what it shows at a cycle, when it turns over, and when it gets to the
+ * values of its channels.
+ */
+#ifndef TIMER_COUNTER_H
+#define TIMER_COUNTER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "clock.h"
+#include "conditions.h"
+#include "gpio.h"
+#include "nvic.h"
+#include "report.h"
+
+enum {
+    TIMERS = 4,
+    TIMER_CHANNELS = 4,
+};
+
+struct timer_channel {
+    uint32_t compare; /* what the counter is compared with */
+    uint32_t preload; /* what CCR reads */
+    uint64_t due;     /* cycle of the next match; NEVER: none before the counter turns over */
+    uint8_t mode;     /* OCxM, as it was when the output was looked at last */
+    bool below;       /* and whether the counter was below the value */
+    bool reference;   /* OCxREF */
+    bool pin_level;   /* what the pins were told last */
+    bool pin_driven;
+};
+
+struct timer_settings {
+    uint64_t start;   /* the count at which TIM2 starts */
+    bool match_equal; /* a compare value written while the counter stands on it matches */
+    bool pwm_at_once; /* a channel that comes from a forced level shows the comparison at once */
+};
+
+struct timer_wires {
+    unsigned number; /* 0: TIM2 */
+    struct clock *clock;
+    struct report *report;
+    struct nvic *nvic;
+    const struct conditions *conditions;
+    struct gpio *gpio;
+    const struct timer_settings *settings;
+};
+
+struct timer {
+    struct timer_wires wires;
+    uint32_t cr1;
+    uint32_t cr2;
+    uint32_t dier;
+    uint32_t sr;
+    uint32_t ccmr[2];
+    uint32_t ccer;
+    uint32_t psc; /* as written; comes into force with an update */
+    uint32_t psc_used;
+    uint32_t arr; /* as written */
+    uint32_t arr_used;
+    uint32_t remap; /* OR */
+    uint32_t count; /* at the anchor */
+    uint64_t anchor_cycle;
+    uint64_t start_cycle; /* the first time it was started since reset; NEVER: not yet */
+    uint64_t turn_due;    /* cycle of the turn-over */
+    struct timer_channel channel[TIMER_CHANNELS];
+    uint64_t matches;
+};
+
+enum {
+    TIMER_CR1_CEN = 1 << 0,
+    TIMER_CR1_UDIS = 1 << 1,
+    TIMER_CR1_URS = 1 << 2,
+    TIMER_CR1_OPM = 1 << 3,
+    TIMER_CR1_ARPE = 1 << 7,
+    TIMER_DIER_MODELLED = 0x1F,
+};
+
+/* TIM2 and TIM5 have 32 bits, the others 16. */
+bool timer_is_wide(const struct timer *timer);
+uint32_t timer_width_mask(const struct timer *timer);
+
+bool timer_runs(const struct timer *timer);
+
+/* Cycles of HCLK in one tick. */
+uint64_t timer_tick_cycles(const struct timer *timer);
+
+uint32_t timer_count_at(const struct timer *timer, uint64_t cycle);
+
+/* Moves the anchor to a cycle, and with it the ticks that have gone by; the part of a tick is kept. */
+void timer_move_anchor(struct timer *timer, uint64_t cycle);
+
+/* Finds anew when the counter turns over and when each channel matches; then find_match and set_event do it for one. */
+void timer_plan(struct timer *timer, uint64_t cycle);
+void timer_find_match(struct timer *timer, unsigned channel, uint64_t cycle);
+void timer_set_event(struct timer *timer);
+
+#endif
