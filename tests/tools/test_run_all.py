@@ -8,7 +8,8 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 import pytest
-from checks.run_all import NICENESS, Count, count_program
+from checks import run_all
+from checks.run_all import NICENESS, TRIED_AGAIN, Count, count_program, python_tests
 
 
 @pytest.mark.parametrize(
@@ -27,6 +28,26 @@ def test_a_program_counts_its_tests_and_its_crash(status: str, output: str, coun
     ElementTree.SubElement(case, "system-out").text = output
 
     assert count_program(case) == count
+
+
+@pytest.mark.parametrize(
+    ("runs", "count"),
+    [
+        ([Count(9, 0, 1)], Count(9, 0, 1)),
+        ([Count(7, 2, 1), Count(2)], Count(9, 0, 1)),
+        ([Count(7, 2, 1), Count(1, 1)], Count(8, 1, 1)),
+        ([Count(7, 2, 1), Count(failed=1)], Count(7, 2, 1)),
+        ([Count(6, TRIED_AGAIN + 1)], Count(6, TRIED_AGAIN + 1)),
+    ],
+)
+def test_few_python_tests_that_fail_are_tried_once_more(
+    monkeypatch: pytest.MonkeyPatch, runs: list[Count], count: Count
+) -> None:
+    left = iter(runs)
+    monkeypatch.setattr(run_all, "pytest", lambda *_: next(left))
+
+    assert python_tests() == count
+    assert list(left) == []
 
 
 SIDE_BY_SIDE = """
