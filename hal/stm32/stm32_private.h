@@ -108,7 +108,7 @@ void stm32_line_interrupt(void);
 /* Lets the bus go when a transmission does not come to its end. Every millisecond. */
 void stm32_line_tick(void);
 
-/* stm32_supply.c. Behind the step timer, before the watchdog. Watches the supply; takes 0.25 ms. */
+/* stm32_supply.c. After the step timer, before the watchdog. Watches the supply; takes 0.25 ms. */
 void stm32_supply_start(void);
 
 /* stm32_part.c, stm32_flash.c. The start takes the size of the part's flash, and locks what a boot loader left open. */

@@ -20,7 +20,7 @@ static uint32_t made_good(uint32_t tick, uint32_t now)
 }
 
 /* Whether the counter wraps before the pulse of an edge to come has been high long enough. */
-static inline bool ends_behind_wrap(uint32_t edge, uint32_t now)
+static inline bool ends_after_wrap(uint32_t edge, uint32_t now)
 {
     return edge + (uint32_t)HIGH_TICKS <= now;
 }
@@ -33,7 +33,7 @@ static void arm(unsigned motor, uint32_t tick)
     uint32_t flag = flag_of(motor);
     uint32_t now = TIM2_CNT;
     uint32_t edge = made_good(tick, now);
-    bool plain = !PULSES_ARE_LONG && edge == tick && !ends_behind_wrap(edge, now);
+    bool plain = !PULSES_ARE_LONG && edge == tick && !ends_after_wrap(edge, now);
     set_mode(channel, MODE_LOW);
     *channel->compare = edge;
     stm32_step.edge[motor] = edge;
@@ -120,7 +120,7 @@ __attribute__((noinline)) static void serve_specials(void)
  * late. */
 static inline bool needs_care(uint32_t tick, uint32_t now)
 {
-    return BASE_SELDOM(ends_behind_wrap(tick, now)) || BASE_SELDOM((int32_t)(tick - now) < (int32_t)MOVE_TICKS);
+    return BASE_SELDOM(ends_after_wrap(tick, now)) || BASE_SELDOM((int32_t)(tick - now) < (int32_t)MOVE_TICKS);
 }
 
 /* Where a segment ends, and perhaps the move. */

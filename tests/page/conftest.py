@@ -1,4 +1,4 @@
-"""The page in Debian's Chromium; without it these tests are skipped."""
+"""The page in Debian's headless Chromium; without it these tests are skipped."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from fake_unit import FakeLine, FakeUnit
 from playwright.sync_api import Browser, expect, sync_playwright
 from service_page import PATIENCE_SECONDS, Service, ServicePage, free_port, shown
 
-CHROMIUM = Path("/usr/bin/chromium")
+CHROMIUM = Path("/usr/bin/chromium-headless-shell")
 
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     """Not for the session: its event loop would be in the way of the tests after these."""
     if not CHROMIUM.exists():
-        pytest.skip(f"{CHROMIUM} is not there: install Debian's package chromium")
+        pytest.skip(f"{CHROMIUM} is not there: install Debian's package {CHROMIUM.name}")
     expect.set_options(timeout=PATIENCE_SECONDS * 1000)
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])

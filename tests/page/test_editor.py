@@ -30,7 +30,7 @@ def test_every_error_is_underlined_and_not_only_the_first(page):
     expect_underlined(page, (1, 1, "S0"), (2, 1, "q"), (3, 1, "W"))
 
 
-def test_columns_count_characters_also_behind_those_that_take_two_units(page):
+def test_columns_count_characters_also_after_those_that_take_two_units(page):
     page.write("{ \N{MICROSCOPE} č } V20000")
     expect_underlined(page, (1, 9, "V20000"))
 

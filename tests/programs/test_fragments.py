@@ -83,7 +83,7 @@ def test_a_limit_run_goes_on_for_ever_if_its_input_stays_0(run_program, way):
     assert run.motor["pulses"] == limit_run(100).pulses_before(5 * TICK_HZ)
 
 
-def test_what_stands_behind_the_bracket_runs_when_it_is_closed(run_program):
+def test_what_stands_after_the_bracket_runs_when_it_is_closed(run_program):
     run = run_program("fragment-7-hold", limits=DEFAULTS)
 
     run.expect_moves(1000)

@@ -1,16 +1,16 @@
 /*
  * The ring of segments between main and the step interrupt (firmware/engine/step/step_channel.c), for Spin.
  *
- * Main fills the ring, cuts it and starts the motor where it has come to rest; the step interrupt empties it. The tick
- * interrupt may brake once, between any two steps of main: it drops what is queued and closes the ring, until main has
- * planned the stop, puts its first segment in the place of the present one and opens the ring for the others; or, where
- * the motor rests, until the next move. Each access to what they share is a step of its own, and Spin tries all orders
- * of the steps of all, as if they ran on processors of their own; only a hold keeps them apart. Accesses are seen in
- * the order in which they are made. The counters begin at any value and wrap after COUNTS.
+ * Main fills the ring, replaces what is in it and starts the motor where it has come to rest; the step interrupt
+ * empties it. The tick interrupt may brake once, between any two steps of main: it drops what is queued and closes the
+ * ring, until main has planned the stop, puts its first segment in the place of the present one and opens the ring for
+ * the others; or, where the motor rests, until the next move. Each access to what they share is a step of its own, and
+ * Spin tries all orders of the steps of all, as if they ran on processors of their own; only a hold keeps them apart.
+ * Accesses are seen in the order in which they are made. The counters begin at any value and wrap after COUNTS.
  *
  * A slot holds the name of its segment and `intended` the names in the order in which they must be taken, so a segment
- * that is lost, taken twice, taken after a cut, half written or overwritten too soon is seen. What a segment does is
- * left out: the pulses in it are no concern of the ring.
+ * that is lost, taken twice, taken after a replacement, half written or overwritten too soon is seen. What a segment
+ * does is left out: the pulses in it are no concern of the ring.
  *
  * PLANT_...: an error, to see that it is found.
  */
@@ -21,7 +21,7 @@
 #define COUNTS 4 /* 2^32 in the firmware */
 #endif
 #define PUSHES 5
-#define CUTS 2
+#define REPLACEMENTS 2
 #ifndef BRAKES
 #define BRAKES 1
 #endif
@@ -40,7 +40,7 @@ bool running = false, armed = false;
 bool present = false; /* not armed, and the present segment has a pulse left */
 bool held = false, inside = false;
 bool closed = false, braking = false, stopping = false;
-bool spliced = false; /* the stop has been planned: no segment is refused any more */
+bool replaced = false; /* the stop has been planned: no segment is refused any more */
 
 byte intended[PUSHES + 1];
 byte begun = 0;  /* segments taken in all: the place in `intended` of the next */
@@ -163,7 +163,7 @@ inline push()
     :: true -> put()
 #else
     :: !refused -> put()
-    :: refused -> assert(!spliced); name++
+    :: refused -> assert(!replaced); name++
 #endif
     fi;
     held = false;
@@ -191,7 +191,7 @@ inline plan_stop(seen)
 #ifndef PLANT_NOT_OPENED
         closed = false;
 #endif
-        spliced = true;
+        replaced = true;
         rests = !running;
         if
         :: rests ->
@@ -219,7 +219,7 @@ inline plan_stop(seen)
 
 active proctype main()
 {
-    byte name = 0, cuts = CUTS, at, seen;
+    byte name = 0, replacements = REPLACEMENTS, at, seen;
     bool refused = false, back = false, rests = false;
 
     atomic {
@@ -230,8 +230,8 @@ active proctype main()
     do
     :: stopping -> plan_stop(seen)
     :: name < PUSHES && HAS_ROOM -> push()
-    :: cuts > 0 && running ->
-        cuts--;
+    :: replacements > 0 && running ->
+        replacements--;
         hold();
         at = begun; /* step_channel_look_ahead: the armed pulse, or one of a later segment */
         held = false;
@@ -239,14 +239,14 @@ active proctype main()
         :: at < pushed -> at++
         :: break
         od;
-#ifndef PLANT_CUT_WITHOUT_HOLD
+#ifndef PLANT_REPLACED_WITHOUT_HOLD
         hold();
 #endif
         if
 #ifdef PLANT_NOT_LOOKED_AGAIN
         :: running && !closed ->
 #else
-#ifdef PLANT_CUT_BEHIND_BRAKE
+#ifdef PLANT_REPLACED_AFTER_BRAKE
         :: running && begun <= at ->
 #else
         :: running && !closed && begun <= at ->

@@ -1,5 +1,5 @@
 /*
- * Pulses of a ramp behind which one more comes, and what is predicted there. Whole numbers that do not wrap.
+ * Pulses of a ramp after which one more comes, and what is predicted there. Whole numbers that do not wrap.
  *
  * The slope at a whole step is that of 0.98 steps/s at least: where the motor brakes, at the next; where it speeds up,
  * at the one before.
@@ -9,7 +9,7 @@
 
 #include "search_predicted.h"
 
-/* A pulse of a ramp behind which one more comes; b is the size of a braking acceleration. */
+/* A pulse of a ramp after which one more comes; b is the size of a braking acceleration. */
 /*@ logic integer least_square = 21000000000 * 21000000000;
     predicate is_pulse(integer r, integer s, integer b) =
         0 <= b <= 1024000000 && 0 < s <= 0x80000000000000 && is_near(r, s);

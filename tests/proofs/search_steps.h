@@ -32,7 +32,7 @@
     lemma guess_mirror: \forall integer r, s, a; is_guess(-r, s, -a) <==> is_guess(r, s, a);
 */
 
-/* On the side of the less steep slope: b is the acceleration's size. Wild: behind a guess; else the search goes on. */
+/* On the side of the less steep slope: b is the acceleration's size. Wild: after a guess; else the search goes on. */
 /*@ predicate is_sunk(integer q, integer r, integer s, integer b, integer r2, integer s2) =
         r2 == r - q * s - b * q * q && s2 == s + 2 * (b * q);
     predicate is_flat(integer r, integer s, integer b) = 9 * (b * r) <= s * s;

@@ -45,7 +45,7 @@ INPUT_BEGIN = (Edge(0, 2, 1), Edge(0, 6, 1))
 """N2 and N6 guard inputs that are 1 at first."""
 
 SETUP = "\\ M1 N2 X3 "
-BEHIND = {move: " U T1 W7 S200 F4 R T2" if move != "jog" else "" for move in MOVES}
+AFTER = {move: " U T1 W7 S200 F4 R T2" if move != "jog" else "" for move in MOVES}
 """The program around each move: guards and a total stop before it, more to do after it."""
 
 
@@ -75,7 +75,7 @@ OFFSETS = (0, 1, 40 * MS // 1000)
 
 def script(move: str, actions: Iterable[tuple[int, Action]]) -> Script:
     """Return a run of a move with actions at given ticks, and a `C75` at last."""
-    text = f"{SETUP}{MOVES[move]}{BEHIND[move]}"
+    text = f"{SETUP}{MOVES[move]}{AFTER[move]}"
     requests, edges = [Request(0, b"\x021" + text.encode())], list(INPUT_BEGIN)
     tick = 0
     for tick, action in actions:

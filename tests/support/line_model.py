@@ -71,15 +71,15 @@ FAIL = (
         ("BRAKES=0", "PLANT_PUSH_WITHOUT_HOLD", "PLANT_TAKEN_TOO_SOON"),
         model=RING,
     ),
-    Variant("planted: a cut without hold", ("PLANT_CUT_WITHOUT_HOLD",), model=RING),
-    Variant("planted: a cut in the past", ("PLANT_NOT_LOOKED_AGAIN",), model=RING),
+    Variant("planted: a replacement without hold", ("PLANT_REPLACED_WITHOUT_HOLD",), model=RING),
+    Variant("planted: a replacement in the past", ("PLANT_NOT_LOOKED_AGAIN",), model=RING),
     Variant("planted: not started again", ("PLANT_NOT_STARTED_AGAIN",), model=RING),
     Variant("planted: a wrap inside the ring", ("PLANT_COUNTERS_WRAP_BETWEEN",), model=RING),
     Variant("planted: a push into a closed ring", ("PLANT_CLOSED_NOT_SEEN",), model=RING),
     Variant("planted: a push without hold", ("PLANT_PUSH_WITHOUT_HOLD",), model=RING),
     Variant("planted: closed seen before the hold", ("PLANT_CLOSED_SEEN_BEFORE_HOLD",), model=RING),
-    Variant("planted: a cut after a brake", ("PLANT_CUT_BEHIND_BRAKE",), model=RING),
-    Variant("planted: a splice that does not open", ("PLANT_NOT_OPENED",), model=RING),
+    Variant("planted: a replacement after a brake", ("PLANT_REPLACED_AFTER_BRAKE",), model=RING),
+    Variant("planted: a replacement that does not open", ("PLANT_NOT_OPENED",), model=RING),
 )
 
 

@@ -24,7 +24,7 @@ from fractions import Fraction
 from reference import TICK_HZ
 
 FRACTION_BITS = 32
-"""Binary places of a tick behind the point."""
+"""Binary places of a tick after the point."""
 
 ROOT_BITS = 80
 AXES = 4

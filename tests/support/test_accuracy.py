@@ -226,7 +226,7 @@ def test_the_probe_makes_changes_at_their_pulses() -> None:
     assert after.pulses == 2060
 
 
-def test_the_probe_tells_break_points_as_they_are_behind_the_changes() -> None:
+def test_the_probe_tells_break_points_as_they_are_after_the_changes() -> None:
     made = run_one(Case(Move(100, MOVE.sections, ((1000, 500),))))
     assert made.corners == [(1, 100), (1000, 1000), (1188, 500), (4940, 500), (5000, 0)]
 

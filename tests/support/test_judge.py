@@ -132,7 +132,7 @@ def test_a_stop_of_the_motor_or_of_the_unit_explains_a_short_move(motor: int) ->
     assert judge(*one_move(curve, 500, stop)) == []
 
 
-def test_a_stop_before_or_behind_a_move_does_not_explain_that_it_is_short() -> None:
+def test_a_stop_before_or_after_a_move_does_not_explain_that_it_is_short() -> None:
     steps, trace = one_move(single(50, 100, 1000, 2000), 60)
     stop = Event(0, 1, "stop", "X")
     later = [replace(event, tick=event.tick + 1) for event in trace]
@@ -220,7 +220,7 @@ def test_pulses_of_two_moves_too_close_are_found() -> None:
     assert_found(judge(log(first + second), trace), "faster than 16000 steps/s")
 
 
-def test_a_pulse_behind_the_end_of_a_move_is_found() -> None:
+def test_a_pulse_after_the_end_of_a_move_is_found() -> None:
     steps, trace = lawful_run()
     early = replace(trace[2], tick=trace[2].tick - 1)
     found = judge(steps, replaced(trace, 2, early))

@@ -179,7 +179,7 @@ def test_a_move_cut_into_equal_sections_is_the_same_move() -> None:
         assert abs(whole.tick(k) - parts.tick(k)) < TINY
 
 
-def test_border_speeds_are_lowered_by_a_short_section_behind() -> None:
+def test_border_speeds_are_lowered_by_a_short_section_after() -> None:
     curve = plan([Section(5000, 4000, 1000), Section(10, 4000, 500)], 100)
     assert curve.speed_squared(5000) == 100**2 + 2 * 500 * 10
 

@@ -52,7 +52,7 @@ def test_a_stop_goes_on_with_the_acceleration_of_the_next_section() -> None:
     assert stopped.speed_squared(501) == at_border - 8000
 
 
-def test_a_stop_at_a_border_has_the_acceleration_of_the_section_behind() -> None:
+def test_a_stop_at_a_border_has_the_acceleration_of_the_section_after() -> None:
     curve = plan([Section(800, 1000, 1000), Section(5000, 1000, 4000)], 100)
     stopped = curve.stopped_at(800)
     assert stopped.speed_squared(801) == curve.speed_squared(800) - 8000
@@ -159,7 +159,7 @@ def test_a_change_holds_for_the_current_section_only() -> None:
     assert changed.speed_squared(1500) == 800**2
 
 
-def test_a_change_at_a_border_changes_the_section_behind_it() -> None:
+def test_a_change_at_a_border_changes_the_section_after_it() -> None:
     sections = [Section(1000, 500, 2000), Section(1000, 800, 2000)]
     changed = plan(sections, 100).speed_changed_at(1000, 600)
     assert changed.speed_squared(1000) == 500**2

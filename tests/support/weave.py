@@ -36,14 +36,14 @@ def line_of(source: Source, anchor: str) -> int:
         node = _statement(source, function, what, BLOCKS) if what else source.definition(function)
         block = _block(node, anchor)
         return (
-            _behind(source, block.start_byte + 1, anchor) if word == "begin"
+            _after(source, block.start_byte + 1, anchor) if word == "begin"
             else _before(source, block.end_byte - 1, anchor)
         )  # fmt: skip
     if word in ("before", "after"):
         node = _statement(source, function, what, (*KINDS, "set", "call"))
         if word == "before":
             return _before(source, node.start_byte, anchor)
-        return _behind(source, node.end_byte, anchor)
+        return _after(source, node.end_byte, anchor)
     raise Mismatch(f"`{anchor}` means nothing")
 
 
@@ -85,7 +85,7 @@ def _before(source: Source, place: int, anchor: str) -> int:
     return source.code.count(b"\n", 0, place)
 
 
-def _behind(source: Source, place: int, anchor: str) -> int:
+def _after(source: Source, place: int, anchor: str) -> int:
     """The line below a place, after which there must be nothing but a comment in it."""
     end = source.code.find(b"\n", place)
     rest = source.code[place:end].strip()

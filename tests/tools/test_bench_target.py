@@ -107,7 +107,7 @@ def test_cycles_go_down_with_the_cycles_of_a_refill(rig):
 
 
 @on_target
-def test_a_guard_begins_the_ramp_behind_its_edge(rig, monkeypatch):
+def test_a_guard_begins_the_ramp_after_its_edge(rig, monkeypatch):
     monkeypatch.setattr(target_reactions, "GUARD_ROUNDS", 3)
 
     reaction = target_reactions.guard(rig, 2000, 4)
@@ -194,7 +194,7 @@ def test_an_edge_that_changes_nothing_is_an_error():
 
 
 @pytest.mark.parametrize(("edge", "after"), [(5250, 0.0), (5249, 1 / 84), (0, 62.5)])
-def test_a_limit_run_ends_with_the_last_pulse_behind_the_edge(edge, after):
+def test_a_limit_run_ends_with_the_last_pulse_after_the_edge(edge, after):
     assert target_reactions.halting(CRUISE[:2], edge, 50_000) == after
 
 

@@ -122,7 +122,7 @@ def test_a_stop_that_nobody_answers_calls_for_the_emergency_stop(tool, fake, uni
     assert result.complaint.endswith("; use the emergency stop")
 
 
-def test_so_does_one_behind_which_the_unit_is_silent(tool, fake, unit):
+def test_so_does_one_after_which_the_unit_is_silent(tool, fake, unit):
     fake.faults += [bytes] + [fake_unit.lost] * 20
 
     result = tool("stop")

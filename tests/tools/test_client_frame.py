@@ -90,7 +90,7 @@ def test_both_implementations_make_the_same_bytes(frame):
 
 
 @given(noise=st.binary(max_size=400), frame=ANY_FRAME)
-def test_behind_any_noise_the_second_frame_at_the_latest_is_received(noise, frame):
+def test_after_any_noise_the_second_frame_at_the_latest_is_received(noise, frame):
     assert frame in received(noise + frame.encode() + frame.encode())
 
 

@@ -163,7 +163,7 @@ def test_two_units_that_talk_at_once_are_named_as_a_cause(motor, fake):
 
 
 @pytest.mark.parametrize("fake", [False], indirect=True)
-def test_a_request_is_not_repeated_by_a_restart_behind_its_execution(motor, fake, unit):
+def test_a_request_is_not_repeated_by_a_restart_after_its_execution(motor, fake, unit):
     def lost_by_restart(answer: bytes) -> bytes:
         unit.restart()
         return b""

@@ -152,7 +152,7 @@ def position(port: str) -> int:
         return line.unit(NODE).motor(2).position()
 
 
-def test_a_unit_that_restarts_behind_an_execution_does_not_execute_again(serve):
+def test_a_unit_that_restarts_after_an_execution_does_not_execute_again(serve):
     before, after = (serve("--node", str(NODE), "--unpaced") for _ in range(2))
     line = NoisyLine(before, seed=4, probability=0.0, echo=False)
     try:

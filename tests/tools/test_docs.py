@@ -151,9 +151,7 @@ def test_a_program_in_the_documents_is_free_of_errors(text: str) -> None:
 
 
 @pytest.mark.parametrize(("text", "times"), traced_programs())
-def test_a_program_does_what_the_table_behind_it_says(
-    tmp_path: Path, text: str, times: str
-) -> None:
+def test_a_program_does_what_the_table_after_it_says(tmp_path: Path, text: str, times: str) -> None:
     source, trace = tmp_path / "a.rks", tmp_path / "trace.csv"
     source.write_text(text, encoding="utf-8")
 

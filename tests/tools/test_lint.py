@@ -154,5 +154,5 @@ def test_a_loop_of_many_labels_is_reported_once(tool, write):
     assert rules(tool, path) == [("busy-loop", 14)]
 
 
-def test_only_the_commands_behind_the_last_reset_count(tool, write):
+def test_only_the_commands_after_the_last_reset_count(tool, write):
     assert rules(tool, write("@1 \\ J1")) == [("lost", 4), ("missing-label", 6)]

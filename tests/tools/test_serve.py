@@ -238,7 +238,7 @@ def test_a_path_that_is_in_use_is_left_alone(serve, tmp_path):
     assert served.talker().ask(VERSION).startswith(b"\x01\x10")
 
 
-def test_a_link_that_was_left_behind_is_replaced(serve, tmp_path):
+def test_a_link_that_was_left_BEHIND_is_replaced(serve, tmp_path):
     link = tmp_path / "line"
     link.symlink_to("/dev/pts/999999")
 

@@ -30,7 +30,7 @@ def test_a_stored_program_starts_when_the_unit_is_switched_on_again(serve, tmp_p
     assert [path.name for path in tmp_path.iterdir()] == ["unit.flash"]
 
 
-def test_a_stored_program_survives_a_kill_behind_the_answer(serve, tmp_path):
+def test_a_stored_program_survives_a_kill_after_the_answer(serve, tmp_path):
     served = serve("--flash", tmp_path / "unit.flash")
     talker = served.talker()
     talker.ask(b"\x021F1")

@@ -116,7 +116,7 @@ def test_a_click_while_the_unit_is_away_is_refused_there_and_then(desk, line, un
     assert kinds(line) <= READS
 
 
-def test_what_waits_behind_a_request_without_an_answer_is_given_up(desk, line):
+def test_what_waits_after_a_request_without_an_answer_is_given_up(desk, line):
     line.units.clear()
     for number in (101, 102, 103):
         desk.worker.give(Act("resume", 0), Asked(CLIENT, number))

@@ -61,7 +61,7 @@ def test_it_ends_at_once_while_a_long_program_is_sent(build):
     browser.close()
 
 
-def test_it_leaves_no_files_behind(build, tmp_path, monkeypatch):
+def test_it_leaves_no_files_after(build, tmp_path, monkeypatch):
     place = tmp_path / "temporary"
     place.mkdir()
     monkeypatch.setenv("TMPDIR", str(place))

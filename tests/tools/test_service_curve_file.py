@@ -159,7 +159,7 @@ def test_a_motor_that_still_moves_is_drawn_to_the_end(curve):
     assert line[-1][1] == pytest.approx(1000, abs=1)
 
 
-def test_a_part_has_a_point_before_and_one_behind_it(curve):
+def test_a_part_has_a_point_before_and_one_after_it(curve):
     _, told = curve("\\ S100 V100 F1000 R", "\\ S100 V100 F10 R", "W1", from_=2, to=3)
     line, standing, still = (points(each) for each in told["motors"][:3])
 

@@ -243,7 +243,7 @@ def test_a_stop_is_obeyed_whatever_it_says_of_nodes(browser, nodes):
     assert browser.ask("stop", nodes=nodes)["error"] is None
 
 
-def test_orders_behind_a_stop_are_obeyed(browser):
+def test_orders_after_a_stop_are_obeyed(browser):
     stop, after = browser.begin("stop"), browser.begin("request", message="version", motor=0)
 
     assert browser.answer(stop)["error"] is None

@@ -64,7 +64,7 @@ def test_one_error_and_nothing_is_sent_to_any_motor(browser):
         assert programs(browser) == [""] * 4
 
 
-def test_programs_that_start_together_wait_behind_a_bracket_for_all(tmp_path):
+def test_programs_that_start_together_wait_after_a_bracket_for_all(tmp_path):
     units = Served("--tcp", "0", "--node", "3", "--control", "0", cwd=tmp_path)
     service = Service(build_with_page(tmp_path), "--port", units.place, "--node", "3")
     browser = service.browser()

@@ -65,7 +65,7 @@ def test_inputs_count_from_the_time_at_which_programs_have_come(board_tool, writ
     assert 100 < behind_ms < 120
 
 
-def test_only_changes_behind_the_start_are_put_later():
+def test_only_changes_after_the_start_are_put_later():
     told = sim_board.later(b"# ms\n0,6,1\n2.5,3,1 # a\n\nnonsense\n", 100)
 
     assert told == b"# ms\n0,6,1\n102.500000,3,1 # a\n\nnonsense\n"
@@ -96,7 +96,7 @@ def test_without_the_virtual_board_the_hint_names_its_libraries(tool, write, mon
     assert "libunicorn-dev" in result.complaint
 
 
-def test_a_program_is_held_behind_its_last_reset(write):
+def test_a_program_is_held_after_its_last_reset(write):
     checked = check_source(read_source(write("F1 \\ S100 \\ F2 R")))
 
     assert sim_board.message(checked, alone=False) == b"F1 \\ S100 \\[ F2 R"

@@ -307,7 +307,7 @@ def test_a_tool_that_does_not_tell_the_size_is_told(tool, fake, name):
         ("Error during download get_status", 74, NOT_SO),
     ],
 )
-def test_dfu_util_that_loses_the_board_behind_its_work_has_done_it(tool, fake, said, ended, status):
+def test_dfu_util_that_loses_the_board_after_its_work_has_done_it(tool, fake, said, ended, status):
     fake("dfu-util", f"case \"$*\" in *-l*) exit 0;; esac; echo '{said}'; "
          f"echo 'dfu-util: Error during download get_status' >&2; exit {ended}")  # fmt: skip
 

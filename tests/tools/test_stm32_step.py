@@ -98,7 +98,7 @@ def test_a_segment_may_end_where_others_go_on_and_one_motor_comes_to_rest(make_r
     assert rig.late == 0
 
 
-def test_a_channel_rests_behind_its_last_pulse(make_rig):
+def test_a_channel_rests_after_its_last_pulse(make_rig):
     rig = make_rig()
     rig.start(0, [START + 500])
 

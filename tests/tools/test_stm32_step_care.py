@@ -176,7 +176,7 @@ def test_a_late_edge_may_come_together_with_those_of_other_motors(make_rig, offs
 
 
 @pytest.mark.parametrize("edge", [0, 1, 2])
-def test_an_edge_behind_the_wrap_may_come_together_with_plain_ones(make_rig, edge):
+def test_an_edge_after_the_wrap_may_come_together_with_plain_ones(make_rig, edge):
     rig = make_rig(WRAP - 6000)
     ticks = [WRAP + edge + 3000 * i for i in range(-1, 3)]
     rig.start_steady(0, ticks[0], 3000, 4)
@@ -348,7 +348,7 @@ def test_without_the_crystal_nothing_is_ever_connected(make_rig):
 # DIR
 
 
-def test_dir_falls_behind_the_hold_time_when_its_motor_is_disconnected(make_rig):
+def test_dir_falls_after_the_hold_time_when_its_motor_is_disconnected(make_rig):
     rig = make_rig()
     rig.call("hal_step_set_direction", 1, 1)
     _, pin, _ = rig.pin_writes[-1]

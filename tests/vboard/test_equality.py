@@ -96,7 +96,7 @@ def test_a_branch_that_an_input_chooses_makes_the_same_pulses(unit):
     assert differences(simulated, modelled) == []
 
 
-def test_moves_behind_waits_for_inputs_begin_within_a_sample_of_the_same_time(unit):
+def test_moves_after_waits_for_inputs_begin_within_a_sample_of_the_same_time(unit):
     text = example("5-wait-for-inputs")
     inputs = [(1000, 5, 1), (7000, 2, 1), (14500, 5, 0)]
 

@@ -62,7 +62,7 @@ def test_a_guard_acts_from_the_next_pulse_on(unit, pulse_ms, before_us, options)
 
 @pytest.mark.parametrize("options", [[], ["--exti-mask-first"]], ids=["mask after", "in front"])
 @pytest.mark.parametrize("apart_us", [0.05, 0.3, 1.0, 10.0, 49.0, 51.0])
-def test_an_edge_shortly_behind_another_waits_for_the_end_of_the_hold(
+def test_an_edge_shortly_after_another_waits_for_the_end_of_the_hold(
     unit, pulse_ms, apart_us, options
 ):
     """The second one comes 2 us after a pulse: it acts at the latest at the next but one."""

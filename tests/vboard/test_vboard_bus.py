@@ -51,7 +51,7 @@ def test_a_write_to_a_slow_bus_acts_when_it_arrives(run_image, wait, low):
     assert result[0] == low
 
 
-def test_a_read_comes_behind_the_write_before_it(run_image):
+def test_a_read_comes_after_the_write_before_it(run_image):
     assert run_image("arrival").result[1] == 1234
 
 
@@ -68,7 +68,7 @@ def test_a_flag_that_is_cleared_at_the_end_of_a_handler_calls_it_once_more(run_i
     assert run.vector("TIM2")["count"] == 2
 
 
-def test_a_return_right_behind_a_write_is_warned_of_and_a_barrier_between_them_helps(run_image):
+def test_a_return_right_after_a_write_is_warned_of_and_a_barrier_between_them_helps(run_image):
     bad, good = run_image("arrival"), run_image("arrival", defines=["BARRIER"])
 
     assert bad.summary["warnings"] == 2

@@ -161,7 +161,7 @@ def test_the_return_of_an_exception_is_no_place_for_main(run_image, place):
     assert run.summary["watch"]["result"][:4] == [3, IACCVIOL, FORCED, place & ~1]
 
 
-def test_svc_is_taken_at_once_and_returns_behind_it(run_image):
+def test_svc_is_taken_at_once_and_returns_after_it(run_image):
     assert run_image("faults").result[25] == 77
 
 

@@ -229,7 +229,7 @@ def test_old_errors_let_no_erase_begin(run_image):
         ('APB1="6"', False),
     ],
 )
-def test_an_access_right_behind_a_clock_enable_is_lost(run_image, define, lost):
+def test_an_access_right_after_a_clock_enable_is_lost(run_image, define, lost):
     run = run_image("clock_enable", defines=[define])
 
     assert run.status == int(lost)

@@ -82,7 +82,7 @@ def test_a_preloaded_compare_value_waits_for_the_update(run_image):
     assert result[1] in (60, 61)
 
 
-def test_a_pulse_and_the_gap_behind_it_are_measured(run_image):
+def test_a_pulse_and_the_gap_after_it_are_measured(run_image):
     motor = run_image("timer_compare", pins=PINS).summary["motors"][0]
 
     assert motor["period_min"] == pytest.approx(500 / 84, abs=1e-5)
@@ -148,7 +148,7 @@ def test_pwm_2_is_high_from_the_value_on_and_low_as_soon_as_it_lies_ahead(run_im
 
 
 @pytest.mark.parametrize(("options", "left"), [([], LOW), (["--pwm-at-once"], HIGH)])
-def test_pwm_behind_a_forced_level_waits_for_a_change_of_the_comparison(run_image, options, left):
+def test_pwm_after_a_forced_level_waits_for_a_change_of_the_comparison(run_image, options, left):
     result = run_image("timer_pwm", *options, defines=["FORCED"]).result
 
     assert result[0:2] == [HIGH, HIGH]

@@ -7,7 +7,7 @@ state, on recursion, and on 64-bit division helpers in whatever the step stage m
 that it prints has the size of every stage and its largest stack frame.
 
 The calls come from the .ci files that gcc leaves beside the objects (-fcallgraph-info=su). A call
-through a function pointer has no callee there: recursion and division behind one stay unseen.
+through a function pointer has no callee there: recursion and division in one stay unseen.
 """
 
 from __future__ import annotations

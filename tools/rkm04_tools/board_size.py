@@ -36,7 +36,6 @@ LIBRARY_FRAMES = {
     "memcmp": 32,
     "memcpy": 32,
     "memset": 32,
-    "strlen": 32,
     "__aeabi_uldivmod": 96,
     "__aeabi_ldivmod": 96,
     "__assert_func": 0,

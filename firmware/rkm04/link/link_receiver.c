@@ -5,8 +5,8 @@
 enum state {
     STATE_OUTSIDE, /* no flag has come yet, or none for long */
     STATE_DROPPED, /* the rest of a frame that is not wanted, until the next flag */
-    STATE_INSIDE,  /* behind a flag */
-    STATE_ESCAPED, /* behind an escape in a frame */
+    STATE_INSIDE,  /* after a flag */
+    STATE_ESCAPED, /* after an escape in a frame */
 };
 
 enum {

@@ -40,23 +40,24 @@ struct exchange {
     unsigned last;
 };
 
-static void put_length_and_signed(struct text *answer, int64_t value)
+/* Puts a byte for the length of what follows, and says where; end_counted fills it in. */
+static uint32_t begin_counted(struct text *answer)
 {
-    uint8_t bytes[POSITION_BYTES_MAX];
-    struct text decimal;
+    uint32_t at = answer->length;
+    text_put_byte(answer, 0);
+    return at;
+}
 
-    text_init(&decimal, bytes, sizeof bytes);
-    text_put_signed(&decimal, value, POSITION_WIDTH);
-    text_put_byte(answer, (uint8_t)decimal.length);
-    for (uint32_t i = 0; i < decimal.length; i++) {
-        text_put_byte(answer, bytes[i]);
-    }
+static void end_counted(struct text *answer, uint32_t at)
+{
+    answer->bytes[at] = (uint8_t)(answer->length - at - 1U);
 }
 
 static void answer_version(struct exchange *exchange)
 {
-    text_put_byte(&exchange->answer, (uint8_t)strlen(exchange->messages->version));
+    uint32_t at = begin_counted(&exchange->answer);
     text_put_string(&exchange->answer, exchange->messages->version);
+    end_counted(&exchange->answer, at);
 }
 
 static void answer_get_status(struct exchange *exchange)
@@ -120,7 +121,10 @@ static void answer_store_flash(struct exchange *exchange)
 static void answer_get_position(struct exchange *exchange)
 {
     for (unsigned motor = exchange->first; motor < exchange->last; motor++) {
-        put_length_and_signed(&exchange->answer, interpreter_position_steps(&exchange->messages->interpreters[motor]));
+        uint32_t at = begin_counted(&exchange->answer);
+        text_put_signed(&exchange->answer, interpreter_position_steps(&exchange->messages->interpreters[motor]),
+                        POSITION_WIDTH);
+        end_counted(&exchange->answer, at);
     }
 }
 

@@ -47,7 +47,7 @@ struct program_instruction program_memory_at(const struct program_memory *memory
 /* Finds the youngest `@label` (1 to 80) that is stored. False: there is none. */
 bool program_memory_find_label(const struct program_memory *memory, uint32_t label, uint32_t *ordinal);
 
-/* Whether a `]` has been written behind the command with this ordinal. */
+/* Whether a `]` has been written after the command with this ordinal. */
 bool program_memory_is_released(const struct program_memory *memory, uint32_t ordinal);
 
 /* Writes all stored commands in canonical form. Returns the length. A `capacity` of PROGRAM_COMMANDS_MAX *

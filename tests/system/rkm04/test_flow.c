@@ -76,7 +76,7 @@ void test_a_jump_depends_on_a_variable(const char *text, bool goes_on)
     TEST_ASSERT_EQUAL(goes_on, bench_output(&bench, 1));
 }
 
-void test_a_subroutine_returns_behind_its_call(void)
+void test_a_subroutine_returns_after_its_call(void)
 {
     bench_do(&bench, 1, "[ S1000 F1 '3 F10 '3 J9 @3 R . @9 ]");
     TEST_ASSERT_EQUAL_INT64(11, bench_position(&bench, 1));

@@ -95,7 +95,7 @@ TEST_CASE("S1000 )03")
 TEST_CASE("S1000 F500 Y Y R")
 TEST_CASE("S1000 G+ T02")
 TEST_CASE("M08 S1000 G+ W100")
-void test_new_commands_wait_behind_any_other_move_that_k_has_stopped(const char *text)
+void test_new_commands_wait_after_any_other_move_that_k_has_stopped(const char *text)
 {
     bench_send(&bench, 1, text);
     bench_run_ms(&bench, 100);
@@ -106,7 +106,7 @@ void test_new_commands_wait_behind_any_other_move_that_k_has_stopped(const char 
     TEST_ASSERT_EQUAL_INT(INTERPRETER_STOPPED, bench_state(&bench, 1));
 }
 
-void test_new_commands_wait_in_a_pause_behind_a_run_without_end(void)
+void test_new_commands_wait_in_a_pause_after_a_run_without_end(void)
 {
     bench_send(&bench, 1, "M03 S1000 G+ W1000");
     bench_run_ms(&bench, 100);
@@ -177,7 +177,7 @@ void test_x_ends_a_jog_that_k_has_stopped(void)
     TEST_ASSERT_EQUAL_INT(INTERPRETER_ENDED, bench_state(&bench, 1));
 }
 
-void test_a_reset_behind_a_jog_is_a_reset(void)
+void test_a_reset_after_a_jog_is_a_reset(void)
 {
     bench_send(&bench, 1, "S100 V1000 A2000 G+");
     bench_run_ms(&bench, 1000);

@@ -227,7 +227,7 @@ static void run_until_all_is_sent(void)
 }
 
 /* On a bus this is a collision; a connection in both directions at once can do it. */
-void test_a_request_that_comes_while_an_answer_goes_out_is_executed_behind_it(void)
+void test_a_request_that_comes_while_an_answer_goes_out_is_executed_after_it(void)
 {
     fill_memory();
     line_request(&line, NODE, 1, MESSAGES_GET_COMMAND, "1");

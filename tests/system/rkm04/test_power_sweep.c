@@ -51,10 +51,10 @@ static uint64_t restart(void)
 }
 
 /* So many pulses of the stored program; an input stops it after one of them. */
-static void make_pulses(uint32_t pulses, uint32_t stop_behind)
+static void make_pulses(uint32_t pulses, uint32_t stop_after)
 {
-    if (stop_behind != 0 && pulses > stop_behind) {
-        bench_run_pulses(&bench, 1, stop_behind);
+    if (stop_after != 0 && pulses > stop_after) {
+        bench_run_pulses(&bench, 1, stop_after);
         bench_set_input(&bench, STOP_INPUT, true);
     }
     bench_run_pulses(&bench, 1, pulses);
@@ -79,7 +79,7 @@ TEST_CASE("S400 )08", 80, 0)
 TEST_CASE("M07 S100 V1000 A9000 F200 R", 40, 20) /* stopped on its ramp up, */
 TEST_CASE("M07 S100 V500 A9000 B70 R", 54, 40)   /* in its cruise, */
 TEST_CASE("M07 S100 V2000 A9000 F60 R", 60, 40)  /* and on its ramp down */
-void test_power_that_goes_at_any_pulse_leaves_nothing_behind(const char *text, uint32_t pulses, uint32_t stop_behind)
+void test_power_that_goes_at_any_pulse_leaves_nothing_behind(const char *text, uint32_t pulses, uint32_t stop_after)
 {
     static const uint64_t after[] = {0, TICKS_PER_MS};
     const uint8_t store[] = {MESSAGES_STORE_FLASH, '1'};
@@ -87,21 +87,21 @@ void test_power_that_goes_at_any_pulse_leaves_nothing_behind(const char *text, u
     bench_message(&bench, store, sizeof store);
     TEST_ASSERT_EQUAL_UINT8(STORE_OK, bench.answer[2]);
     uint64_t begin = restart();
-    make_pulses(pulses, stop_behind);
+    make_pulses(pulses, stop_after);
     for (uint32_t pulse = 1; pulse <= pulses; pulse++) {
         due[pulse - 1U] = bench_pulse_tick(&bench, 1, pulse) - begin;
     }
     for (uint32_t pulse = 1; pulse <= pulses; pulse++) {
         for (unsigned place = 0; place < sizeof after / sizeof after[0]; place++) {
             begin = restart();
-            make_pulses(pulse, stop_behind);
+            make_pulses(pulse, stop_after);
             bench_run_ticks(&bench, after[place]);
             assert_pulses_are_as_ever(begin, pulse);
             cuts++;
         }
     }
     begin = restart();
-    make_pulses(pulses, stop_behind);
+    make_pulses(pulses, stop_after);
     assert_pulses_are_as_ever(begin, pulses);
     printf("%u power cuts\n", cuts);
 }

@@ -33,7 +33,7 @@ void test_a_stored_program_is_loaded_and_started(void)
     TEST_ASSERT_EQUAL_STRING("S1000F7R", bench_ask(&bench, 5, 2));
 }
 
-void test_behind_a_watchdog_or_a_fault_no_stored_program_starts(void)
+void test_after_a_watchdog_or_a_fault_no_stored_program_starts(void)
 {
     bench_do(&bench, 2, "\\ S1000 F7 R");
     TEST_ASSERT_EQUAL_UINT8(STORE_OK, store_program(2));

@@ -53,7 +53,7 @@ TEST_CASE("[ T01")
 TEST_CASE("] [ T01")
 TEST_CASE("[ [ T01")
 TEST_CASE("[ ] [ T01")
-void test_a_hold_lasts_until_a_release_behind_it(const char *text)
+void test_a_hold_lasts_until_a_release_after_it(const char *text)
 {
     bench_do(&bench, 1, text);
     bench_run_ms(&bench, 100);

@@ -119,7 +119,7 @@ void test_x_that_is_still_1_acts_before_the_first_new_command(void)
     TEST_ASSERT_EQUAL_UINT32(1, bench_count(&bench, 1, HAL_TRACE_STOP));
 }
 
-void test_a_guard_of_x_stays_for_the_moves_behind_a_rest(void)
+void test_a_guard_of_x_stays_for_the_moves_after_a_rest(void)
 {
     bench_do(&bench, 1, "X03");
     bench_set_input(&bench, 3, true);

@@ -45,7 +45,7 @@ void test_a_tick_is_before_later_ones_only(void)
     TEST_ASSERT_FALSE(tick_is_before(101, 100));
 }
 
-void test_a_tick_is_before_one_behind_the_wrap(void)
+void test_a_tick_is_before_one_after_the_wrap(void)
 {
     TEST_ASSERT_TRUE(tick_is_before(UINT32_MAX, 0));
     TEST_ASSERT_FALSE(tick_is_before(0, UINT32_MAX));
@@ -65,7 +65,7 @@ void test_a_tick_is_extended_with_the_high_half_of_the_time_near_it(void)
     TEST_ASSERT_EQUAL_HEX64(UINT64_C(0x500000020), tick_extend(0x20, UINT64_C(0x500000020)));
 }
 
-void test_a_tick_behind_the_wrap_is_extended_into_the_next_round(void)
+void test_a_tick_after_the_wrap_is_extended_into_the_next_round(void)
 {
     TEST_ASSERT_EQUAL_HEX64(UINT64_C(0x600000003), tick_extend(3, UINT64_C(0x5FFFFFFF0)));
 }

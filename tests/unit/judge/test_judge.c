@@ -213,7 +213,7 @@ void test_6_a_move_that_ends_short_is_found(void)
     assert_found("does not end where its plan does");
 }
 
-void test_6_a_pulse_behind_done_is_found(void)
+void test_6_a_pulse_after_done_is_found(void)
 {
     feed_all();
     judge_pulse(&judge, done_tick + TICK_HZ / 100U, 1, false);
@@ -236,7 +236,7 @@ void test_7_dir_that_moves_before_a_pulse_is_found(void)
     assert_found("DIR moves before the pulse");
 }
 
-void test_7_dir_that_moves_behind_a_pulse_is_found(void)
+void test_7_dir_that_moves_after_a_pulse_is_found(void)
 {
     judge.limits.dir_hold_ticks = 2U * TICKS_PER_US;
     feed_all();
@@ -289,7 +289,7 @@ void test_9_a_pulse_too_many_after_a_stop_is_found(void)
     assert_found("makes more pulses than its plan or a stop allow");
 }
 
-void test_9_a_pulse_behind_the_end_of_a_limit_run_is_found(void)
+void test_9_a_pulse_after_the_end_of_a_limit_run_is_found(void)
 {
     order.section[0] = motion_order_endless(100, 2000);
     begin();

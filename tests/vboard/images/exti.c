@@ -40,7 +40,7 @@ static void pulse(uint32_t port, unsigned pin)
     set_pin(port, pin, 0);
 }
 
-/* Behind it nothing is pending and no line is in use. */
+/* After it nothing is pending and no line is in use. */
 static uint32_t begin(void)
 {
     EXTI_IMR = 0;

@@ -159,7 +159,7 @@ void test_a_limit_ends_a_run_without_end_for_good(void)
     axis_bench_assert_steps(&bench, 10);
 }
 
-void test_a_limit_ends_a_run_at_once_also_behind_a_move_that_was_stopped(void)
+void test_a_limit_ends_a_run_at_once_also_after_a_move_that_was_stopped(void)
 {
     const struct motion_order endless = endless_order();
     axis_bench_set_inputs(&bench, N, LIMIT, 2105);

@@ -19,7 +19,7 @@ void tearDown(void)
 {
 }
 
-/* The pulse behind which the interval is another. */
+/* The pulse after which the interval is another. */
 static unsigned first_change(void)
 {
     unsigned k = 1;
@@ -150,7 +150,7 @@ void test_a_change_hands_over_two_segments_for_the_time_until_main_lays_the_othe
     run_to_the_end();
 }
 
-void test_a_queue_that_ran_dry_behind_a_cut_is_filled_and_goes_on(void)
+void test_a_queue_that_ran_dry_after_a_cut_is_filled_and_goes_on(void)
 {
     run_dry();
 

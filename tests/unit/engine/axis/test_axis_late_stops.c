@@ -40,7 +40,7 @@ void test_a_stop_below_the_start_speed_takes_effect_at_the_next_pulse(void)
     TEST_ASSERT_EQUAL_INT(AXIS_CAUSE_PAUSE, axis_cause(&axis));
 }
 
-/* Ends of moves that were stopped behind pulse 50, by the time that planning took. */
+/* Ends of moves that were stopped after pulse 50, by the time that planning took. */
 static void assert_stopped_alike(uint64_t planning)
 {
     static uint64_t expected[sizeof pulse_tick / sizeof *pulse_tick];
@@ -88,7 +88,7 @@ void test_a_stop_that_is_planned_much_too_late_ends_on_its_step_all_the_same(voi
     TEST_ASSERT_EQUAL_UINT64(made, pulses);
 }
 
-void test_a_stop_behind_which_no_pulse_is_left_changes_nothing(void)
+void test_a_stop_after_which_no_pulse_is_left_changes_nothing(void)
 {
     start(&fast, 999);
 
@@ -135,8 +135,8 @@ void test_a_stop_that_meets_the_last_pulse_where_it_brakes_changes_nothing(void)
     }
 }
 
-/* Behind 50 pulses, an input changes so long ago; the pulses are those of a stop behind `made`. */
-static void assert_sensed_like_a_stop_behind(unsigned made, uint64_t ago_ticks)
+/* After 50 pulses, an input changes so long ago; the pulses are those of a stop after `made`. */
+static void assert_sensed_like_a_stop_after(unsigned made, uint64_t ago_ticks)
 {
     static const struct axis_guards guards = {.stop_high = 1};
     start(&ramped, 50);
@@ -154,14 +154,14 @@ static void assert_sensed_like_a_stop_behind(unsigned made, uint64_t ago_ticks)
     TEST_ASSERT_EQUAL_UINT64(pulses, sensed);
 }
 
-void test_an_input_that_is_seen_late_stops_at_the_pulse_behind_its_change(void)
+void test_an_input_that_is_seen_late_stops_at_the_pulse_after_its_change(void)
 {
-    assert_sensed_like_a_stop_behind(49, 101);
+    assert_sensed_like_a_stop_after(49, 101);
 }
 
-void test_a_pulse_on_the_tick_of_the_change_is_not_behind_it(void)
+void test_a_pulse_on_the_tick_of_the_change_is_not_after_it(void)
 {
-    assert_sensed_like_a_stop_behind(50, 100);
+    assert_sensed_like_a_stop_after(50, 100);
 }
 
 void test_a_stop_of_a_move_whose_end_main_has_not_seen_changes_nothing(void)
@@ -175,8 +175,8 @@ void test_a_stop_of_a_move_whose_end_main_has_not_seen_changes_nothing(void)
     TEST_ASSERT_EQUAL_UINT64(1000, pulses);
 }
 
-/* Without a plan the motor gets to the border; what was planned behind it is there when main looks. */
-void test_a_stop_that_is_planned_when_the_motor_waits_at_a_border_goes_on_behind_it(void)
+/* Without a plan the motor gets to the border; what was planned after it is there when main looks. */
+void test_a_stop_that_is_planned_when_the_motor_waits_at_a_border_goes_on_after_it(void)
 {
     static const struct motion_order two = {
         .section = {{1060, 16000, 60000}, {4000, 16000, 60000}},

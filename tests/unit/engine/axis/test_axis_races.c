@@ -223,7 +223,7 @@ static void change_input(void)
     axis_plan_isr(&axis);
 }
 
-/* Pulses of a move that does two things behind so many. */
+/* Pulses of a move that does two things after so many. */
 static uint64_t pulses_of(unsigned made, void (*first)(void), void (*second)(void))
 {
     setUp();
@@ -235,10 +235,10 @@ static uint64_t pulses_of(unsigned made, void (*first)(void), void (*second)(voi
 }
 
 /* The change comes at each call in turn, until main is through before it. */
-static void assert_stopped_as_before_or_behind(unsigned made, void (*work)(void))
+static void assert_stopped_as_before_or_after(unsigned made, void (*work)(void))
 {
     uint64_t before = pulses_of(made, change_input, work);
-    uint64_t behind = pulses_of(made, work, change_input);
+    uint64_t after = pulses_of(made, work, change_input);
     bool through = false;
     for (unsigned call = 1; !through; call++) {
         TEST_ASSERT_LESS_THAN_UINT(CALLS_MAX, call);
@@ -249,30 +249,30 @@ static void assert_stopped_as_before_or_behind(unsigned made, void (*work)(void)
         work();
         through = edge_at != 0;
         run_to_the_end();
-        TEST_ASSERT_TRUE(through || pulses == before || pulses == behind);
+        TEST_ASSERT_TRUE(through || pulses == before || pulses == after);
         TEST_ASSERT_TRUE(through || stops_traced == 1);
     }
 }
 
 void test_an_input_that_changes_while_segments_are_laid_stops_the_motor(void)
 {
-    assert_stopped_as_before_or_behind(0, feed);
-    assert_stopped_as_before_or_behind(50, feed);
+    assert_stopped_as_before_or_after(0, feed);
+    assert_stopped_as_before_or_after(50, feed);
 }
 
 void test_an_input_that_changes_while_the_speed_is_changed_stops_the_motor(void)
 {
-    assert_stopped_as_before_or_behind(50, change_speed);
+    assert_stopped_as_before_or_after(50, change_speed);
 }
 
 void test_an_input_that_changes_while_a_command_stops_the_motor_changes_nothing(void)
 {
-    assert_stopped_as_before_or_behind(50, stop_by_command);
+    assert_stopped_as_before_or_after(50, stop_by_command);
 }
 
 void test_an_input_that_changes_while_main_looks_for_the_end_stops_the_motor(void)
 {
-    assert_stopped_as_before_or_behind(50, poll);
+    assert_stopped_as_before_or_after(50, poll);
 }
 
 /* Either no step is made, or the move is stopped at its first pulse. */
@@ -305,8 +305,8 @@ static unsigned pulses_laid(void)
 
 void test_an_input_that_changes_while_a_motor_that_has_waited_goes_on_stops_it(void)
 {
-    assert_stopped_as_before_or_behind(pulses_laid(), feed);
-    assert_stopped_as_before_or_behind(pulses_laid(), poll);
+    assert_stopped_as_before_or_after(pulses_laid(), feed);
+    assert_stopped_as_before_or_after(pulses_laid(), poll);
 }
 
 void test_a_stop_of_a_motor_that_waits_for_the_planner_leaves_it_where_it_is(void)

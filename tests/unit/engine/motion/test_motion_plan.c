@@ -179,7 +179,7 @@ void test_look_ahead_reaches_through_sections_of_one_step(void)
     }
     begin(order);
 
-    /* Behind section i: 1 + 2 * (1 + 2 + ... + i) on the way up, 1 + 2 * (10 + 9 + ... + (i + 1)) on the way down. */
+    /* After section i: 1 + 2 * (1 + 2 + ... + i) on the way up, 1 + 2 * (10 + 9 + ... + (i + 1)) on the way down. */
     const uint64_t borders[] = {3, 7, 13, 21, 31, 43, 55, 39, 21, 1};
     assert_exits(borders, MOTION_SECTIONS);
     TEST_ASSERT_EQUAL_UINT64(MOTION_SECTIONS, take_segments());

@@ -97,7 +97,7 @@ void test_looking_ahead_changes_nothing(void)
     TEST_ASSERT_EQUAL_UINT(7, arms);
 }
 
-/* Foresees, cuts there, and lets two fast pulses follow. */
+/* Looks ahead, replaces there, and lets two fast pulses follow. */
 static bool cut_at(const struct step_cursor *cursor)
 {
     struct step_segment segment = fast_after((uint32_t)step_cursor_pulse(cursor), 2);

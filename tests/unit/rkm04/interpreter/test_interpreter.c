@@ -160,7 +160,7 @@ void test_a_command_is_not_run_before_it_came(void)
 TEST_CASE(0, 0)
 TEST_CASE(16800, 0)
 TEST_CASE(16801, 16801)
-void test_a_move_begins_at_the_clock_unless_that_has_fallen_behind(unsigned after, unsigned start)
+void test_a_move_begins_at_the_clock_unless_that_has_fallen_after(unsigned after, unsigned start)
 {
     uint64_t came = now();
     take("S1000F1R");

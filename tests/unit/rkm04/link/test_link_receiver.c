@@ -271,14 +271,14 @@ void test_a_flag_and_a_long_pause_open_no_frame(void)
     assert_the_next_good_frame_is_received();
 }
 
-void test_a_pause_behind_an_escape_that_opens_a_frame_is_a_gap(void)
+void test_a_pause_after_an_escape_that_opens_a_frame_is_a_gap(void)
 {
     take("\x7E\x7D", 2);
     take_after(LINK_GAP_TICKS + 1, 0x5E);
     TEST_ASSERT_EQUAL_UINT32(1, receiver.counts[LINK_COUNT_GAP]);
 }
 
-void test_the_flag_behind_a_long_pause_opens_the_next_frame(void)
+void test_the_flag_after_a_long_pause_opens_the_next_frame(void)
 {
     uint32_t length = make_frame(NODE, 6, 1);
     take(frame, 5);

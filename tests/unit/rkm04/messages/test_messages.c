@@ -286,7 +286,7 @@ void test_messages_of_one_motor_refuse_motor_0(uint8_t number)
     TEST_ASSERT_EQUAL_STRING_LEN("0ERROR COMMAND! ", &answer[1], 16);
 }
 
-void test_bytes_behind_what_a_message_needs_are_ignored(void)
+void test_bytes_after_what_a_message_needs_are_ignored(void)
 {
     send_text("\1 and more");
     TEST_ASSERT_EQUAL_UINT32(18, answer_length);

@@ -235,14 +235,14 @@ void test_a_hold_waits_until_a_release_is_written(void)
     TEST_ASSERT_TRUE(program_memory_is_released(&memory, 0));
 }
 
-void test_a_release_directly_behind_its_hold_releases_it(void)
+void test_a_release_directly_after_its_hold_releases_it(void)
 {
     (void)append(PROGRAM_HOLD, 0, false);
     (void)append(PROGRAM_RELEASE, 0, false);
     TEST_ASSERT_TRUE(program_memory_is_released(&memory, 0));
 }
 
-void test_a_release_does_not_reach_a_hold_behind_it(void)
+void test_a_release_does_not_reach_a_hold_after_it(void)
 {
     (void)append(PROGRAM_RELEASE, 0, false);
     (void)append(PROGRAM_HOLD, 0, false);
@@ -298,7 +298,7 @@ void test_the_list_ends_where_a_longest_command_might_not_fit(void)
     TEST_ASSERT_EQUAL_STRING("F1F2", list(PROGRAM_COMMAND_BYTES_MAX + 2));
 }
 
-void test_behind_the_last_ordinal_all_commands_are_ignored(void)
+void test_after_the_last_ordinal_all_commands_are_ignored(void)
 {
     memory.written = UINT32_MAX - 1U;
     TEST_ASSERT_FALSE(append(PROGRAM_STEPS_FORWARD, 8, false));

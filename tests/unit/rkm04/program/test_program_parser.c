@@ -360,7 +360,7 @@ void test_a_conditional_jump_knows_no_other_level(void)
     assert_reads("I05R", "!0 R");
 }
 
-void test_home_behind_an_unfinished_conditional_jump_is_a_command(void)
+void test_home_after_an_unfinished_conditional_jump_is_a_command(void)
 {
     assert_reads("I05 H R", "!0 H R");
 }
