@@ -89,8 +89,16 @@ static void wire_peripherals(struct board *board)
                                                           .nvic = &board->nvic,
                                                           .conditions = &board->conditions,
                                                           .gpio = &board->gpio,
+                                                          .requests = &board->requests,
                                                           .settings = &options->timer_settings});
     }
+    board->requests.listener = (struct request_listener){.model = &board->dma, .note = dma_note_request};
+    dma_init(&board->dma, (struct dma_wires){.clock = clock,
+                                             .report = report,
+                                             .nvic = &board->nvic,
+                                             .memory = &board->memory,
+                                             .bus = &board->bus,
+                                             .requests = &board->requests});
     for (unsigned i = 0; i < USARTS; i++) {
         usart_init(&board->usart[i], (struct usart_wires){.number = i,
                                                           .clock = clock,

@@ -13,6 +13,7 @@
 #include "conditions.h"
 #include "core.h"
 #include "cpu.h"
+#include "dma.h"
 #include "exception.h"
 #include "exti.h"
 #include "faults.h"
@@ -30,6 +31,7 @@
 #include "rcc.h"
 #include "recorder.h"
 #include "report.h"
+#include "requests.h"
 #include "reset.h"
 #include "rs485.h"
 #include "scb.h"
@@ -70,8 +72,10 @@ struct board {
     struct exti exti;
     struct syscfg syscfg;
     struct gpio gpio;
+    struct requests requests;
     struct timer timer[TIMERS];
     struct usart usart[USARTS];
+    struct dma dma;
 
     struct pins pins;
     struct rs485 line;

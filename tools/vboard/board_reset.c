@@ -32,6 +32,7 @@ static void reset_peripherals(struct board *board, enum reset_cause cause)
     for (unsigned i = 0; i < USARTS; i++) {
         usart_reset(&board->usart[i]);
     }
+    dma_reset(&board->dma);
     syscfg_reset(&board->syscfg);
     supply_reset(&board->supply);
     exti_reset(&board->exti);
@@ -64,6 +65,18 @@ void board_reset(struct board *board, enum reset_cause cause)
     }
 }
 
+static void reset_on_ahb1(struct board *board, unsigned bit)
+{
+    enum {
+        DMA1 = 21
+    };
+    if (bit < GPIO_PORTS) {
+        gpio_reset_port(&board->gpio.port[bit]);
+    } else if (bit == DMA1) {
+        dma_reset(&board->dma);
+    }
+}
+
 static void reset_peripheral(struct board *board, uint32_t offset, unsigned bit)
 {
     enum {
@@ -71,8 +84,8 @@ static void reset_peripheral(struct board *board, uint32_t offset, unsigned bit)
         APB1 = 0x20,
         APB2 = 0x24
     };
-    if (offset == AHB1 && bit < GPIO_PORTS) {
-        gpio_reset_port(&board->gpio.port[bit]);
+    if (offset == AHB1) {
+        reset_on_ahb1(board, bit);
     } else if (offset == APB1 && bit < TIMERS) {
         timer_reset(&board->timer[bit]);
     } else if (offset == APB1 && (bit == 17 || bit == 18)) {
@@ -110,7 +123,7 @@ static void on_release(void *model)
 static void on_stop(void *model)
 {
     static const enum event clocked[] = {EVENT_TIM2,   EVENT_TIM3,   EVENT_TIM4,   EVENT_TIM5, EVENT_SYSTICK,
-                                         EVENT_USART1, EVENT_USART2, EVENT_USART3, EVENT_BUS};
+                                         EVENT_USART1, EVENT_USART2, EVENT_USART3, EVENT_DMA,  EVENT_BUS};
     struct board *board = model;
     for (unsigned i = 0; i < sizeof clocked / sizeof *clocked; i++) {
         clock_set(&board->clock, clocked[i], VTIME_NEVER);

@@ -6,6 +6,7 @@
 #include "reserved.h"
 
 enum {
+    WORD_BYTES = 4,
     BLOCK_BYTES = 0x400,
     PERIPHERAL_BYTES = 0x80000, /* APB1, APB2 and AHB1 */
     APB1_BYTES = 0x10000,
@@ -59,8 +60,9 @@ static const char *refuse(struct bus *bus, const struct bus_block *block, uint32
     if (!rcc_clock_has_come(bus->wires.rcc, block->clock_offset, block->clock_bit)) {
         return "its clock was enabled so short a time ago that the access is lost (errata ES0182)";
     }
-    if (bytes == 1 && !block->takes_bytes) {
-        return "a byte access, where the manual asks for half-words or words";
+    if (bytes < block->least_bytes) {
+        return block->least_bytes == WORD_BYTES ? "not a word, where the manual asks for words"
+                                                : "a byte access, where the manual asks for half-words or words";
     }
     return address % bytes != 0 ? "not aligned" : NULL;
 }
@@ -92,14 +94,20 @@ static const char *refuse_system(uint32_t address, unsigned bytes)
  * get into step with the bus. An instruction that finds it idle has the latter two in its own cycles. */
 enum {
     MATRIX_CYCLES = 2,
+    ADDRESS_CYCLES = 1, /* in which the DMA controller computes an address */
     QUARTER = 4
 };
 
 static uint32_t apb_wait(const struct bus *bus, uint32_t address)
 {
-    bool is_apb1 = address - PERIPHERAL_BASE < APB1_BYTES;
-    uint32_t divider = is_apb1 ? bus->wires.conditions->pclk1_divider : bus->wires.conditions->pclk2_divider;
+    uint32_t divider =
+        bus_is_apb1(address) ? bus->wires.conditions->pclk1_divider : bus->wires.conditions->pclk2_divider;
     return bus->wires.apb_wait * divider / QUARTER;
+}
+
+bool bus_is_apb1(uint32_t address)
+{
+    return address - PERIPHERAL_BASE < APB1_BYTES;
 }
 
 static bool is_apb(uint32_t address)
@@ -107,18 +115,40 @@ static bool is_apb(uint32_t address)
     return address - PERIPHERAL_BASE < APB_BYTES;
 }
 
-/* Lets an access to APB begin when the one before has arrived; then a read waits for its answer, and a write goes on
- * its way while the processor runs on. */
+static uint64_t later(uint64_t a, uint64_t b)
+{
+    return a > b ? a : b;
+}
+
+/* When an access has arrived that is ready at a cycle and then needs some to begin; it waits for whoever has APB1. */
+static uint64_t take_apb(struct bus *bus, uint32_t address, uint64_t ready, unsigned begin_cycles)
+{
+    bool is_taken = bus_is_apb1(address) && bus->apb1_taken_until > ready;
+    uint64_t begin = is_taken ? bus->apb1_taken_until + MATRIX_CYCLES : ready + begin_cycles;
+    uint64_t end = begin + apb_wait(bus, address);
+    bus->apb1_taken_until = bus_is_apb1(address) ? end : bus->apb1_taken_until;
+    return end;
+}
+
+uint64_t bus_take_apb1(struct bus *bus, uint64_t cycle)
+{
+    return take_apb(bus, PERIPHERAL_BASE, cycle + ADDRESS_CYCLES, MATRIX_CYCLES);
+}
+
+/* Lets an access to APB begin when the processor's one before has arrived; then a read waits for its answer, and a
+ * write goes on its way while the processor runs on. The matrix goes round (RM0090 section 2.1): who has waited for the
+ * processor's access comes before its next one. */
 static void wait_for_apb(struct bus *bus, uint32_t address, bool is_read)
 {
     struct clock *clock = bus->wires.clock;
     uint64_t begin = clock->now;
+    clock_run(clock, clock->now);
     if (is_apb(address)) {
         bool is_busy = bus->apb_busy_until > begin;
-        uint64_t end = (is_busy ? bus->apb_busy_until + MATRIX_CYCLES : begin) + apb_wait(bus, address);
-        clock->now = is_busy ? bus->apb_busy_until : begin;
-        clock->now = is_read ? end : clock->now;
-        bus->apb_busy_until = end;
+        clock->now = later(begin, bus->apb_busy_until);
+        clock_run(clock, clock->now);
+        bus->apb_busy_until = take_apb(bus, address, clock->now, is_busy ? MATRIX_CYCLES : 0U);
+        clock->now = is_read ? bus->apb_busy_until : clock->now;
     }
     profile_bus(bus->wires.profile, address, clock->now - begin);
 }
@@ -173,9 +203,29 @@ static void on_bus_event(void *model, uint64_t cycle)
     cpu->at = at;
 }
 
+/* The complaint names the instruction at which the processor is meanwhile. */
+void bus_deliver(struct bus *bus, uint32_t address, unsigned bytes, uint32_t value, uint64_t cycle)
+{
+    struct clock *clock = bus->wires.clock;
+    uint64_t now = clock->now;
+    struct bus_write write = {.block = find_block(bus, address),
+                              .address = address,
+                              .value = value << 8U * (address & 3U),
+                              .mask = lanes(address, bytes)};
+    clock->now = cycle;
+    const char *why = refuse_write(bus, write.block, address, bytes, write.value & write.mask);
+    if (why != NULL) {
+        complain_of(bus, "a DMA stream's write to", address, why);
+    } else {
+        arrive(bus, &write);
+    }
+    clock->now = now;
+}
+
 void bus_reset(struct bus *bus)
 {
     bus->apb_busy_until = 0;
+    bus->apb1_taken_until = 0;
     clock_set(bus->wires.clock, EVENT_BUS, VTIME_NEVER);
 }
 

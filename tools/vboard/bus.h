@@ -36,7 +36,7 @@ struct bus_block {
     bus_writer *write;
     bus_width *is_wide; /* null: half-words will do everywhere */
     uint32_t base;
-    bool takes_bytes;     /* whether single bytes may be accessed */
+    uint8_t least_bytes;  /* the narrowest access: 1, 2 or 4 bytes */
     uint8_t clock_offset; /* of its clock enable register in RCC; 0: always on */
     uint8_t clock_bit;
 };
@@ -65,8 +65,9 @@ struct bus {
     struct bus_wires wires;
     struct bus_block block[BUS_BLOCKS_MAX];
     unsigned blocks;
-    uint64_t apb_busy_until; /* the write that is on its way has arrived */
-    struct bus_write write;  /* there is one at most: the next access to APB waits for it */
+    uint64_t apb_busy_until;   /* the processor's write that is on its way has arrived */
+    uint64_t apb1_taken_until; /* and the access to APB1 of whoever came last */
+    struct bus_write write;    /* there is one at most: the next access to APB waits for it */
 };
 
 /* Maps the peripherals into the processor's addresses. False: there is not memory enough. */
@@ -78,7 +79,13 @@ void bus_attach(struct bus *bus, struct bus_block block);
 /* What is on its way is lost. */
 void bus_reset(struct bus *bus);
 
-/* When the last write has arrived at its peripheral. */
+/* When the processor's last write has arrived at its peripheral. */
 uint64_t bus_idle_cycle(const struct bus *bus);
+
+bool bus_is_apb1(uint32_t address);
+
+/* The DMA controller takes APB1 for a write that is ready at a cycle: when it arrives. Then it is delivered. */
+uint64_t bus_take_apb1(struct bus *bus, uint64_t cycle);
+void bus_deliver(struct bus *bus, uint32_t address, unsigned bytes, uint32_t value, uint64_t cycle);
 
 #endif

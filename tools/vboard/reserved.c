@@ -20,6 +20,7 @@ struct row {
 #define SYSCFG_BASE UINT32_C(0x40013800)
 #define GPIOA_BASE UINT32_C(0x40020000)
 #define FLASH_BASE UINT32_C(0x40023C00)
+#define DMA1_BASE UINT32_C(0x40026000)
 #define CORE_BASE UINT32_C(0xE000E000)
 
 #define USART(base, instances)                                                                                         \
@@ -60,6 +61,11 @@ static const struct row rows[] = {
     {FLASH_BASE, 0, 1, 0x0C, 0x0C, 0x000100F3}, /* SR */
     {FLASH_BASE, 0, 1, 0x10, 0x10, 0x8301037F}, /* CR */
     {FLASH_BASE, 0, 1, 0x14, 0x14, 0x0FFFFFEF}, /* OPTCR */
+    /* 10.5; FS of FCR is read-only, and written as it was read */
+    {DMA1_BASE, 0, 1, 0x08, 0x0C, 0x0F7D0F7D},    /* LIFCR, HIFCR */
+    {DMA1_BASE, 0x18, 8, 0x10, 0x10, 0x0FEFFFFF}, /* SxCR */
+    {DMA1_BASE, 0x18, 8, 0x14, 0x14, 0xFFFF},     /* SxNDTR */
+    {DMA1_BASE, 0x18, 8, 0x24, 0x24, 0xBF},       /* SxFCR */
     /* PM0214 4.5, 4.3 (82 interrupts, four bits of priority) and 4.4 */
     {CORE_BASE, 0, 1, 0x010, 0x010, 0x00010007}, /* SysTick: CTRL */
     {CORE_BASE, 0, 1, 0x014, 0x014, 0x00FFFFFF}, /* LOAD */

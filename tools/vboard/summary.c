@@ -41,6 +41,14 @@ static void put_ratio(const char *name, uint64_t part, uint64_t whole)
     (void)printf("\"%s\":%" PRIu64 ".%06u,", name, millionths / 1000000U, (unsigned)(millionths % 1000000U));
 }
 
+static const char *stream_name(unsigned exception)
+{
+    static const char *const names[] = {"DMA1_Stream0", "DMA1_Stream1", "DMA1_Stream2", "DMA1_Stream3",
+                                        "DMA1_Stream4", "DMA1_Stream5", "DMA1_Stream6"};
+    unsigned stream = exception - (NVIC_IRQ0 + NVIC_IRQ_DMA1_STREAM0);
+    return stream < sizeof names / sizeof *names ? names[stream] : "";
+}
+
 static const char *exception_name(unsigned exception)
 {
     switch (exception) {
@@ -92,8 +100,10 @@ static const char *exception_name(unsigned exception)
         return "USART3";
     case NVIC_IRQ0 + NVIC_IRQ_EXTI15_10:
         return "EXTI15_10";
+    case NVIC_IRQ0 + NVIC_IRQ_DMA1_STREAM7:
+        return "DMA1_Stream7";
     default:
-        return "";
+        return stream_name(exception);
     }
 }
 
@@ -206,6 +216,22 @@ static void print_peripherals(const struct board *board)
     (void)printf("\"refreshes\":%" PRIu64 "},\n", board->iwdg.refreshes);
 }
 
+/* Of the streams that have carried something; times from the request to the arrival at the peripheral. */
+static void print_dma(const struct board *board)
+{
+    const char *between = "";
+    (void)printf("\"dma\":{\"lost\":%" PRIu64 ",\"streams\":[", board->requests.lost);
+    for (unsigned i = 0; i < DMA_STREAMS; i++) {
+        const struct dma_stream *stream = &board->dma.stream[i];
+        if (stream->transfers > 0) {
+            (void)printf("%s{\"stream\":%u,\"transfers\":%" PRIu64 ",\"wait_max\":%" PRIu64 "}", between, i,
+                         stream->transfers, stream->wait_most);
+            between = ",";
+        }
+    }
+    (void)printf("]},\n");
+}
+
 /* The lowest address that may be stack: a symbol, or where the data of the program ends below its top. */
 static uint32_t stack_limit(const struct board *board, uint32_t top)
 {
@@ -276,6 +302,7 @@ void summary_print(struct board *board)
     print_vectors(board);
     print_motors(board);
     print_peripherals(board);
+    print_dma(board);
     print_stack(board);
     (void)printf("\"watch\":{");
     for (unsigned i = 0; i < board->options->watches; i++) {

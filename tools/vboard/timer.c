@@ -10,18 +10,44 @@ static const enum nvic_irq irqs[TIMERS] = {NVIC_IRQ_TIM2, NVIC_IRQ_TIM3, NVIC_IR
 
 void timer_update_interrupt(struct timer *timer)
 {
-    nvic_set_line(timer->wires.nvic, irqs[timer->wires.number], (timer->sr & timer->dier & TIMER_DIER_MODELLED) != 0);
+    nvic_set_line(timer->wires.nvic, irqs[timer->wires.number], (timer->sr & timer->dier & TIMER_DIER_INTERRUPTS) != 0);
+}
+
+static void request(struct timer *timer, unsigned source, uint64_t cycle)
+{
+    if ((timer->dier >> TIMER_DIER_REQUESTS_SHIFT & UINT32_C(1) << source) != 0) {
+        requests_raise(timer->wires.requests, timer->wires.number, source, cycle);
+    }
+}
+
+/* CCDS (section 18.4.2): the channels' requests come with the compare events, or with updates. */
+void timer_request_channel(struct timer *timer, unsigned channel, uint64_t cycle)
+{
+    if ((timer->cr2 & TIMER_CR2_CCDS) == 0) {
+        request(timer, REQUEST_CHANNEL_1 + channel, cycle);
+    }
+}
+
+static void request_update(struct timer *timer, bool is_told, uint64_t cycle)
+{
+    if (is_told) {
+        request(timer, REQUEST_UPDATE, cycle);
+    }
+    for (unsigned i = 0; i < TIMER_CHANNELS && (timer->cr2 & TIMER_CR2_CCDS) != 0; i++) {
+        request(timer, REQUEST_CHANNEL_1 + i, cycle);
+    }
 }
 
 static void match(struct timer *timer, unsigned channel, uint64_t cycle)
 {
     timer->matches++;
     timer->sr |= 2U << channel;
+    timer_request_channel(timer, channel, cycle);
     timer_match_output(timer, channel, cycle);
 }
 
 /* An update event (section 18.3.1): what was preloaded comes into force, and a timer of one pulse stops. */
-void timer_update_event(struct timer *timer, bool by_software)
+void timer_update_event(struct timer *timer, bool by_software, uint64_t cycle)
 {
     if ((timer->cr1 & TIMER_CR1_UDIS) != 0) {
         return;
@@ -31,9 +57,9 @@ void timer_update_event(struct timer *timer, bool by_software)
     for (unsigned i = 0; i < TIMER_CHANNELS; i++) {
         timer->channel[i].compare = timer->channel[i].preload;
     }
-    if (!by_software || (timer->cr1 & TIMER_CR1_URS) == 0) {
-        timer->sr |= SR_UIF;
-    }
+    bool is_told = !by_software || (timer->cr1 & TIMER_CR1_URS) == 0;
+    timer->sr |= is_told ? SR_UIF : 0U;
+    request_update(timer, is_told, cycle);
     if ((timer->cr1 & TIMER_CR1_OPM) != 0) {
         timer->cr1 &= ~(uint32_t)TIMER_CR1_CEN;
     }
@@ -43,11 +69,14 @@ void timer_update_event(struct timer *timer, bool by_software)
 static void turn(struct timer *timer, uint64_t cycle)
 {
     for (unsigned i = 0; i < TIMER_CHANNELS; i++) {
-        timer->sr |= timer->channel[i].compare > timer->arr_used ? 2U << i : 0U;
+        if (timer->channel[i].compare > timer->arr_used) {
+            timer->sr |= 2U << i;
+            timer_request_channel(timer, i, cycle);
+        }
     }
     timer->count = 0;
     timer->anchor_cycle = cycle;
-    timer_update_event(timer, false);
+    timer_update_event(timer, false, cycle);
     timer_plan(timer, cycle);
     timer_update_outputs(timer, cycle);
     for (unsigned i = 0; i < TIMER_CHANNELS; i++) {
@@ -94,6 +123,9 @@ void timer_reset(struct timer *timer)
         timer->channel[i].due = VTIME_NEVER;
         timer->channel[i].pin_driven = true; /* so that the pins are told */
         timer_update_output(timer, i, timer->wires.clock->now);
+    }
+    for (unsigned i = 0; i < REQUEST_SOURCES; i++) {
+        requests_lower(timer->wires.requests, request_line(timer->wires.number, i));
     }
     timer_set_event(timer);
     timer_update_interrupt(timer);

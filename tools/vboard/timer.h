@@ -15,7 +15,10 @@ void timer_hold(struct timer *timer);
 void timer_release(struct timer *timer);
 
 /* For timer_registers.c. An update event (RM0090 section 18.3.1): what was preloaded comes into force. */
-void timer_update_event(struct timer *timer, bool by_software);
+void timer_update_event(struct timer *timer, bool by_software, uint64_t cycle);
+
+/* A compare event of a channel asks for a transfer if that is enabled (section 18.4.4). */
+void timer_request_channel(struct timer *timer, unsigned channel, uint64_t cycle);
 void timer_update_interrupt(struct timer *timer);
 
 #endif

@@ -13,6 +13,7 @@
 #include "gpio.h"
 #include "nvic.h"
 #include "report.h"
+#include "requests.h"
 
 enum {
     TIMERS = 4,
@@ -43,6 +44,7 @@ struct timer_wires {
     struct nvic *nvic;
     const struct conditions *conditions;
     struct gpio *gpio;
+    struct requests *requests; /* to the DMA controller */
     const struct timer_settings *settings;
 };
 
@@ -73,7 +75,10 @@ enum {
     TIMER_CR1_URS = 1 << 2,
     TIMER_CR1_OPM = 1 << 3,
     TIMER_CR1_ARPE = 1 << 7,
-    TIMER_DIER_MODELLED = 0x1F,
+    TIMER_CR2_CCDS = 1 << 3,
+    TIMER_DIER_INTERRUPTS = 0x1F,
+    TIMER_DIER_REQUESTS = 0x1F00, /* UDE, CC1DE to CC4DE: enum request_source */
+    TIMER_DIER_REQUESTS_SHIFT = 8,
 };
 
 /* TIM2 and TIM5 have 32 bits, the others 16. */

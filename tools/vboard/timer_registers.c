@@ -111,11 +111,31 @@ static void write_egr(struct timer *timer, uint32_t value)
     if ((value & 1U) != 0) {
         timer->count = 0;
         timer->anchor_cycle = now;
-        timer_update_event(timer, true);
+        timer_update_event(timer, true, now);
     }
     timer->sr |= value & CHANNEL_FLAGS; /* the flags; of the outputs section 18.4.6 says nothing */
+    for (unsigned i = 0; i < TIMER_CHANNELS; i++) {
+        if ((value & UINT32_C(2) << i) != 0) {
+            timer_request_channel(timer, i, now);
+        }
+    }
     timer_plan(timer, now);
     timer_update_outputs(timer, now);
+}
+
+/* A request that is not served before it is disabled is taken back; the manual does not say so. */
+static void write_dier(struct timer *timer, uint32_t value)
+{
+    uint32_t modelled = TIMER_DIER_INTERRUPTS | TIMER_DIER_REQUESTS;
+    if ((value & ~modelled) != 0) {
+        refuse(timer, "interrupts or DMA by triggers");
+    }
+    for (unsigned i = 0; i < REQUEST_SOURCES; i++) {
+        if ((value >> TIMER_DIER_REQUESTS_SHIFT & UINT32_C(1) << i) == 0) {
+            requests_lower(timer->wires.requests, request_line(timer->wires.number, i));
+        }
+    }
+    timer->dier = value;
 }
 
 /* Section 18.4.7, OCxPE: without preload what is written to the register is what the counter is compared with. */
@@ -197,10 +217,7 @@ static bool write_register(void *model, uint32_t offset, uint32_t value)
         }
         return true;
     case TIM_DIER:
-        if ((value & ~(uint32_t)TIMER_DIER_MODELLED) != 0) {
-            refuse(timer, "DMA or trigger interrupts");
-        }
-        timer->dier = value;
+        write_dier(timer, value);
         return true;
     case TIM_SR: /* writing 0 clears, writing 1 does nothing */
         timer->sr &= value | ~(uint32_t)SR_FLAGS;

@@ -16,6 +16,7 @@
 #define RCC_PLLCFGR REG(RCC + 0x04)
 #define RCC_CFGR REG(RCC + 0x08)
 #define RCC_CIR REG(RCC + 0x0C)
+#define RCC_AHB1RSTR REG(RCC + 0x10)
 #define RCC_APB1RSTR REG(RCC + 0x20)
 #define RCC_AHB1ENR REG(RCC + 0x30)
 #define RCC_APB1ENR REG(RCC + 0x40)
@@ -51,7 +52,9 @@
 
 #define TIM2 0x40000000u
 #define TIM3 0x40000400u
+#define TIM5 0x40000C00u
 #define TIM_CR1(tim) REG((tim) + 0x00)
+#define TIM_CR2(tim) REG((tim) + 0x04)
 #define TIM_DIER(tim) REG((tim) + 0x0C)
 #define TIM_SR(tim) REG((tim) + 0x10)
 #define TIM_EGR(tim) REG((tim) + 0x14)
@@ -62,6 +65,18 @@
 #define TIM_PSC(tim) REG((tim) + 0x28)
 #define TIM_ARR(tim) REG((tim) + 0x2C)
 #define TIM_CCR(tim, n) REG((tim) + 0x30 + 4 * (n))
+
+#define DMA1 0x40026000u
+#define DMA_LISR REG(DMA1 + 0x00)
+#define DMA_HISR REG(DMA1 + 0x04)
+#define DMA_LIFCR REG(DMA1 + 0x08)
+#define DMA_HIFCR REG(DMA1 + 0x0C)
+#define DMA_CR(stream) REG(DMA1 + 0x10 + 0x18 * (stream))
+#define DMA_NDTR(stream) REG(DMA1 + 0x14 + 0x18 * (stream))
+#define DMA_PAR(stream) REG(DMA1 + 0x18 + 0x18 * (stream))
+#define DMA_M0AR(stream) REG(DMA1 + 0x1C + 0x18 * (stream))
+#define DMA_M1AR(stream) REG(DMA1 + 0x20 + 0x18 * (stream))
+#define DMA_FCR(stream) REG(DMA1 + 0x24 + 0x18 * (stream))
 
 #define USART1 0x40011000u
 #define USART2 0x40004400u

@@ -41,6 +41,14 @@ WEAK(exti15_10_handler);
 WEAK(tim2_handler);
 WEAK(usart1_handler);
 WEAK(usart2_handler);
+WEAK(dma1_stream0_handler);
+WEAK(dma1_stream1_handler);
+WEAK(dma1_stream2_handler);
+WEAK(dma1_stream3_handler);
+WEAK(dma1_stream4_handler);
+WEAK(dma1_stream5_handler);
+WEAK(dma1_stream6_handler);
+WEAK(dma1_stream7_handler);
 
 typedef void handler(void);
 
@@ -63,7 +71,14 @@ __attribute__((section(".vectors"), used)) handler *const vectors[16 + 82] = {
     [24] = exti2_handler,
     exti3_handler,
     exti4_handler,
-    [27 ... 38] = unexpected,
+    [27] = dma1_stream0_handler,
+    dma1_stream1_handler,
+    dma1_stream2_handler,
+    dma1_stream3_handler,
+    dma1_stream4_handler,
+    dma1_stream5_handler,
+    dma1_stream6_handler,
+    [34 ... 38] = unexpected,
     [39] = exti9_5_handler,
     [40 ... 43] = unexpected,
     [44] = tim2_handler,
@@ -72,7 +87,9 @@ __attribute__((section(".vectors"), used)) handler *const vectors[16 + 82] = {
     [54] = usart2_handler,
     [55] = unexpected,
     [56] = exti15_10_handler,
-    [57 ... 97] = unexpected,
+    [57 ... 62] = unexpected,
+    [63] = dma1_stream7_handler,
+    [64 ... 97] = unexpected,
 };
 
 void start_counting_cycles(void)

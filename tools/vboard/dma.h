@@ -1,0 +1,52 @@
+/*
+ * DMA1 (RM0090 chapter 10): eight streams that carry data from memory to the peripherals of APB1, each when one of its
+ * requests comes. One transfer at a time is on the way to the peripherals; the stream of the highest priority is next.
+ * Not modelled: the way from peripherals to memory, double buffers, bursts, contention of the memory port with the
+ * processor.
+ */
+#ifndef DMA_H
+#define DMA_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "bus.h"
+#include "clock.h"
+#include "dma_map.h"
+#include "dma_stream.h"
+#include "memory.h"
+#include "nvic.h"
+#include "report.h"
+#include "requests.h"
+
+struct dma_wires {
+    struct clock *clock;
+    struct report *report;
+    struct nvic *nvic;
+    struct memory *memory;
+    struct bus *bus;
+    struct requests *requests;
+};
+
+struct dma {
+    struct dma_wires wires;
+    struct dma_stream stream[DMA_STREAMS];
+    unsigned carried; /* the stream whose transfer is on its way to the peripheral; DMA_STREAMS: none */
+    uint32_t item;
+    uint64_t arrives; /* cycle */
+    uint64_t asked;   /* since when it was asked for */
+    uint64_t memory_busy_until;
+};
+
+void dma_init(struct dma *dma, struct dma_wires wires);
+void dma_reset(struct dma *dma);
+
+/* For requests.h: a line has gone high. The model is a struct dma. */
+void dma_note_request(void *model, uint64_t cycle);
+
+/* For dma_registers.c: EN is set, or cleared by software; flags or enables have changed. */
+void dma_enable(struct dma *dma, unsigned number);
+void dma_disable(struct dma *dma, unsigned number);
+void dma_update_interrupts(struct dma *dma);
+
+#endif

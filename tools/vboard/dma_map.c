@@ -1,0 +1,27 @@
+#include "dma_map.h"
+
+#include "requests.h"
+
+#define LINE(timer, source) (UINT32_C(1) << (((timer) - 2U) * REQUEST_SOURCES + (source)))
+#define UP REQUEST_UPDATE
+#define CH1 REQUEST_CHANNEL_1
+#define CH2 REQUEST_CHANNEL_2
+#define CH3 REQUEST_CHANNEL_3
+#define CH4 REQUEST_CHANNEL_4
+
+/* RM0090, table "DMA1 request mapping", the timers' rows: streams, then channels. */
+static const uint32_t lines[DMA_STREAMS][DMA_CHANNELS] = {
+    {[2] = LINE(4, CH1), [6] = LINE(5, CH3) | LINE(5, UP)},
+    {[3] = LINE(2, UP) | LINE(2, CH3), [6] = LINE(5, CH4)},
+    {[5] = LINE(3, CH4) | LINE(3, UP), [6] = LINE(5, CH1)},
+    {[2] = LINE(4, CH2), [6] = LINE(5, CH4)},
+    {[5] = LINE(3, CH1), [6] = LINE(5, CH2)},
+    {[3] = LINE(2, CH1), [5] = LINE(3, CH2)},
+    {[2] = LINE(4, UP), [3] = LINE(2, CH2) | LINE(2, CH4), [6] = LINE(5, UP)},
+    {[2] = LINE(4, CH3), [3] = LINE(2, UP) | LINE(2, CH4), [5] = LINE(3, CH3)},
+};
+
+uint32_t dma_map_lines(unsigned stream, unsigned channel)
+{
+    return lines[stream][channel];
+}
