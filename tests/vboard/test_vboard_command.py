@@ -17,6 +17,7 @@ import pytest
         (["--elf", "x", "--refill", "4"], "--refill 4"),
         (["--elf", "x", "--stuck", "PZ0=1"], "--stuck PZ0=1"),
         (["--elf", "x", "--node", "17"], "--node 17"),
+        (["--elf", "x", "--step-timer", "TIM3"], "write TIM2 or TIM5"),
     ],
 )
 def test_wrong_usage_is_one_line_and_status_2(program, options, told):

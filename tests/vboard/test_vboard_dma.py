@@ -100,6 +100,15 @@ def test_four_channels_at_the_least_width_of_a_pulse_are_in_time(run_image):
         assert {m["width_min"] for m in run.summary["motors"]} == {0.5}
 
 
+@pytest.mark.parametrize("start", [0, 500])
+def test_the_steps_may_be_those_of_timer_5(run_image, start):
+    options = ["--step-timer", "TIM5", "--ticks", "timer", "--timer-start", str(start)]
+    run = run_image("dma_together", *options, pins=PINS)
+
+    ticks = [tick for tick, motor, _ in run.steps if motor == 4]
+    assert ticks == [2000 - start + 84 * i for i in range(17)]
+
+
 def test_the_summary_counts_transfers_and_the_longest_wait(run_image):
     dma = run_image("dma_together", pins=PINS).summary["dma"]
     waits = {each["stream"]: each["wait_max"] for each in dma["streams"]}

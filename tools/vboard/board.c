@@ -123,7 +123,7 @@ static void wire_surroundings(struct board *board)
     board->recorder.wires = (struct recorder_wires){.clock = clock,
                                                     .report = &board->report,
                                                     .pins = &board->pins,
-                                                    .timer = &board->timer[0],
+                                                    .timer = &board->timer[options->timer_settings.steps],
                                                     .line = &board->line,
                                                     .ticks_from_timer = options->ticks_from_timer};
     inputs_init(&board->inputs, (struct inputs_wires){.clock = clock, .pins = &board->pins, .gpio = &board->gpio});

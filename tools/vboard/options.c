@@ -206,6 +206,21 @@ static bool read_ticks(void *target, const char *text)
     return true;
 }
 
+static bool read_step_timer(void *target, const char *text)
+{
+    enum {
+        TIM2,
+        TIM5 = 3
+    };
+    struct options *options = target;
+    options->timer_settings.steps = strcmp(text, "TIM5") == 0 ? TIM5 : TIM2;
+    if (options->timer_settings.steps == TIM2 && strcmp(text, "TIM2") != 0) {
+        complain("--step-timer %s: write TIM2 or TIM5", text);
+        return false;
+    }
+    return true;
+}
+
 static bool read_node(void *target, const char *text)
 {
     struct options *options = target;
@@ -299,6 +314,7 @@ static const struct argument rows[] = {
     OTHER("--power-cut", read_cut),
     OTHER("--fault", read_fault),
     OTHER("--ticks", read_ticks),
+    OTHER("--step-timer", read_step_timer),
     OTHER("--flash-kb", read_flash_kb),
     OTHER("--revision", read_revision),
     OTHER("--thresholds", read_thresholds),

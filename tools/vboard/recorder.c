@@ -2,7 +2,7 @@
 
 #include "line.h"
 
-#define TICK_HZ UINT64_C(84000000) /* of the unit, where TIM2 does not run */
+#define TICK_HZ UINT64_C(84000000) /* of the unit, where its timer does not run */
 
 enum {
     LINE_BYTES_MAX = 128

@@ -32,7 +32,8 @@ struct timer_channel {
 };
 
 struct timer_settings {
-    uint64_t start;   /* the count at which TIM2 starts */
+    unsigned steps;   /* the timer that makes the steps: 0 is TIM2 */
+    uint64_t start;   /* the count at which it starts */
     bool match_equal; /* a compare value written while the counter stands on it matches */
     bool pwm_at_once; /* a channel that comes from a forced level shows the comparison at once */
 };

@@ -97,7 +97,8 @@ static void write_cr1(struct timer *timer, uint32_t value)
         timer->anchor_cycle = timer->wires.clock->now + timer->wires.conditions->timer1_divider;
         if (timer->start_cycle == VTIME_NEVER) {
             timer->start_cycle = timer->anchor_cycle;
-            timer->count += timer->wires.number == 0 ? (uint32_t)timer->wires.settings->start : 0U;
+            timer->count +=
+                timer->wires.number == timer->wires.settings->steps ? (uint32_t)timer->wires.settings->start : 0U;
         }
     }
     timer->cr1 = value;
