@@ -12,6 +12,7 @@ from typing import Any, NoReturn, TypeAlias
 
 from rkm04_tools import bench, board, board_options, check, completion, serve
 from rkm04_tools.client_options import NODE_HELP, PORT_HELP, add_client_commands
+from rkm04_tools.compare import options as compare_options
 from rkm04_tools.failure import DONE, INTERRUPTED, NOT_SO, Failure
 from rkm04_tools.source import named
 
@@ -131,6 +132,13 @@ def _bench(options: argparse.Namespace) -> int:
     return bench_target.run(options)
 
 
+def _compare(options: argparse.Namespace) -> int:
+    """Import numpy only when it is needed."""
+    from rkm04_tools.compare import command
+
+    return command.run(options)
+
+
 def _service(options: argparse.Namespace) -> int:
     """Import the server only when it is needed: others have not even installed it."""
     from rkm04_tools.service import command, static
@@ -157,6 +165,7 @@ def make_parser() -> Parser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_check(commands)
     _add_sim(commands)
+    _add_compare(commands)
     _add_bench(commands)
     _add_board(commands)
     _add_serve(commands)
@@ -230,6 +239,12 @@ def _add_sim(commands: Commands) -> None:
         default="host",
         help="what runs the programs: the simulator, or the image of a board (default: host)",
     )
+
+
+def _add_compare(commands: Commands) -> None:
+    example = f"{compare_options.EXAMPLE}\n\n{compare_options.NOTES}"
+    command = _add(commands, "compare", _compare, compare_options.TITLE, example)
+    compare_options.add_arguments(command)
 
 
 def _add_serve(commands: Commands) -> None:
