@@ -15,6 +15,12 @@ from rkm04_tools.board_header import Board, Pin
 ROW = re.compile(r"^\| (\w+) \| P([A-K]\d+) \|(.*)\|$", re.MULTILINE)
 LEVEL = re.compile(r"active (high|low)|(high|low) = ")
 USART = re.compile(r"USART(\d)")
+DRIVERS = re.compile(
+    r"A pulse is at least ([\d.]+) µs high and ([\d.]+) µs low; "
+    r"DIR stands ([\d.]+) µs before a rising edge and ([\d.]+) µs after it"
+)
+TIMES = ("width_min", "gap_min", "dir_setup_min", "dir_hold_min")
+"""As the summary of the virtual board names what a motor has seen."""
 
 
 @dataclass(frozen=True)
@@ -30,10 +36,20 @@ class Wire:
         return self.signal.partition("_")[0]
 
 
+def page(name: str) -> str:
+    """The README of a board."""
+    return (board.BOARDS / name / "README.md").read_text()
+
+
 def wires(name: str) -> list[Wire]:
     """All rows of a board's table."""
-    text = (board.BOARDS / name / "README.md").read_text()
-    return [Wire(signal, pin, note.strip()) for signal, pin, note in ROW.findall(text)]
+    return [Wire(signal, pin, note.strip()) for signal, pin, note in ROW.findall(page(name))]
+
+
+def times_us(name: str) -> dict[str, float]:
+    """What the drivers of the motors can rely on."""
+    (times,) = DRIVERS.findall(" ".join(page(name).split()))
+    return dict(zip(TIMES, map(float, times), strict=True))
 
 
 def levels(name: str) -> dict[str, str]:

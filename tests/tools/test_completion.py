@@ -6,13 +6,14 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from rkm04_tools import completion
+from rkm04_tools import board, completion
 from rkm04_tools.cli import make_parser
 from rkm04_tools.completion import SCRIPTS, commands_of, offered
 
 ROOT = Path(__file__).resolve().parents[2]
 PARSER = make_parser()
 LISTED = list(commands_of(PARSER))
+NAME = board.names()[-1]
 
 
 def at(words: str) -> list[str]:
@@ -40,7 +41,7 @@ def test_every_option_is_offered(name, command):
     [
         ("st", ["status", "stop", "store"]),
         ("board b", ["build"]),
-        ("board build --board ", ["f405", "f407-discovery"]),
+        ("board build --board ", board.names()),
         ("sim --target ", ["host", "stm32"]),
         ("sim a.rks --tar", ["--target"]),
         ("send --node 1", ["1", "10", "11", "12", "13", "14", "15", "16"]),
@@ -71,7 +72,8 @@ def test_bash_completes(tool, tmp_path):
     script = tmp_path / "completion"
     script.write_text(tool("completion", "bash").out)
     code = (
-        f"source {script}; complete -p rkm04; COMP_WORDS=(tools/rkm04 board flash --board f407); "
+        f"source {script}; complete -p rkm04; "
+        f"COMP_WORDS=(tools/rkm04 board flash --board {NAME[:-1]}); "
         'COMP_CWORD=4; _rkm04; printf "%s\\n" "${COMPREPLY[@]}"'
     )
 
@@ -79,8 +81,8 @@ def test_bash_completes(tool, tmp_path):
 
     assert done.stdout.splitlines() == [
         "complete -o default -F _rkm04 rkm04",
-        "f407-discovery",
-    ]  # fmt: skip
+        NAME,
+    ]
 
 
 @pytest.mark.parametrize("shell", SCRIPTS)

@@ -324,11 +324,5 @@ def test_a_flasher_that_is_not_installed_is_told(tool, monkeypatch):
     assert "openocd is not installed: apt-get install openocd" in result.complaint
 
 
-def test_an_unknown_board_is_told_which_there_are(tool):
-    result = tool("board", "build", "--board", "nucleo")
-
-    assert "nucleo: no such board; there are f405, f407-discovery" in result.complaint
-
-
 def test_stm32flash_needs_a_port(tool):
     assert "needs --port" in tool("board", "flash", "--tool", "stm32flash").complaint

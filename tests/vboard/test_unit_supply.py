@@ -1,4 +1,4 @@
-"""The images of both boards on the supplies that their boards have, and on worse ones.
+"""The images of two boards on the supplies that their boards have, and on worse ones.
 
 The reference board runs at 3.3 V, the Discovery at 2.89 to 2.94 V; a store is refused below the
 level of the voltage detector that the board has chosen, while motors go on as ever.

@@ -17,7 +17,7 @@ from board_talk import Answer, ask, heard
 from rkm04_tools import board
 from rkm04_tools.status import parse_status
 from virtual_board import BYTE_MS, Modelled, VirtualBoard
-from wires import levels, pins_file, wires
+from wires import levels, pins_file, times_us, wires
 
 VERSION, GET_STATUS = b"\x01", b"\xc8"
 NUMBERS = range(1, 9)
@@ -37,13 +37,6 @@ OUTPUTS_MS = INPUTS_MS + STATUS_MS * len(WALK)
 MOTORS_MS = OUTPUTS_MS + 250
 MOTOR_MS = 80.0
 END_MS = MOTORS_MS + MOTOR_MS * len(MOTORS)
-
-PULSES_US = {
-    "f405": {"width_min": 0.5, "gap_min": 0.5},
-    "f407-discovery": {"width_min": 2.5, "gap_min": 2.5},
-}
-"""As the README of each board says."""
-DIR_US = {"dir_setup_min": 5.0, "dir_hold_min": 5.0}
 
 Board = Callable[..., VirtualBoard]
 
@@ -189,9 +182,10 @@ def test_the_driver_of_the_line_is_on_for_answers_and_at_no_other_time(tour):
 
 
 def test_pulses_are_as_wide_and_directions_stand_as_long_as_the_readme_says(tour, name):
+    least_us = times_us(name)
+
     for motor in tour.summary["motors"]:
-        short = {k: motor[k] for k, least in (PULSES_US[name] | DIR_US).items() if motor[k] < least}
-        assert short == {}, motor
+        assert {k: motor[k] for k, least in least_us.items() if motor[k] < least} == {}, motor
 
 
 def test_open_inputs_and_switches_are_off(wired):
@@ -257,7 +251,7 @@ def test_an_interrupt_that_does_not_end_holds_off_none_before_it_and_all_others(
 STEPS_MIN, TURNS_MIN = 60, 20
 
 
-def test_the_direction_stands_still_around_pulses_when_simulation_begins_and_ends(wired):
+def test_the_direction_stands_still_around_pulses_when_simulation_begins_and_ends(wired, name):
     """Motor 1 goes backward all the time, so its DIR changes with the simulation only."""
     unit = wired()
     line = ask(START_MS, b"\x021\\S2000V2000[L40B5RB3RW1E")
@@ -269,9 +263,7 @@ def test_the_direction_stands_still_around_pulses_when_simulation_begins_and_end
     motor = modelled.summary["motors"][0]
     assert motor["pulses"] > STEPS_MIN
     assert len(modelled.edges("m1_dir")) > TURNS_MIN
-    assert motor["dir_setup_min"] >= DIR_US["dir_setup_min"]
-    assert motor["dir_hold_min"] >= DIR_US["dir_hold_min"]
-    assert motor["width_min"] >= PULSES_US["f405"]["width_min"]
+    assert {k: motor[k] for k, least in times_us(name).items() if motor[k] < least} == {}
 
 
 def test_the_readme_tells_the_level_of_every_kind_of_wire(name):

@@ -1,0 +1,96 @@
+/*
+ * WeAct Studio's STM32F4 64-pin core board with an STM32F405RGT6 (LQFP64, 8 MHz crystal), with drivers, line and inputs
+ * wired to its headers. README.md beside this file has the same pins as a table, with what else sits on that board.
+ *
+ * X(signal, port, pin, use): each signal's pin. `use` is IN, IN_UP (pull-up) or OUT, or the peripheral that has the
+ * pin. The chip's own loader may drive PA9, PB10, PB13 and PC10 (AN2606): STEP, DIR, BO and LINE_DE are not there. PB2
+ * is the blue LED of the board, and BOOT1, which the part reads at a reset only.
+ */
+#ifndef BOARD_H
+#define BOARD_H
+
+#define BOARD_PINS(X)                                                                                                  \
+    X(STEP_1, A, 0, TIM2_CH1)                                                                                          \
+    X(STEP_2, A, 1, TIM2_CH2)                                                                                          \
+    X(STEP_3, A, 2, TIM2_CH3)                                                                                          \
+    X(STEP_4, A, 3, TIM2_CH4)                                                                                          \
+    X(DIR_1, A, 4, OUT)                                                                                                \
+    X(DIR_2, A, 5, OUT)                                                                                                \
+    X(DIR_3, A, 6, OUT)                                                                                                \
+    X(DIR_4, A, 7, OUT)                                                                                                \
+    X(LINE_DE, B, 15, OUT)                                                                                             \
+    X(LINE_TX, A, 9, USART1)                                                                                           \
+    X(LINE_RX, A, 10, USART1)                                                                                          \
+    X(BI_1, C, 0, IN_UP)                                                                                               \
+    X(BI_2, C, 1, IN_UP)                                                                                               \
+    X(BI_3, C, 2, IN_UP)                                                                                               \
+    X(BI_4, C, 3, IN_UP)                                                                                               \
+    X(BI_5, C, 4, IN_UP)                                                                                               \
+    X(BI_6, C, 5, IN_UP)                                                                                               \
+    X(BI_7, C, 6, IN_UP)                                                                                               \
+    X(BI_8, C, 7, IN_UP)                                                                                               \
+    X(BO_1, B, 0, OUT)                                                                                                 \
+    X(BO_2, B, 1, OUT)                                                                                                 \
+    X(BO_3, B, 6, OUT)                                                                                                 \
+    X(BO_4, B, 7, OUT)                                                                                                 \
+    X(BO_5, B, 8, OUT)                                                                                                 \
+    X(BO_6, B, 9, OUT)                                                                                                 \
+    X(BO_7, B, 12, OUT)                                                                                                \
+    X(BO_8, B, 14, OUT)                                                                                                \
+    X(LED_1, B, 2, OUT)                                                                                                \
+    X(LED_2, B, 10, OUT)                                                                                               \
+    X(LED_3, B, 11, OUT)                                                                                               \
+    X(LED_4, B, 13, OUT)                                                                                               \
+    X(S1_1, A, 15, IN_UP)                                                                                              \
+    X(S1_2, B, 3, IN_UP)                                                                                               \
+    X(S1_3, B, 4, IN_UP)                                                                                               \
+    X(S1_4, B, 5, IN_UP)
+
+/* Pins that parts on the board drive or load; checked, not used. */
+#define BOARD_TAKEN(X)                                                                                                 \
+    X(A, 8, "microSD")                                                                                                 \
+    X(A, 11, "USB")                                                                                                    \
+    X(A, 12, "USB")                                                                                                    \
+    X(C, 8, "microSD")                                                                                                 \
+    X(C, 9, "microSD")                                                                                                 \
+    X(C, 10, "microSD")                                                                                                \
+    X(C, 11, "microSD")                                                                                                \
+    X(C, 12, "microSD")                                                                                                \
+    X(C, 13, "user key")                                                                                               \
+    X(C, 14, "32 kHz crystal")                                                                                         \
+    X(C, 15, "32 kHz crystal")                                                                                         \
+    X(D, 2, "microSD")
+
+/* Pins without a signal that are pulled up, so that a part beside them rests. */
+#define BOARD_PULLED_UP(X)
+
+#define BOARD_PACKAGE "LQFP64"
+#define BOARD_CRYSTAL_MHZ 8U
+#define BOARD_USART 1
+
+/* The supply at the part: the lowest in good order (3.3 V less 5 %, as the accuracy of the board's regulator is not
+ * known); level of the voltage detector below which the flash is not written; bytes written at a time; level of the
+ * brown-out reset that `board options` sets (3 is the highest). stm32_supply.c checks that they fit to each other. */
+#define BOARD_SUPPLY_MIN_MV 3135U
+#define BOARD_DETECT_LEVEL 6U
+#define BOARD_FLASH_BYTES 4U
+#define BOARD_BROWN_OUT_LEVEL 3U
+
+/* The level at the pin that means 1: 1 high, 0 low. A button or an opto-isolator pulls an input low; a switch that is
+ * ON closes to ground. */
+#define BOARD_STEP_LEVEL 1U
+#define BOARD_DIR_LEVEL 1U
+#define BOARD_BI_LEVEL 0U
+#define BOARD_BO_LEVEL 1U
+#define BOARD_LED_LEVEL 1U
+#define BOARD_S1_LEVEL 0U
+
+/* What the drivers of the motors need at least: STEP high, STEP low, DIR before and after a rising edge of STEP. These
+ * are those of common drivers with opto-isolated inputs, and more than what modules with A4988, DRV8825 or TMC2209
+ * need. */
+#define BOARD_STEP_HIGH_NS 2500U
+#define BOARD_STEP_LOW_NS 2500U
+#define BOARD_DIR_SETUP_NS 5000U
+#define BOARD_DIR_HOLD_NS 5000U
+
+#endif
