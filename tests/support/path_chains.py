@@ -85,7 +85,9 @@ def duration(vectors: tuple[Vector, ...]) -> int:
     return math.ceil(seconds * TICK_HZ)
 
 
-def any_chain(rng: random.Random, steps: int = 1500, changes: int = 6) -> Case:
+def any_chain(
+    rng: random.Random, steps: int = 1500, changes: int = 6, start_speed: int = 0
+) -> Case:
     """Draw a chain with about so many steps on its longest axes, and up to so many changes."""
     count = any_size(rng, VECTORS_MAX)
     vectors = tuple(any_vector(rng, max(1, 2 * steps // count)) for _ in range(count))
@@ -97,6 +99,7 @@ def any_chain(rng: random.Random, steps: int = 1500, changes: int = 6) -> Case:
         tuple(any_change(rng, tick) for tick in moments),
         rng.getrandbits(61),
         rng.choice((12, 12, 1, 100)),
+        start_speed=start_speed,
     )
 
 

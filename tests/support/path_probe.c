@@ -3,13 +3,14 @@
  *
  * Comes in on standard input: cases of whole numbers, one case a line,
  *
- *     epoch  turn_us  ring  n {d1 d2 d3 d4 speed accel extent2 border}*n  known  c {kind tick patience value accel}*c
- * stride
+ *     epoch  turn_us  start_speed  ring  n {d1 d2 d3 d4 speed accel extent2 border}*n  known
+ *     c {kind tick patience value accel}*c  stride
  *
  * with the unit's time at the start, n vectors of which `known` are there at the start, and c changes, each at a tick
  * from the start (path_find), in rising order. kind 0: stop, and go on `value` ticks after the rest; 1: `value` is the
  * speed of all vectors from there on; 2: `value` more vectors are added, and the path is changed for them; 3: they are
- * added and join by themselves, while everything up to the tick has been handed over.
+ * added and join by themselves, while everything up to the tick has been handed over; 4: `value` is the speed of the
+ * one vector there.
  * Goes out, a line a case, times from the start: for each change that took effect its ordinal from 0, its section, step
  * + grains/grains of a step, speed2 and tick, and of a stop when the path went on (0: it did not), as
  * `o:s:k+g/n:q:t:b` | the pulses of each axis in four fields, ticks, negative ones for negative steps; with stride > 1
@@ -34,6 +35,7 @@ enum kind {
     KIND_SPEED,
     KIND_ADD,
     KIND_JOIN,
+    KIND_SECTION,
     KINDS
 };
 
@@ -63,6 +65,7 @@ struct probe {
     struct train train[PATH_AXES];
     uint64_t epoch;
     uint32_t turn_us;
+    uint32_t start_speed;
     uint32_t ring_size;
     uint32_t vectors;
     uint32_t known;
@@ -113,6 +116,7 @@ static bool read_case(struct probe *probe)
     }
     probe->epoch = read_number(UINT64_MAX);
     probe->turn_us = (uint32_t)read_number(1000);
+    probe->start_speed = (uint32_t)read_number(PATH_SPEED_MAX);
     probe->ring_size = (uint32_t)read_number(RING_MAX);
     probe->vectors = (uint32_t)read_number(VECTORS_MAX);
     for (unsigned i = 0; i < probe->vectors; i++) {
@@ -266,6 +270,9 @@ static void make_change(struct probe *probe, unsigned ordinal)
     for (uint32_t i = place.section; change->kind == KIND_SPEED && i != probe->path.end; i++) {
         path_set_speed(&probe->path, i, (uint32_t)change->value);
     }
+    if (change->kind == KIND_SECTION) {
+        path_set_speed(&probe->path, place.section, (uint32_t)change->value);
+    }
     bool done =
         change->kind == KIND_STOP ? path_stop(&probe->path, &place, back) : path_change(&probe->path, &place, back);
     if (!done) {
@@ -282,6 +289,7 @@ static void make_change(struct probe *probe, unsigned ordinal)
 static void run_case(struct probe *probe)
 {
     path_init(&probe->path, probe->ring, probe->ring_size, probe->turn_us);
+    path_set_start_speed(&probe->path, probe->start_speed);
     add(probe, probe->known);
     for (unsigned axis = 0; axis < PATH_AXES; axis++) {
         struct train *train = &probe->train[axis];

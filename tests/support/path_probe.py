@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import os
 import subprocess
+from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 
 import path_reference as reference
-from path_reference import AXES, FRACTION_BITS, Vector
+from path_reference import AXES, ROOT_BITS, Leg, Limits, Vector
 
 ROOT = Path(__file__).resolve().parents[2]
-STOP, SPEED, ADD, JOIN = range(4)
+STOP, SPEED, ADD, JOIN, SECTION = range(5)
 """Kinds of changes, as the probe numbers them."""
 
 TURN_US = 12
@@ -30,8 +31,8 @@ class Change:
     """What happens at a tick after the start.
 
     STOP: a stop, and the path goes on `value` ticks after it has come to rest. SPEED: all vectors
-    from there on have this speed. ADD: so many more vectors are added. JOIN: likewise, but without
-    planning anew what has been laid.
+    from there on have this speed. SECTION: the one there has it. ADD: so many more vectors are
+    added. JOIN: likewise, but without planning anew what has been laid.
     """
 
     kind: int
@@ -54,11 +55,12 @@ class Case:
     turn_us: int = TURN_US
     ring: int = RING
     stride: int = 1
+    start_speed: int = 0
 
     @property
     def line(self) -> str:
         """The case as the probe reads it."""
-        numbers = [self.epoch, self.turn_us, self.ring, len(self.vectors)]
+        numbers = [self.epoch, self.turn_us, self.start_speed, self.ring, len(self.vectors)]
         for v in self.vectors:
             numbers += [*v.steps, v.speed, v.accel, v.extent2 or v.length**2, v.border]
         numbers += [self.known or len(self.vectors), len(self.changes)]
@@ -121,28 +123,39 @@ def run(cases: Iterable[Case]) -> Iterator[Run]:
 def ideal(case: Case, made: Run) -> reference.Path:
     """Return the path as the contract wants it, with the changes where the probe made them."""
     vectors = list(case.vectors)
-    path = reference.Path(vectors, case.known or len(vectors), case.turn_us)
+    known = case.known or len(vectors)
+    path = reference.Path(vectors, known, Limits(case.turn_us, case.start_speed))
     path.start(0)
     for at in made.changes:
         wanted, section, place = at.change, at.section, at.place
         if place == 0 and section > 0 and path.legs[0].vector < section:
             section, place = section - 1, Fraction(vectors[section - 1].length)
         if wanted.kind in (ADD, JOIN):
-            path.known = min(len(vectors), path.known + wanted.value)
+            known = min(len(vectors), known + wanted.value)
+        if not case.start_speed:
+            path.known = known
+        elif wanted.kind == JOIN:
+            continue
         if wanted.kind == SPEED:
-            for i in range(at.section, path.known):
+            for i in range(at.section, known):
                 vectors[i] = replace(vectors[i], speed=wanted.value)
+        if wanted.kind == SECTION:
+            vectors[at.section] = replace(vectors[at.section], speed=wanted.value)
         if wanted.kind != JOIN:
             path.check(section, place, wanted.tick)
-        for i in range(at.section, path.known if wanted.accel else 0):
+        for i in range(at.section, known if wanted.accel else 0):
             vectors[i] = replace(vectors[i], accel=wanted.accel)
         if wanted.kind == JOIN and (at.section, at.place) == path.begun:
             path.start_again()
             continue
+        if wanted.kind == JOIN and at.section > path.planned_from:
+            path.join(at.section)
+            continue
         path.change(section, place, stops=wanted.kind == STOP)
-        if wanted.kind == STOP and path.rest[0] != path.known:
-            if not 0 <= at.start - wanted.value - path.rest_tick() <= 2:
-                raise AssertionError(f"{at}: the path rests at {path.rest_tick()}")
+        if wanted.kind == STOP and path.rest[0] != known:
+            path.known = known
+            if at.start - wanted.value not in path.rest_ticks():
+                raise AssertionError(f"{at}: the path rests at {path.rest_ticks()}")
             path.start(at.start)
     return path
 
@@ -167,15 +180,44 @@ def deviation(case: Case, made: Run) -> Deviation:
         count = path.count(axis)
         if (ordinals[-1] if ordinals else 0) != count:
             raise AssertionError(f"axis {axis}: {ordinals[-1:]} pulses instead of {count}")
-        total += count
-        wanted = path.pulses(axis, None if case.stride == 1 else ordinals)
-        for k, tick, (sign, time) in zip(ordinals, ticks, wanted, strict=True):
-            if tick * sign < 0:
-                raise AssertionError(f"axis {axis}, pulse {k}: the wrong way")
-            off = abs((abs(tick) << FRACTION_BITS) - time) / 2**FRACTION_BITS
+        total += len(ordinals)
+        before = 0
+        for leg, length, steps, pulses in path.stretches(axis):
+            shift = before + 1 - pulses[0]
+            low, high = bisect_right(ordinals, before), bisect_right(ordinals, before + len(pulses))
+            before += len(pulses)
+            if low == high:
+                continue
+            if any((tick > 0) != (steps > 0) for tick in ticks[low:high]):
+                raise AssertionError(f"axis {axis}, pulses {low} to {high}: the wrong way")
+            made_at = [abs(tick) for tick in ticks[low:high]]
+            numbers = [n - shift for n in ordinals[low:high]]
+            off, which = worst_of(leg, length, abs(steps), numbers, made_at)
             if off > worst.ticks:
-                worst = Deviation(off, axis, k, 0)
-    return Deviation(worst.ticks, worst.axis, worst.pulse, total)
+                worst = Deviation(off, axis, ordinals[low + which], 0)
+    return replace(worst, pulses=total)
+
+
+def worst_of(
+    leg: Leg, length: int, steps: int, pulses: list[int], ticks: list[int]
+) -> tuple[float, int]:
+    """Return how far the worst of these pulses of a leg is from its ideal tick, and which it is.
+
+    It is found roughly, if the leg is short enough for that, and told exactly.
+    """
+
+    def exactly(which: int) -> float:
+        ideal_time = leg.pulse_time(length, steps, pulses[which])
+        return float(abs((ticks[which] << ROOT_BITS) - ideal_time) / 2**ROOT_BITS)
+
+    if not leg.is_short:
+        return max((exactly(which), which) for which in range(len(pulses)))
+    begin = leg.time >> ROOT_BITS
+    part = (leg.time - (begin << ROOT_BITS)) / 2**ROOT_BITS
+    rough = leg.rough_times(length, steps, pulses)
+    offs = [abs(tick - begin - part - time) for tick, time in zip(ticks, rough, strict=True)]
+    which = offs.index(max(offs))
+    return exactly(which), which
 
 
 def told(case: Case, train: list[str]) -> tuple[Sequence[int], list[int]]:

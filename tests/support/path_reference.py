@@ -2,8 +2,8 @@
 
 In: vectors with their limits, in the units of the contract: speeds in 1/256 step/s, their squares
 whole numbers, accelerations in 1/128 step/s². Out: when each pulse of each axis is due, in ticks
-with `FRACTION_BITS` binary places. All of it is integers and fractions; roots are taken with
-`ROOT_BITS` binary places.
+with `ROOT_BITS` binary places. All of it is integers and fractions but for `rough_times`, which
+says what it may be wrong by, and finds the pulses that are worth an exact look.
 
 Of a vector the place s runs from 0 to L, the steps of its longest axis; axis j makes its pulse k at
 s = k·L/|d_j|. Along a ramp u² is linear in s:
@@ -16,17 +16,18 @@ and the time between two places is (u1 - u0)/A on a ramp, (s1 - s0)/u at constan
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
+from itertools import pairwise
 
 from reference import TICK_HZ
 
-FRACTION_BITS = 32
-"""Binary places of a tick after the point."""
-
 ROOT_BITS = 80
+"""Binary places of ticks and speeds."""
+
+NEARLY_BITS = 40
 AXES = 4
 SPEED_UNITS = 256
 ACCEL_UNITS = 128
@@ -44,15 +45,27 @@ class Vector:
     extent2: int = 0
     """E², the square of the length that border speeds count; 0: that of the longest axis."""
 
-    @property
+    @cached_property
     def length(self) -> int:
         """L."""
         return max(map(abs, self.steps))
 
+    def to_border(self, square: int) -> int:
+        """The square of a speed of this vector in terms of borders: divided by κ = L²/E²."""
+        return square * (self.extent2 or self.length**2) // self.length**2
+
+    def to_border_up(self, square: int) -> int:
+        """The same, rounded up."""
+        return -self.to_border(-square)
+
+    def from_border(self, square: int) -> int:
+        """The square of a speed at a border in the vector's own terms: times κ."""
+        return square * self.length**2 // (self.extent2 or self.length**2)
+
     @property
-    def kappa(self) -> Fraction:
-        """What makes a square of this vector's speed of one of a border."""
-        return Fraction(self.length**2, self.extent2 or self.length**2)
+    def border_gain(self) -> int:
+        """g: G·L in terms of borders."""
+        return self.gain * (self.extent2 or self.length**2) // self.length
 
     @property
     def gain(self) -> int:
@@ -67,127 +80,246 @@ def turn_cap(before: Vector, after: Vector, turn_us: int) -> int | None:
         if d * e < 0:
             reach = SPEED_UNITS * 10**6 * after.length // (turn_us * abs(e))
             gained = -(-SPEED_UNITS * after.accel * turn_us // (ACCEL_UNITS * 2 * 10**6))
-            caps.append(math.floor(max(0, reach - gained) ** 2 / after.kappa))
+            caps.append(after.to_border(max(0, reach - gained) ** 2))
     return min(caps, default=None)
 
 
 def border_cap(before: Vector, after: Vector, turn_us: int) -> int:
     """C of the border between two vectors."""
-    caps = [math.floor(v.speed**2 / v.kappa) for v in (before, after)]
+    caps = [v.to_border(v.speed**2) for v in (before, after)]
     turn = turn_cap(before, after, turn_us)
     return min(*caps, after.border**2, *([] if turn is None else [turn]))
 
 
+def at_once(vector: Vector, square: int, start2: int, brakeable: int) -> int:
+    """The square of the speed after a start or a change, which takes speeds up to S at once."""
+    if square > vector.speed**2:
+        return vector.speed**2 if square <= start2 else square
+    return max(square, min(vector.speed**2, start2, brakeable))
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a path keeps besides the limits of its vectors."""
+
+    turn_us: int
+    start_speed: int = 0
+    """S, in 1/256 step/s of the longest axis."""
+
+    @property
+    def start2(self) -> int:
+        """S²."""
+        return self.start_speed**2
+
+
+Ends = list[tuple[int, int]]
+"""Of each vector the squares of the speed with which it is entered and left."""
+
+
+def backward(vectors: Sequence[Vector], limits: Limits) -> list[int]:
+    """Return the squares of the speeds at the ends of vectors that can be braked from there."""
+    borders = [0] * len(vectors)
+    borders[-1] = vectors[-1].to_border(min(limits.start2, vectors[-1].speed ** 2))
+    for i in range(len(vectors) - 2, -1, -1):
+        cap = border_cap(vectors[i], vectors[i + 1], limits.turn_us)
+        borders[i] = min(cap, borders[i + 1] + vectors[i + 1].border_gain)
+    return borders
+
+
+def forward(vectors: Sequence[Vector], borders: list[int], first: int, before: int) -> None:
+    """Lower (or raise, where a path is too fast) borders from one on to what is reached."""
+    for i in range(first, len(vectors)):
+        gain = vectors[i].border_gain
+        borders[i] = before = max(min(borders[i], before + gain), before - gain)
+
+
 def look(
-    vectors: Sequence[Vector], place: Fraction, square: int, turn_us: int, *, stops: bool
-) -> list[tuple[int, int]]:
+    vectors: Sequence[Vector], place: Fraction, square: int, limits: Limits
+) -> tuple[Ends, list[int]]:
     """Look ahead over vectors, of which the first goes on from a place with the square of a speed.
 
-    Returns for each the squares of its speed at its beginning (or that place) and at its end.
+    That may change at once there, as S allows. Returns the borders, too.
     """
-    borders = [0] * len(vectors)
-    for i in range(len(vectors) - 2, -1, -1):
-        gain = math.floor(vectors[i + 1].gain * vectors[i + 1].length / vectors[i + 1].kappa)
-        cap = border_cap(vectors[i], vectors[i + 1], turn_us)
-        borders[i] = 0 if stops else min(cap, borders[i + 1] + gain)
+    borders = backward(vectors, limits)
     first = vectors[0]
-    way = first.gain * (first.length - place)
-    assert way.denominator == 1
-    borders[0] = min(borders[0], math.floor((square + way) / first.kappa))
-    exits = [math.floor(borders[0] * first.kappa)]
-    if exits[0] < square - way:
-        exits[0] = int(square - way)
-        borders[0] = math.ceil(exits[0] / first.kappa)
-    for i in range(1, len(vectors)):
-        gain = math.floor(vectors[i].gain * vectors[i].length / vectors[i].kappa)
-        borders[i] = max(min(borders[i], borders[i - 1] + gain), borders[i - 1] - gain)
-        exits.append(math.floor(borders[i] * vectors[i].kappa))
-    enters = [square]
-    enters += [math.floor(borders[i - 1] * vectors[i].kappa) for i in range(1, len(vectors))]
-    return list(zip(enters, exits, strict=True))
+    way = whole(first.gain * (first.length - place))
+    square = at_once(first, square, limits.start2, first.from_border(borders[0]) + way)
+    borders[0] = min(borders[0], first.to_border(square + way))
+    leave = first.from_border(borders[0])
+    if leave + max(0, limits.start2 - first.speed**2) < square - way:
+        leave = square - way
+        borders[0] = first.to_border_up(leave)
+    forward(vectors, borders, 1, borders[0])
+    return [(square, leave), *ends_of(vectors[1:], borders)], borders
+
+
+def look_again(vectors: Sequence[Vector], border: int, limits: Limits) -> tuple[Ends, list[int]]:
+    """Look ahead over vectors that a path comes to with the square of a speed at a border."""
+    borders = backward(vectors, limits)
+    forward(vectors, borders, 0, border)
+    return ends_of(vectors, [border, *borders]), borders
+
+
+def ends_of(vectors: Sequence[Vector], borders: Sequence[int]) -> Ends:
+    """With what vectors are entered and left; the first border is that before the first."""
+    return [
+        (v.from_border(a), v.from_border(b))
+        for v, (a, b) in zip(vectors, pairwise(borders), strict=True)
+    ]
+
+
+def look_for_rest(
+    vectors: Sequence[Vector], place: Fraction, square: int, limits: Limits
+) -> tuple[Ends, bool]:
+    """Brake to S as soon as that can be; tells whether the path rests in the last of the vectors.
+
+    If not, it rests at its end.
+    """
+    first = vectors[0]
+    least = square - whole(first.gain * (first.length - place))
+    if least <= limits.start2:
+        return [(square, limits.start2)], True
+    ends = [(square, least)]
+    border = first.to_border_up(least)
+    for vector in vectors[1:]:
+        enter = vector.from_border(border)
+        border -= vector.border_gain
+        if border <= vector.to_border(limits.start2):
+            return [*ends, (enter, limits.start2)], True
+        ends.append((enter, vector.from_border(border)))
+    return ends, False
+
+
+def whole(number: Fraction | int) -> int:
+    """Return a number that must be whole."""
+    assert Fraction(number).denominator == 1
+    return int(number)
 
 
 @dataclass(frozen=True)
 class Leg:
-    """Motion from place x0 to x1 of a vector, u² = square + slope·(s - x0)."""
+    """Motion along a vector on a ramp up (sign 1), down (-1) or at constant speed (0).
+
+    Places are whole numbers of 1/2G step, so that 2·u² changes by one on the way between two; the
+    corner where two ramps meet is one of them, as half of the sum of three even numbers is whole.
+    """
 
     vector: int
-    x0: Fraction
-    x1: Fraction
-    square: int | Fraction
-    slope: int
+    per_step: int
+    """2G."""
+    x0: int
+    x1: int | Fraction
+    """A fraction only where the path was changed."""
+    square: int
+    """2·u² at x0."""
+    sign: int
     time: int
     """At x0: ticks, scaled by 2^ROOT_BITS."""
 
+    def place(self, x: Fraction | int) -> Fraction:
+        """A place in steps as these numbers."""
+        return Fraction(x * self.per_step)
+
     def square_at(self, x: Fraction | int) -> Fraction:
-        """u² at a place."""
-        return self.square + self.slope * (x - self.x0)
+        """u² at a place, given in steps."""
+        return (self.square + self.sign * (self.place(x) - self.x0)) / 2
 
     def time_at(self, x: Fraction | int) -> int:
-        """When the path is at a place."""
-        if self.slope == 0:
-            return self.time + _cruise_ticks(Fraction(x - self.x0), self.square)
-        change = abs(_root(self.square_at(x)) - _root(self.square))
-        return self.time + change * TICK_HZ * GAIN_PER_ACCEL // (2 * abs(self.slope))
+        """When the path is at a place, given in steps."""
+        place = self.place(x)
+        return self.time + self._time_of_way(place.numerator, place.denominator)
+
+    @cached_property
+    def end_time(self) -> int:
+        """When the leg ends."""
+        return self.time + self._time_of_way(self.x1.numerator, self.x1.denominator)
+
+    @cached_property
+    def _root(self) -> int:
+        return _root(self.square, 1)
+
+    def _time_of_way(self, x: int, divisor: int) -> int:
+        """The time from x0 to the place x/divisor."""
+        way = x - self.x0 * divisor
+        if self.sign == 0:
+            scaled = way * TICK_HZ * SPEED_UNITS << 2 * ROOT_BITS
+            return scaled // (divisor * self.per_step * self._root)
+        change = abs(_root(self.square * divisor + self.sign * way, divisor) - self._root)
+        return change * TICK_HZ * GAIN_PER_ACCEL // self.per_step
 
     def pulses(self, length: int, steps: int) -> range:
         """The numbers in the vector of an axis' pulses on the leg."""
-        first = math.floor(self.x0 * steps / length) + 1
-        return range(first, math.floor(self.x1 * steps / length) + 1)
+        divisor = length * self.per_step
+        return range(self.x0 * steps // divisor + 1, self.x1 * steps // divisor + 1)
 
-    def times(self, length: int, steps: int, pulses: Iterable[int]) -> Iterator[int]:
-        """When these pulses of an axis are due, ticks scaled by 2^FRACTION_BITS."""
-        down = ROOT_BITS - FRACTION_BITS
-        x0, square = Fraction(self.x0), Fraction(self.square)
-        begin = _root(square)
-        if self.slope == 0:
-            divisor = x0.denominator * steps * begin
-            for k in pulses:
-                way = k * length * x0.denominator - x0.numerator * steps
-                ticks = (way * TICK_HZ * SPEED_UNITS << 2 * ROOT_BITS) // divisor
-                yield (self.time + ticks) >> down
-            return
-        # u²(k) = (constant + factor·k) / scale
-        origin = square - self.slope * x0
-        scale, divisor = origin.denominator * steps, 2 * abs(self.slope)
-        constant, factor = origin.numerator * steps, self.slope * length * origin.denominator
-        for k in pulses:
-            root = math.isqrt(((constant + factor * k) << 2 * ROOT_BITS) // scale)
-            ticks = abs(root - begin) * TICK_HZ * GAIN_PER_ACCEL // divisor
-            yield (self.time + ticks) >> down
+    def pulse_time(self, length: int, steps: int, pulse: int) -> int:
+        """When a pulse of an axis is due, ticks scaled by 2^ROOT_BITS."""
+        return self.time + self._time_of_way(pulse * length * self.per_step, steps)
+
+    @cached_property
+    def is_short(self) -> bool:
+        """Whether floating-point numbers tell times on the leg to 2^-16 tick.
+
+        They have 53 digits, and `rough_times` loses at most four of them.
+        """
+        return self.end_time - self.time < 1 << 33 + ROOT_BITS
+
+    def rough_times(self, length: int, steps: int, pulses: Iterable[int]) -> list[float]:
+        """When these pulses of an axis are due: ticks from the beginning of the leg.
+
+        On a ramp u1 - u0 = (u1² - u0²) / (u1 + u0): nothing that is nearly the same is subtracted.
+        """
+        per_pulse, before = length * self.per_step, self.x0 * steps
+        root = self._root / 2**ROOT_BITS
+        if self.sign == 0:
+            scale = TICK_HZ * SPEED_UNITS / (steps * self.per_step * root)
+            return [(per_pulse * k - before) * scale for k in pulses]
+        scale = TICK_HZ * GAIN_PER_ACCEL / (2 * steps * self.per_step)
+        square, twice, sign, sqrt = self.square * steps, 2 * steps, self.sign, math.sqrt
+        return [
+            way * scale / (root + sqrt((square + sign * way) / twice))
+            for way in (per_pulse * k - before for k in pulses)
+        ]
 
 
-def _root(square: Fraction | int) -> int:
-    """√square, scaled by 2^ROOT_BITS."""
-    square = Fraction(square)
-    return math.isqrt((square.numerator << 2 * ROOT_BITS) // square.denominator)
+def _root(square: int, divisor: int) -> int:
+    """√(square / 2·divisor), scaled by 2^ROOT_BITS."""
+    return math.isqrt((square << 2 * ROOT_BITS) // (2 * divisor))
 
 
-def _cruise_ticks(way: Fraction, square: Fraction | int) -> int:
-    ticks = way.numerator * TICK_HZ * SPEED_UNITS << 2 * ROOT_BITS
-    return ticks // (way.denominator * _root(square))
+def corners(
+    vector: Vector, place: int, ends: tuple[int, int], speed: int, start2: int
+) -> Iterator[tuple[int, int, int]]:
+    """The legs of a vector from a place on: end, 2·u² at the beginning, sign."""
+    enter, leave = 2 * ends[0], 2 * ends[1]
+    end = 2 * vector.gain * vector.length
+    limit = max(2 * speed**2, leave)
+    if enter <= limit:
+        peak = min(limit, (enter + leave + end - place) // 2)
+        first, sign = place + peak - enter, 1
+    else:
+        turn = min(enter, max(limit, 2 * start2))
+        peak, first, sign = limit, place + enter - turn, -1
+    yield first, enter, sign
+    yield end - (peak - leave), peak, 0
+    yield end, peak, -1
+
+
+def braking(place: int, ends: tuple[int, int]) -> Iterator[tuple[int, int, int]]:
+    """The leg of a vector in which a stop rests."""
+    enter, leave = 2 * ends[0], 2 * ends[1]
+    yield place + max(0, enter - leave), enter, -1
 
 
 def lay(
-    vector: Vector, index: int, place: Fraction, squares: tuple[int, int], time: int, speed: int
+    index: int, per_step: int, place: int, time: int, course: Iterable[tuple[int, int, int]]
 ) -> list[Leg]:
-    """The legs of a vector from a place to its end, or to where it comes to rest."""
-    enter, leave = squares
-    gain, length = vector.gain, vector.length
-    limit = max(speed**2, leave)
+    """The legs of a vector from a place, one after the other."""
     legs: list[Leg] = []
-    if enter <= limit:
-        peak = min(Fraction(limit), Fraction(enter + leave + gain * (length - place)) / 2)
-        up, slope = place + (peak - enter) / gain, gain
-    else:
-        peak, up, slope = Fraction(limit), place + Fraction(enter - limit, gain), -gain
-    down = length - (peak - leave) / gain
-    corners = [(place, up, Fraction(enter), slope), (up, down, peak, 0)]
-    corners.append((down, Fraction(length), peak, -gain))
-    for x0, x1, square, change in corners:
-        if x1 > x0 and (square > 0 or change > 0):
-            legs.append(Leg(index, x0, x1, square, change, time))
-            time = legs[-1].time_at(x1)
+    for end, square, sign in course:
+        if end > place:
+            legs.append(Leg(index, per_step, place, end, square, sign, time))
+            place, time = end, legs[-1].end_time
     return legs
 
 
@@ -197,7 +329,7 @@ class Path:
 
     vectors: list[Vector]
     known: int
-    turn_us: int
+    limits: Limits
     legs: list[Leg] = field(default_factory=list)
     rest: tuple[int, Fraction] = (0, Fraction(0))
 
@@ -213,6 +345,15 @@ class Path:
         self._cut(*self.rest)
         self.start(self.begin_tick)
 
+    def join(self, vector: int) -> None:
+        """Plan anew from the border before a vector, for those that have been added."""
+        time = self._leg_at(vector - 1, Fraction(self.vectors[vector - 1].length)).end_time
+        self._cut(vector, Fraction(0))
+        ahead = self.vectors[vector : self.known]
+        ends, borders = look_again(ahead, self._borders[vector], self.limits)
+        self._borders |= dict(enumerate(borders, start=vector + 1))
+        self._lay(vector, Fraction(0), time, ends, stops=False, rests=False)
+
     def check(self, vector: int, place: Fraction, tick: int) -> None:
         """Refuse a place that comes before a tick, or a whole step that is not the first one."""
         leg = self._leg_at(vector, place)
@@ -220,7 +361,7 @@ class Path:
         if leg.time_at(place) + nearly < tick << ROOT_BITS:
             raise AssertionError(f"vector {vector}, step {place}: before {tick}")
         before = place - 1
-        if place.denominator > 1 or before <= leg.x0:
+        if place.denominator > 1 or leg.place(before) <= leg.x0:
             return
         if leg.time_at(before) - nearly > tick << ROOT_BITS:
             raise AssertionError(
@@ -233,68 +374,79 @@ class Path:
         time = at.time_at(place)
         if place == self.vectors[vector].length:
             return self._change_at_border(vector, time, stops=stops)
-        square = at.square_at(place)
-        assert square.denominator == 1
+        square = whole(at.square_at(place))
         self._cut(vector, place)
-        self._plan(vector, place, int(square), time, stops=stops)
+        self._plan(vector, place, square, time, stops=stops)
         return None
 
     def _change_at_border(self, vector: int, time: int, *, stops: bool) -> None:
-        square = self._squares[vector + 1]
+        square = self._enters[vector + 1]
         self._cut(vector, Fraction(self.vectors[vector].length))
         self._plan(vector + 1, Fraction(0), square, time, stops=stops)
 
     def _leg_at(self, vector: int, place: Fraction) -> Leg:
-        legs = [leg for leg in self.legs if leg.vector == vector and leg.x0 <= place <= leg.x1]
+        legs = [
+            leg
+            for leg in self.legs
+            if leg.vector == vector and leg.x0 <= leg.place(place) <= leg.x1
+        ]
         return legs[-1]
 
     def _cut(self, vector: int, place: Fraction) -> None:
-        kept = [leg for leg in self.legs if (leg.vector, leg.x0) < (vector, place)]
+        kept = [leg for leg in self.legs if (leg.vector, leg.x0) < (vector, leg.place(place))]
         if kept and kept[-1].vector == vector:
-            kept[-1] = replace(kept[-1], x1=min(kept[-1].x1, place))
+            last = kept[-1]
+            kept[-1] = replace(last, x1=min(last.x1, last.place(place)))
         self.legs = kept
 
     def _plan(self, vector: int, place: Fraction, square: int, time: int, *, stops: bool) -> None:
         ahead = self.vectors[vector : self.known]
-        squares = look(ahead, place, square, self.turn_us, stops=stops)
-        self._squares = {vector + i: enter for i, (enter, _) in enumerate(squares)}
+        self._borders = {}
+        self.planned_from = vector
+        rests = False
+        if stops:
+            squares, rests = look_for_rest(ahead, place, square, self.limits)
+        else:
+            squares, borders = look(ahead, place, square, self.limits)
+            self._borders = dict(enumerate(borders, start=vector + 1))
+        self._lay(vector, place, time, squares, stops=stops, rests=rests)
+
+    def _lay(
+        self, vector: int, place: Fraction, time: int, squares: Ends, *, stops: bool, rests: bool
+    ) -> None:
+        self._enters = {vector + i: enter for i, (enter, _) in enumerate(squares)}
+        ahead = self.vectors[vector : vector + len(squares)]
         for i, (each, ends) in enumerate(zip(ahead, squares, strict=True), start=vector):
-            at = place if i == vector else Fraction(0)
-            legs = lay(each, i, at, ends, time, 0 if stops else each.speed)
+            at = whole(2 * each.gain * place) if i == vector else 0
+            start2 = self.limits.start2 if i == vector and not stops else 0
+            course = corners(each, at, ends, 0 if stops else each.speed, start2)
+            if rests and i + 1 == vector + len(squares):
+                course = braking(at, ends)
+            legs = lay(i, 2 * each.gain, at, time, course)
             self.legs += legs
-            end = legs[-1].x1 if legs else at
-            time = legs[-1].time_at(end) if legs else time
-            if (stops and ends[1] == 0) or i + 1 == self.known:
-                self.rest = (i + 1, Fraction(0)) if end == each.length else (i, end)
-                break
+            if legs:
+                at, time = whole(legs[-1].x1), legs[-1].end_time
+        end = 2 * each.gain * each.length
+        self.rest = (i + 1, Fraction(0)) if at == end else (i, Fraction(at, 2 * each.gain))
 
-    def rest_tick(self) -> int:
-        """When the path comes to rest, rounded down to a tick."""
-        last = self.legs[-1]
-        return last.time_at(last.x1) >> ROOT_BITS
+    def rest_ticks(self) -> set[int]:
+        """The whole tick at or after the rest; the next one too, where it rests on a whole tick.
 
-    def pulses(self, axis: int, wanted: Sequence[int] | None = None) -> Iterator[tuple[int, int]]:
-        """Direction and time of the pulses of an axis: of all, or of those of these ordinals."""
-        made = 0
+        As the firmware's times are a little wrong, that is within 2^-NEARLY_BITS tick.
+        """
+        time, nearly = self.legs[-1].end_time, 1 << ROOT_BITS - NEARLY_BITS
+        return {-((nearly - time) >> ROOT_BITS), -((-nearly - time) >> ROOT_BITS)}
+
+    def stretches(self, axis: int) -> Iterator[tuple[Leg, int, int, range]]:
+        """The legs with pulses of an axis: leg, L, the axis' steps, the pulses' numbers in it."""
         for leg in self.legs:
             vector = self.vectors[leg.vector]
             steps = vector.steps[axis]
-            if steps == 0:
-                continue
-            pulses: Sequence[int] = leg.pulses(vector.length, abs(steps))
-            shift = made - pulses[0] + 1 if pulses else 0
-            made += len(pulses)
-            if wanted is not None and pulses:
-                low, high = (bisect_right(wanted, n) for n in (made - len(pulses), made))
-                pulses = [n - shift for n in wanted[low:high]]
-            for time in leg.times(vector.length, abs(steps), pulses):
-                yield (1 if steps > 0 else -1), time
+            if steps != 0:
+                pulses = leg.pulses(vector.length, abs(steps))
+                if pulses:
+                    yield leg, vector.length, steps, pulses
 
     def count(self, axis: int) -> int:
         """How many pulses an axis makes."""
-        ranges = (
-            leg.pulses(self.vectors[leg.vector].length, abs(self.vectors[leg.vector].steps[axis]))
-            for leg in self.legs
-            if self.vectors[leg.vector].steps[axis] != 0
-        )
-        return sum(map(len, ranges))
+        return sum(len(pulses) for *_, pulses in self.stretches(axis))

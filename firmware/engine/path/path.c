@@ -14,6 +14,11 @@ void path_init(struct path *path, struct path_section *ring, uint32_t size, uint
     *path = (struct path){.ring = ring, .size = size, .turn_us = turn_us};
 }
 
+void path_set_start_speed(struct path *path, uint32_t start_speed)
+{
+    path->start_speed = start_speed;
+}
+
 bool path_is_laid(const struct path *path)
 {
     return path->laid == path->known;
@@ -30,16 +35,16 @@ bool path_add(struct path *path, const struct path_vector *vector)
         path_section_mind_turns(section, path_section_of(path, path->end - 1U), path->turn_us);
     }
     path->end++;
-    if (!path->stopping && !path_is_laid(path)) {
+    if (!path->stopping && !path_is_laid(path) && path->start_speed == 0) {
         path->known = path->end;
-        path_look(path);
+        (void)path_look_again(path);
     }
     return true;
 }
 
 bool path_lags(const struct path *path)
 {
-    if (path->stopping) {
+    if (path->stopping || path->start_speed != 0) {
         return false;
     }
     if (path_is_laid(path)) {
@@ -57,6 +62,7 @@ bool path_start(struct path *path, uint64_t start_tick)
     struct path_place place = path->rest;
     place.entry.time = (struct wide){.high = start_tick};
     path->stopping = false;
+    path->chain = path->end;
     path_lay_begin(path, &place);
     return true;
 }

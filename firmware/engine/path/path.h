@@ -60,15 +60,18 @@ struct path {
     struct path_section *ring;
     uint32_t size;    /* places of the ring */
     uint32_t turn_us; /* what DIR wants */
-    uint32_t first;   /* count of the first section in the ring */
-    uint32_t laid;    /* count of the first one whose plan may still change */
-    uint32_t known;   /* count after the last one that is planned */
-    uint32_t end;     /* count after the last one in the ring */
+    uint32_t start_speed;
+    uint32_t first; /* count of the first section in the ring */
+    uint32_t laid;  /* count of the first one whose plan may still change */
+    uint32_t known; /* count after the last one that is planned */
+    uint32_t end;   /* count after the last one in the ring */
+    uint32_t chain; /* count after the last one that was there when the path left a stand */
     bool stopping;
     bool too_fast;            /* `laid` is left at the speed to which it can be braked */
     bool held_back;           /* the speed at which `laid` is entered was as low as the end that was known made it */
     struct path_place origin; /* where the path left a stand, was changed or stopped */
     struct path_entry next;   /* the entry of section `laid` */
+    uint64_t border2;         /* its speed2 in terms of borders, unless it is the origin's section */
     struct path_place rest;   /* where it comes to rest: right when laid = known */
     struct path_kept kept[PATH_KEPT];
     struct path_cursor axis[PATH_AXES];
@@ -77,6 +80,17 @@ struct path {
 /* An empty path that stands. `size` places, a power of two, at least 2. `turn_us`: DIR wants so much time from the last
  * pulse one way to the first the other way, 1 to 1000. */
 void path_init(struct path *path, struct path_section *ring, uint32_t size, uint32_t turn_us);
+
+/* The start/stop speed of what begins with the next start, 1/256 step/s of the longest axis, 0 to PATH_SPEED_MAX; 0
+ * after path_init. A path with a start speed S
+ *   begins with it, or the speed of its first vector if that is less, as far as the end can be braked to; ends with it,
+ *   or the speed of its last vector; and goes on with it after a stop,
+ *   takes speeds up to S at once where it is changed, and there falls from S to a speed below at once,
+ *   is stopped when it has braked to S; at once, if it is no faster,
+ *   is the vectors that were there when it left the stand: later ones wait for the next start, as a border with a turn
+ *   or a low border speed may be slower than the end that was planned.
+ * Borders are as ever: the path is at 0 where a border speed wants it. The path must stand. */
+void path_set_start_speed(struct path *path, uint32_t start_speed);
 
 /* Appends a vector; false if the ring is full. A path that moves joins it by itself, if not all of it has been laid. */
 bool path_add(struct path *path, const struct path_vector *vector);

@@ -198,6 +198,17 @@ static uint64_t count_void(const struct path *path, const struct path_place *pla
     return count - path_lay_pulses(path, place, axis);
 }
 
+/* An axis that turns must be slower at the border if it speeds up faster after it. */
+static void set_accel(const struct path *path, const struct path_place *place)
+{
+    path_section_set_accel(path_section_of(path, place->section), place->accel);
+    for (uint32_t i = place->section + 1U; i != path->end; i++) {
+        struct path_section *section = path_section_of(path, i);
+        path_section_set_accel(section, place->accel);
+        path_section_mind_turns(section, path_section_of(path, i - 1U), path->turn_us);
+    }
+}
+
 static bool plan_from(struct path *path, const struct path_place *place, bool stopping, uint64_t back[PATH_AXES])
 {
     for (unsigned axis = 0; axis < PATH_AXES; axis++) {
@@ -208,8 +219,8 @@ static bool plan_from(struct path *path, const struct path_place *place, bool st
     for (unsigned axis = 0; axis < PATH_AXES; axis++) {
         back[axis] = count_void(path, place, axis);
     }
-    for (uint32_t i = place->section; place->accel != 0 && i != path->end; i++) {
-        path_section_set_accel(path_section_of(path, i), place->accel);
+    if (place->accel != 0) {
+        set_accel(path, place);
     }
     path->stopping = stopping;
     path_lay_begin(path, place);

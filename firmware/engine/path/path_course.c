@@ -20,8 +20,9 @@ static uint32_t size_of(int32_t accel)
 
 /* What laying goes through: the corner where the first ramp ends and the one where the last begins. */
 struct profile {
-    uint64_t enter; /* twice_speed2 of all */
-    uint64_t peak;
+    uint64_t enter;  /* twice_speed2 of all */
+    uint64_t turn;   /* at the end of the first ramp */
+    uint64_t cruise; /* after it: less than `turn` where the speed falls at once */
     uint64_t exit;
 };
 
@@ -32,15 +33,28 @@ static uint64_t gain_until_end(const struct path_course *course, struct wide pla
     return way.high != 0 ? PATH_SPEED2_ENDLESS : lower(way.low, PATH_SPEED2_ENDLESS);
 }
 
+static uint64_t square(uint32_t value)
+{
+    return (uint64_t)value * value;
+}
+
 /* Up to the speed, or to where the ramps meet; or down to it, if it is entered faster: (a + b + c) / 2 is whole, as all
  * three are even. */
-static struct profile profile_of(const struct path_course *course, const struct path_entry *entry, uint32_t speed,
-                                 uint64_t exit_speed2)
+static struct profile profile_of(const struct path_course *course, const struct path_entry *entry,
+                                 const struct path_goal *goal)
 {
-    struct profile profile = {.enter = 2U * entry->speed2, .exit = 2U * exit_speed2};
-    uint64_t limit = 2U * higher((uint64_t)speed * speed, exit_speed2);
+    struct profile profile = {.enter = 2U * entry->speed2, .exit = 2U * goal->exit_speed2};
+    uint64_t limit = 2U * higher(square(goal->speed), goal->exit_speed2);
     uint64_t meet = (profile.enter + profile.exit + gain_until_end(course, entry->place)) / 2U;
-    profile.peak = profile.enter > limit ? limit : lower(limit, meet);
+    if (goal->rests) {
+        profile.turn = lower(profile.enter, profile.exit);
+    } else if (profile.enter > limit) {
+        profile.turn = lower(profile.enter, higher(limit, 2U * square(goal->start_speed)));
+        profile.cruise = limit;
+    } else {
+        profile.turn = lower(limit, meet);
+        profile.cruise = profile.turn;
+    }
     return profile;
 }
 
@@ -109,24 +123,34 @@ static void lay_cruise(struct path_course *course, struct progress *at, struct w
     at->place = end;
 }
 
+/* At once. */
+static void set_speed(struct progress *at, uint64_t twice_speed2)
+{
+    if (at->twice_speed2 != twice_speed2) {
+        at->twice_speed2 = twice_speed2;
+        at->slope = path_fixed_slope(twice_speed2);
+    }
+}
+
 void path_course_lay(struct path_course *course, const struct path_section *section, const struct path_entry *entry,
-                     uint32_t speed, uint64_t exit_speed2)
+                     const struct path_goal *goal)
 {
     *course = (struct path_course){
         .grains_per_step = path_section_grains_per_step(section),
         .length = section->length,
         .end = path_section_end(section),
     };
-    struct profile profile = profile_of(course, entry, speed, exit_speed2);
+    struct profile profile = profile_of(course, entry, goal);
     struct progress at = {
         .time = entry->time,
         .place = entry->place,
         .slope = path_fixed_slope(profile.enter),
         .twice_speed2 = profile.enter,
     };
-    struct wide last_ramp = {.low = profile.peak - profile.exit};
-    lay_ramp(course, &at, profile.peak, section->vector.accel);
-    if (profile.peak > 0) {
+    lay_ramp(course, &at, profile.turn, section->vector.accel);
+    if (!goal->rests) {
+        struct wide last_ramp = {.low = profile.cruise - profile.exit};
+        set_speed(&at, profile.cruise);
         lay_cruise(course, &at, wide_subtract(course->end, last_ramp));
         lay_ramp(course, &at, profile.exit, section->vector.accel);
     }

@@ -7,6 +7,7 @@
 #ifndef PATH_COURSE_H
 #define PATH_COURSE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "base_wide.h"
@@ -52,10 +53,17 @@ struct path_pulse {
     uint64_t slope256; /* of the path, 1/256 quantum a tick */
 };
 
-/* Lays the legs of a vector from its entry to its end, left with exit_speed2, which must be within reach; the speed is
- * as high as `speed` allows. Speed 0: it brakes as soon as it can, and rests where the speed is 0. */
+/* What a vector is laid for. Speeds are its own. */
+struct path_goal {
+    uint64_t exit_speed2; /* with which its end is left; within reach of the entry */
+    uint32_t speed;       /* as high as it may be, but for the exit's; 0: it brakes to exit_speed2 as soon as it can */
+    uint32_t start_speed; /* from that down to `speed` it falls at once */
+    bool rests;           /* it brakes to exit_speed2 and rests there; at once where it is no faster */
+};
+
+/* Lays the legs of a vector from its entry to its end, or to its rest. */
 void path_course_lay(struct path_course *course, const struct path_section *section, const struct path_entry *entry,
-                     uint32_t speed, uint64_t exit_speed2);
+                     const struct path_goal *goal);
 
 /* The last pulse of an axis with so many steps that is due up to a place, in grains. */
 uint32_t path_course_last_pulse(const struct path_course *course, struct wide place, uint32_t steps);

@@ -33,8 +33,13 @@ void path_lay_begin(struct path *path, const struct path_place *place)
     path->origin = *place;
     path->next = place->entry;
     path->laid = place->section;
-    path->known = path->end;
+    path->known = path->start_speed == 0 ? path->end : path->chain;
     path_look(path);
+}
+
+static bool rests_in(const struct path *path, const struct path_section *section)
+{
+    return path->stopping && section->exit2 == 0;
 }
 
 const struct path_course *path_lay_course(struct path *path, uint32_t count)
@@ -46,9 +51,15 @@ const struct path_course *path_lay_course(struct path *path, uint32_t count)
         if (count == path->origin.section) {
             entry.place = path->origin.entry.place;
         }
+        const struct path_goal goal = {
+            .exit_speed2 = section->leave2,
+            .speed = path->stopping ? 0 : section->vector.speed,
+            .start_speed = path_look_jumps(path, count) ? path->start_speed : 0,
+            .rests = rests_in(path, section),
+        };
         kept->section = count;
         kept->valid = true;
-        path_course_lay(&kept->course, section, &entry, path->stopping ? 0 : section->vector.speed, section->leave2);
+        path_course_lay(&kept->course, section, &entry, &goal);
     }
     return &kept->course;
 }
@@ -63,18 +74,25 @@ static void come_to_rest(struct path *path, uint32_t section, const struct path_
     };
 }
 
+static uint64_t leave2_of(const struct path *path, const struct path_section *section)
+{
+    if (rests_in(path, section)) {
+        return path_look_start2(path);
+    }
+    return path->too_fast ? section->enter2 - path_look_gain(path) : path_section_from_border2(section, section->exit2);
+}
+
 void path_lay_next(struct path *path)
 {
     uint32_t count = path->laid;
     struct path_section *section = path_section_of(path, count);
     section->entered = path->next.time;
     section->enter2 = path->next.speed2;
-    section->leave2 =
-        path->too_fast ? section->enter2 - path_look_gain(path) : path_section_from_border2(section, section->exit2);
+    section->leave2 = leave2_of(path, section);
     path->too_fast = false;
     const struct path_course *course = path_lay_course(path, count);
     path->laid++;
-    if (path_is_laid(path) || (path->stopping && section->exit2 == 0)) {
+    if (path_is_laid(path) || rests_in(path, section)) {
         come_to_rest(path, count, course);
         return;
     }
@@ -84,4 +102,5 @@ void path_lay_next(struct path *path)
         .time = course->end_time,
         .speed2 = path_section_from_border2(after, section->exit2),
     };
+    path->border2 = section->exit2;
 }

@@ -89,6 +89,7 @@ void path_section_set_speed(struct path_section *section, uint32_t speed)
 void path_section_set_accel(struct path_section *section, uint32_t accel)
 {
     section->vector.accel = accel;
+    section->border2 = square(section->vector.border_speed);
     section->gain2 = gain_of(section);
 }
 

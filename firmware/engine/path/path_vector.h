@@ -71,7 +71,7 @@ void path_section_take(struct path_section *section, const struct path_vector *v
 /* Another speed for the vector. */
 void path_section_set_speed(struct path_section *section, uint32_t speed);
 
-/* Another acceleration. */
+/* Another acceleration. border2 is border_speed alone again. */
 void path_section_set_accel(struct path_section *section, uint32_t accel);
 
 /* Lowers border2 for the axes that turn where `section` joins `before`: DIR needs turn_us from the last pulse of one to

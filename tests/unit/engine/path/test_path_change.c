@@ -221,6 +221,24 @@ void test_a_stop_may_have_an_acceleration_of_its_own(void)
     TEST_ASSERT_EQUAL_UINT32(wish.accel, rig.ring[1].vector.accel);
 }
 
+/* A path that speeds up faster reaches the first pulse of an axis that turns sooner. */
+void test_with_another_acceleration_an_axis_that_turns_is_slower_at_the_border(void)
+{
+    (void)rig_add(&rig, -100, 0, 200000, 1000000);
+    start();
+    all_pulses(1);
+    uint64_t turn2 = rig.ring[1].border2;
+    const struct path_wish wish = {
+        .tick = 0, .patience_ticks = UINT64_MAX / 2U, .accel = STEP_ACCEL_MAX * STEP_ACCEL_PER_ACCEL};
+    TEST_ASSERT_TRUE(path_find(&rig.path, &wish, &place));
+    all_pulses(place.entry.time.high + 2U);
+    TEST_ASSERT_TRUE(path_stop(&rig.path, &place, back));
+    /* 48 steps/s instead of 6: 12 us of half the acceleration. */
+    uint64_t speed = (UINT64_C(256000000) + 11U) / 12U - 48U * PATH_SPEED_UNITS;
+    TEST_ASSERT_UINT64_WITHIN(2U * speed, speed * speed, rig.ring[1].border2);
+    TEST_ASSERT_TRUE(rig.ring[1].border2 < turn2);
+}
+
 void test_a_change_of_speed_takes_effect_at_its_place(void)
 {
     start();

@@ -12,7 +12,8 @@ static void lay(const struct path_vector *vector, uint64_t enter2, uint64_t exit
     struct path_section section;
     struct path_entry entry = {.time = {.high = 5000}, .speed2 = enter2};
     path_section_take(&section, vector);
-    path_course_lay(&course, &section, &entry, vector->speed, exit2);
+    path_course_lay(&course, &section, &entry,
+                    &(struct path_goal){.exit_speed2 = exit2, .speed = vector->speed, .rests = vector->speed == 0});
 }
 
 static struct step_segment segment(uint32_t steps, uint32_t pulse)

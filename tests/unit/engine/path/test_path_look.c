@@ -1,0 +1,135 @@
+#include "path_lay.h"
+#include "path_look.h"
+#include "path_rig.h"
+#include "unity.h"
+
+enum {
+    RING = 128
+};
+
+static struct path path;
+static struct path_section ring[RING];
+static uint32_t seed;
+
+static uint32_t draw(uint32_t most)
+{
+    seed = seed * 1664525U + 1013904223U;
+    return (seed >> 8U) % most;
+}
+
+/* Of any order of size: of 2^bits at most. */
+static uint32_t draw_size(unsigned bits)
+{
+    return (UINT32_C(1) << draw(bits)) + draw(UINT32_C(1) << draw(bits));
+}
+
+static void add(uint32_t steps, uint32_t speed, uint32_t accel)
+{
+    struct path_vector vector = rig_vector((int32_t)steps, 0, speed, accel);
+    TEST_ASSERT_TRUE(path_add(&path, &vector));
+}
+
+/* Adds a vector as path_add does; returns the first section whose plan that changes. */
+static uint32_t look_at_another(uint32_t steps, uint32_t speed, uint32_t accel)
+{
+    struct path_vector vector = rig_vector((int32_t)steps, 0, speed, accel);
+    path_section_take(path_section_of(&path, path.end), &vector);
+    path.end++;
+    path.known = path.end;
+    return path_look_again(&path);
+}
+
+static void add_any(void)
+{
+    struct path_vector vector =
+        rig_vector((int32_t)draw_size(10), (int32_t)draw_size(10), 10U + draw_size(16), 1U + draw_size(20));
+    vector.border_speed = draw(4) != 0 ? UINT32_MAX : draw_size(20);
+    vector.extent2 = draw(2) != 0 ? vector.extent2 : 1U + draw_size(20);
+    TEST_ASSERT_TRUE(path_add(&path, &vector));
+}
+
+/* All speeds of the plan are those of one that begins anew. */
+static void assert_planned_well(void)
+{
+    uint64_t exit2[RING];
+    for (uint32_t i = path.laid; i != path.known; i++) {
+        exit2[i % RING] = ring[i % RING].exit2;
+    }
+    bool too_fast = path.too_fast;
+    path_look(&path);
+    TEST_ASSERT_EQUAL(path.too_fast, too_fast);
+    for (uint32_t i = path.laid; i != path.known; i++) {
+        TEST_ASSERT_EQUAL_UINT64(ring[i % RING].exit2, exit2[i % RING]);
+    }
+}
+
+void setUp(void)
+{
+    path_init(&path, ring, RING, RIG_TURN_US);
+}
+
+void tearDown(void)
+{
+}
+
+void test_a_vector_that_joins_leaves_the_plan_that_a_new_one_would_make(void)
+{
+    for (seed = 1; seed < 4000; seed++) {
+        path_init(&path, ring, RING, RIG_TURN_US);
+        uint32_t there = 1U + draw(10);
+        for (uint32_t i = 0; i < there; i++) {
+            add_any();
+        }
+        (void)path_start(&path, 0);
+        for (unsigned i = 0; i < 20 && !path_is_laid(&path); i++) {
+            add_any();
+            assert_planned_well();
+            if (draw(3) == 0) {
+                path_lay_next(&path);
+            }
+        }
+    }
+}
+
+/* Where the path is too fast for speeds that were lowered, too. */
+void test_a_vector_that_joins_a_path_that_is_too_fast_leaves_the_plan_that_a_new_one_would_make(void)
+{
+    for (seed = 1; seed < 2000; seed++) {
+        path_init(&path, ring, RING, RIG_TURN_US);
+        for (uint32_t i = 0; i < 20; i++) {
+            add_any();
+        }
+        (void)path_start(&path, 0);
+        path_lay_next(&path);
+        struct path_place place = {.section = 1, .entry = path.next};
+        uint32_t slow = 1U + draw_size(20);
+        for (uint32_t i = 1; i < 20; i++) {
+            path_set_speed(&path, i, slow);
+        }
+        path_lay_begin(&path, &place);
+        for (unsigned i = 0; i < 10; i++) {
+            add_any();
+            assert_planned_well();
+        }
+    }
+}
+
+/* 40 000 steps/s^2 brake from 2000 steps/s within 50 steps: five vectors. */
+void test_planning_goes_back_no_farther_than_to_where_the_brake_begins(void)
+{
+    for (unsigned i = 0; i < 100; i++) {
+        add(10, 2000, 40000);
+    }
+    (void)path_start(&path, 0);
+    TEST_ASSERT_UINT_WITHIN(1, 101 - 5, look_at_another(10, 2000, 40000));
+    TEST_ASSERT_EQUAL_UINT32(100, path_look_again(&path));
+}
+
+void test_planning_goes_back_no_farther_than_to_where_the_path_is_still_getting_faster(void)
+{
+    for (unsigned i = 0; i < 100; i++) {
+        add(10, 100000, 1000);
+    }
+    (void)path_start(&path, 0);
+    TEST_ASSERT_UINT_WITHIN(1, 50, look_at_another(10, 100000, 1000));
+}

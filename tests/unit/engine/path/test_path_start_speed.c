@@ -1,0 +1,165 @@
+#include "path_look.h"
+#include "path_rig.h"
+#include "unity.h"
+
+enum {
+    TICKS = 1200
+};
+
+static struct path_rig rig;
+static uint64_t ticks[TICKS];
+static uint64_t back[PATH_AXES];
+static struct path_place place;
+
+static unsigned pulses(uint64_t until_tick)
+{
+    return rig_pulses(&rig, 0, until_tick, ticks, TICKS);
+}
+
+static uint64_t speed2_of(uint64_t steps_per_s)
+{
+    return steps_per_s * steps_per_s * PATH_SPEED_UNITS * PATH_SPEED_UNITS;
+}
+
+static void start(uint32_t start_speed)
+{
+    path_set_start_speed(&rig.path, start_speed * PATH_SPEED_UNITS);
+    TEST_ASSERT_TRUE(path_start(&rig.path, 0));
+}
+
+static void change_at(uint64_t tick, bool stops)
+{
+    const struct path_wish wish = {.tick = tick, .patience_ticks = UINT64_MAX / 2U};
+    TEST_ASSERT_TRUE(path_find(&rig.path, &wish, &place));
+    (void)pulses(place.entry.time.high + 2U);
+    TEST_ASSERT_TRUE(stops ? path_stop(&rig.path, &place, back) : path_change(&rig.path, &place, back));
+}
+
+void setUp(void)
+{
+    rig_init(&rig);
+}
+
+void tearDown(void)
+{
+}
+
+/* From 1000 to 3000 steps/s with 10 000 steps/s^2: 400 steps, 0.2 s. */
+void test_a_path_begins_and_ends_with_its_start_speed(void)
+{
+    (void)rig_add(&rig, 1000, 0, 3000, 10000);
+    start(1000);
+    TEST_ASSERT_EQUAL_UINT(1000, pulses(UINT64_MAX));
+    TEST_ASSERT_EQUAL_UINT64(16800000, ticks[399]);
+    TEST_ASSERT_EQUAL_UINT64(16800000 + 28000, ticks[400]);
+    TEST_ASSERT_EQUAL_UINT64(16800000 + 5600000, ticks[599]);
+    TEST_ASSERT_EQUAL_UINT64(2 * 16800000 + 5600000, ticks[999]);
+}
+
+void test_a_vector_slower_than_the_start_speed_has_its_own_speed_all_the_way(void)
+{
+    (void)rig_add(&rig, 10, 0, 500, 10000);
+    start(1000);
+    TEST_ASSERT_EQUAL_UINT(10, pulses(UINT64_MAX));
+    TEST_ASSERT_EQUAL_UINT64(168000, ticks[0]);
+    TEST_ASSERT_EQUAL_UINT64(1680000, ticks[9]);
+}
+
+/* The second vector is left with 100 at most, and entered with what brakes to that over a step: 142 steps/s. */
+void test_a_path_begins_no_faster_than_what_follows_can_be_braked_to(void)
+{
+    (void)rig_add(&rig, 1, 0, 1000, 1);
+    (void)rig_add(&rig, 1, 0, 1000, 5000);
+    (void)rig_add(&rig, 10, 0, 100, 10000);
+    start(1000);
+    (void)pulses(1);
+    TEST_ASSERT_EQUAL_UINT64(speed2_of(100) + UINT64_C(10000) * 65536, rig.ring[0].exit2);
+    TEST_ASSERT_EQUAL_UINT64(rig.ring[0].exit2 + UINT64_C(2) * 65536, rig.ring[0].enter2);
+}
+
+void test_a_stop_rests_as_soon_as_the_start_speed_is_reached_and_goes_on_with_it(void)
+{
+    (void)rig_add(&rig, 1000, 0, 3000, 10000);
+    start(1000);
+    change_at(16800000 + 28000 * 50, true);
+    TEST_ASSERT_EQUAL_UINT(400, pulses(UINT64_MAX));
+    TEST_ASSERT_EQUAL_UINT64(2 * 16800000 + 28000 * 50, rig.path.rest.entry.time.high);
+    TEST_ASSERT_TRUE(path_start(&rig.path, 100000000));
+    TEST_ASSERT_EQUAL_UINT(150, pulses(UINT64_MAX));
+    TEST_ASSERT_TRUE(ticks[0] > 100000000 + 83000);
+    TEST_ASSERT_TRUE(ticks[0] < 100000000 + 84000);
+}
+
+void test_a_stop_of_what_is_no_faster_than_the_start_speed_rests_at_once(void)
+{
+    (void)rig_add(&rig, 1000, 0, 500, 10000);
+    start(1000);
+    change_at(168000 * 10, true);
+    TEST_ASSERT_EQUAL_UINT(0, pulses(UINT64_MAX));
+    TEST_ASSERT_EQUAL_UINT64(1680000, rig.path.rest.entry.time.high);
+    const struct path_wish wish = {.tick = 168000 * 10};
+    TEST_ASSERT_FALSE(path_find(&rig.path, &wish, &place));
+}
+
+void test_a_stop_brakes_through_vectors_down_to_the_start_speed(void)
+{
+    (void)rig_add(&rig, 1000, 0, 3000, 10000);
+    (void)rig_add(&rig, 1000, 0, 3000, 5000);
+    start(1000);
+    change_at(16800000 + 28000 * 400, true);
+    /* 200 steps with 10 000, half of the way down in terms of squares, then 400 with 5000. */
+    TEST_ASSERT_EQUAL_UINT(600, pulses(UINT64_MAX));
+    TEST_ASSERT_EQUAL_UINT32(1, rig.path.rest.section);
+    TEST_ASSERT_EQUAL_UINT64(400 * path_section_grains_per_step(&rig.ring[1]), rig.path.rest.entry.place.low);
+}
+
+void test_a_change_takes_speeds_up_to_the_start_speed_at_once(void)
+{
+    (void)rig_add(&rig, 1000, 0, 100, 10000);
+    start(1000);
+    (void)pulses(8400000 + 2);
+    path_set_speed(&rig.path, 0, 1000 * PATH_SPEED_UNITS);
+    change_at(8400000, false);
+    TEST_ASSERT_EQUAL_UINT(990, pulses(UINT64_MAX));
+    TEST_ASSERT_EQUAL_UINT64(8400000 + 84000, ticks[0]);
+    TEST_ASSERT_EQUAL_UINT64(8400000 + 84000 * 990, ticks[989]);
+}
+
+/* Down to 1000 over 400 steps, then 100 at once. */
+void test_a_change_falls_from_the_start_speed_at_once(void)
+{
+    (void)rig_add(&rig, 1000, 0, 3000, 10000);
+    start(1000);
+    change_at(16800000 + 28000 * 50, false);
+    path_set_speed(&rig.path, 0, 100 * PATH_SPEED_UNITS);
+    TEST_ASSERT_TRUE(path_change(&rig.path, &place, back));
+    TEST_ASSERT_EQUAL_UINT(550, pulses(UINT64_MAX));
+    uint64_t slow = 2 * 16800000 + 28000 * 50;
+    TEST_ASSERT_EQUAL_UINT64(slow, ticks[399]);
+    TEST_ASSERT_EQUAL_UINT64(slow + 840000, ticks[400]);
+    TEST_ASSERT_EQUAL_UINT64(slow + 840000 * 150, ticks[549]);
+}
+
+void test_a_change_below_the_start_speed_falls_at_once_when_it_is_slow_already(void)
+{
+    (void)rig_add(&rig, 1000, 0, 900, 10000);
+    start(1000);
+    change_at(84000000 - 10, false);
+    path_set_speed(&rig.path, 0, 100 * PATH_SPEED_UNITS);
+    TEST_ASSERT_TRUE(path_change(&rig.path, &place, back));
+    TEST_ASSERT_EQUAL_UINT(100, pulses(UINT64_MAX));
+    TEST_ASSERT_EQUAL_UINT64(84000000 + 840000, ticks[0]);
+}
+
+void test_vectors_that_come_later_are_a_chain_of_their_own(void)
+{
+    (void)rig_add(&rig, 100, 0, 3000, 10000);
+    start(1000);
+    (void)pulses(1);
+    (void)rig_add(&rig, 100, 0, 3000, 10000);
+    TEST_ASSERT_FALSE(path_lags(&rig.path));
+    change_at(2000000, false);
+    TEST_ASSERT_TRUE(pulses(UINT64_MAX) < 100);
+    TEST_ASSERT_TRUE(path_start(&rig.path, 100000000));
+    TEST_ASSERT_EQUAL_UINT(100, pulses(UINT64_MAX));
+}
