@@ -126,13 +126,16 @@ def corners() -> list[Case]:
 
 
 def long_corners() -> list[Case]:
-    """Vectors of millions of steps, of which some pulses are compared."""
-    steep = (1, 16_000_000, 3, 7)
-    limits = ((10_000, 1e6), (SPEED_MAX, 1000), (SPEED_MAX, ACCEL_MAX), (16_000, 1 / ACCEL_UNITS))
-    return [Case((vector(steep, v, a),), stride=9973) for v, a in limits]
+    """Vectors of millions of steps, and hours of motion with the longest there is.
 
-
-def longest_corner() -> Case:
-    """Return hours of motion: the longest vector there is."""
-    steps = (STEPS_MAX, STEPS_MAX - 1, 12_345, 1)
-    return Case((vector(steps, SPEED_MAX, ACCEL_MAX),), stride=1_000_003)
+    Some pulses are compared, those at the ends of segments among them, where roundings show most.
+    """
+    steep, longest = (1, 16_000_000, 3, 7), (STEPS_MAX, STEPS_MAX - 1, 12_345, 1)
+    limits = ((SPEED_MAX, ACCEL_MAX), (10_000, 1e6), (400_000, 1e5))
+    return [
+        *(Case((vector(steep, v, a),), stride=9973) for v, a in limits),
+        *(Case((vector(longest, v, a),), stride=1_000_003) for v, a in limits),
+        Case((vector(steep, SPEED_MAX, 1000),), stride=9973),
+        Case((vector(steep, 16_000, 1),), stride=9973),
+        Case((vector(longest, SPEED_MAX, 1000),), stride=1_000_003),
+    ]

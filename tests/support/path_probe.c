@@ -14,7 +14,7 @@
  * Goes out, a line a case, times from the start: for each change that took effect its ordinal from 0, its section, step
  * + grains/grains of a step, speed2 and tick, and of a stop when the path went on (0: it did not), as
  * `o:s:k+g/n:q:t:b` | the pulses of each axis in four fields, ticks, negative ones for negative steps; with stride > 1
- * only every stride-th pulse and the ends of segments, as `count:tick` | segments of each axis.
+ * only every stride-th pulse, the first two of a segment and its last one, as `count:tick` | segments of each axis.
  * Exit status 2: the input is no such thing; 3: a promise was broken.
  */
 #include <inttypes.h>
@@ -160,7 +160,41 @@ static void make_pulse(struct probe *probe, struct train *train, uint64_t tick, 
     }
 }
 
-/* Makes all pulses of a segment. */
+/* Puts the generator on a pulse of a cruise, counted from 0, where it would come by itself: within half a tick's way of
+ * the step. */
+static uint64_t jump_to(struct train *train, const struct path_segment *path_segment, uint32_t pulse)
+{
+    struct step_generator *generator = &train->generator;
+    const struct step_segment *segment = &path_segment->segment;
+    uint64_t unused = 0;
+    uint64_t way = wide_divide(wide_multiply(pulse, STEP_QUANTA), segment->slope, &unused);
+    generator->tick = segment->tick + (uint32_t)way;
+    step_generator_join(generator, segment, pulse + 1U);
+    while (wide_to_signed(generator->residual + (segment->slope >> 1U)) < 0) {
+        generator->residual += segment->slope;
+        generator->tick++;
+    }
+    while (wide_to_signed(generator->residual + (segment->slope >> 1U) - segment->slope) >= 0) {
+        generator->residual -= segment->slope;
+        generator->tick--;
+    }
+    return path_segment->tick + (uint32_t)(generator->tick - segment->tick);
+}
+
+/* Of a cruise of which not all pulses are told, those alone are made: its first two have been. */
+static void make_some(struct probe *probe, struct train *train, const struct path_segment *path_segment)
+{
+    uint64_t end = train->count + path_segment->segment.steps - 2U;
+    uint64_t begin = end - path_segment->segment.steps;
+    while (train->count < end) {
+        uint64_t next = (train->count / probe->stride + 1U) * probe->stride;
+        train->count = (next < end ? next : end) - 1U;
+        uint64_t tick = jump_to(train, path_segment, (uint32_t)(train->count - begin));
+        make_pulse(probe, train, tick, path_segment->backward, train->count + 1U == end);
+    }
+}
+
+/* Makes all pulses of a segment; the first two and the last one are always told. */
 static void make_segment(struct probe *probe, struct train *train, const struct path_segment *path_segment)
 {
     const struct step_segment *segment = &path_segment->segment;
@@ -173,7 +207,11 @@ static void make_segment(struct probe *probe, struct train *train, const struct 
     for (uint32_t i = 1; i < segment->steps; i++) {
         uint32_t before = train->generator.tick;
         uint64_t tick = train->last + (uint32_t)(step_generator_next(&train->generator) - before);
-        make_pulse(probe, train, tick, path_segment->backward, i + 1U == segment->steps);
+        make_pulse(probe, train, tick, path_segment->backward, i == 1U || i + 1U == segment->steps);
+        if (i == 1U && probe->stride > 1U && segment->accel == 0) {
+            make_some(probe, train, path_segment);
+            break;
+        }
     }
 }
 
