@@ -27,6 +27,11 @@ def word(name: str, value: int) -> list[str]:
     return ["--set", f"{name}={struct.pack('<I', value).hex()}"]
 
 
+def words(name: str, values: tuple[int, ...]) -> list[str]:
+    """The option that gives an array of an image its values."""
+    return ["--set", f"{name}={struct.pack(f'<{len(values)}I', *values).hex()}"]
+
+
 # --- edges ---
 
 
@@ -361,3 +366,32 @@ def test_what_is_allowed_beside_it_passes_without_a_word(run_image, number):
 
     assert run.result[0] == 1
     assert run.told == ""
+
+
+# --- laid ahead ---
+
+
+@pytest.mark.parametrize(
+    ("whole", "part"),
+    [
+        ((210, 210, 210, 210), (0, 0, 0, 0)),  # 400 000 pulses/s, all on the same ticks
+        ((210, 211, 213, 217), (1, 250, 500, 999)),  # they meet in every order
+        ((84, 2100, 420, 8400), (0, 7, 0, 900)),  # one makes 1 000 000 pulses/s
+    ],
+)
+def test_pulses_of_four_motors_that_are_laid_ahead_come_on_their_ticks(run_image, whole, part):
+    numbers = [("whole", whole), ("part", part)]
+    options = [each for name, four in numbers for each in words(name, four)]
+    run = run_image(
+        "dma_refill", *options, "--step-timer", "TIM5", "--ticks", "timer", pins=PINS,
+    )  # fmt: skip
+
+    assert run.result[0] > 190  # refills
+    assert run.summary["dma"]["lost"] == 0
+    for motor in range(4):
+        made = [tick for tick, number, _ in run.steps if number == motor + 1]
+        assert made == [
+            20000 + k * whole[motor] + k * part[motor] // 1000 for k in range(len(made))
+        ]
+        assert made[-1] > 84 * 5000 - 9000
+        assert run.summary["motors"][motor]["width_min"] == pytest.approx(42 * TICK_US, abs=1e-5)
