@@ -209,9 +209,7 @@ static void keep_rest(struct motion_order *order, uint64_t steps_made)
     for (unsigned i = 0; i < order->sections; i++) {
         order->section[i] = order->section[i + done];
     }
-    if (order->sections > 0) {
-        order->section[0].steps -= steps_made;
-    }
+    order->section[0].steps -= steps_made;
 }
 
 bool axis_take_end(struct axis *axis)

@@ -21,13 +21,14 @@ const struct motion_order axis_bench_slow = {
 static void traced(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
 {
     struct axis_bench *bench = context;
-    (void)tick;
+    const struct axis_bench_event seen = {event, value, tick};
     TEST_ASSERT_EQUAL_UINT(AXIS_BENCH_MOTOR + 1, motor);
     if (event == HAL_TRACE_MOVE || event == HAL_TRACE_DONE) {
+        bench->motions[bench->motion_count++ % AXIS_BENCH_EVENTS_MAX] = seen;
         return;
     }
     TEST_ASSERT_LESS_THAN_UINT(AXIS_BENCH_EVENTS_MAX, bench->event_count);
-    bench->events[bench->event_count++] = (struct axis_bench_event){event, value};
+    bench->events[bench->event_count++] = seen;
 }
 
 static void stepped(void *context, uint64_t tick, unsigned motor, bool backward)
@@ -81,6 +82,7 @@ void axis_bench_init(struct axis_bench *bench)
     hal_run_start(&client);
     axis_init(&bench->axis, AXIS_BENCH_MOTOR);
     bench->event_count = 0;
+    bench->motion_count = 0;
     bench->stops_sensed = 0;
     bench->last_edge_tick = 0;
     bench->edges = 0;
@@ -131,6 +133,15 @@ void axis_bench_assert_only_event(const struct axis_bench *bench, enum hal_trace
     TEST_ASSERT_EQUAL_UINT(1, bench->event_count);
     TEST_ASSERT_EQUAL_INT(event, bench->events[0].event);
     TEST_ASSERT_EQUAL_INT64(value, bench->events[0].value);
+}
+
+void axis_bench_assert_motion(const struct axis_bench *bench, enum hal_trace_event event, int64_t steps, uint64_t tick)
+{
+    TEST_ASSERT_GREATER_THAN_UINT(0, bench->motion_count);
+    const struct axis_bench_event *seen = &bench->motions[(bench->motion_count - 1U) % AXIS_BENCH_EVENTS_MAX];
+    TEST_ASSERT_EQUAL_INT(event, seen->event);
+    TEST_ASSERT_EQUAL_INT64(steps, seen->value);
+    TEST_ASSERT_EQUAL_UINT64(tick, seen->tick);
 }
 
 void axis_bench_assert_cause(const struct axis_bench *bench, enum axis_cause cause)

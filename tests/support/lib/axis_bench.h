@@ -17,6 +17,7 @@ enum {
 struct axis_bench_event {
     enum hal_trace_event event;
     int64_t value;
+    uint64_t tick;
 };
 
 struct axis_bench {
@@ -24,6 +25,8 @@ struct axis_bench {
     struct axis axis;
     struct axis_bench_event events[AXIS_BENCH_EVENTS_MAX]; /* all but the beginning and end of each motion */
     unsigned event_count;
+    struct axis_bench_event motions[AXIS_BENCH_EVENTS_MAX]; /* the beginning and end of each, the youngest ones */
+    unsigned motion_count;
     unsigned stops_sensed; /* how often axis_sense_isr said that it stopped the move */
     uint64_t last_edge_tick;
     unsigned edges; /* pulses at the pin */
@@ -59,6 +62,9 @@ void axis_bench_assert_only_event(const struct axis_bench *bench, enum hal_trace
 
 /* This is why the move ended, and nothing but that stop has happened; NONE: nothing at all. */
 void axis_bench_assert_cause(const struct axis_bench *bench, enum axis_cause cause);
+
+/* The youngest beginning or end of a motion was this one. */
+void axis_bench_assert_motion(const struct axis_bench *bench, enum hal_trace_event event, int64_t steps, uint64_t tick);
 
 /* What must be at the end of every test: no late pulse, and all pulses counted. */
 void axis_bench_check(const struct axis_bench *bench);
