@@ -80,7 +80,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("trains")
 
 
-settled = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settled = settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
 
 @given(st.lists(TRAINS, min_size=1, max_size=2), ANALYSERS)
@@ -138,3 +138,20 @@ def test_a_capture_of_a_part_is_told_from_one_that_lacks_pulses(folder, data, tr
         assert whole["motors"][0]["outside"] == len(train) - (last - first + 1)
         assert whole["motors"][0]["both"] == last - first + 1
         assert part["same"]
+
+
+def test_a_long_cruise_with_many_faults_and_short_ramps_is_found_where_it_is(folder):
+    train = pulses([Move(104, 256, 666, 59_828, 0.361), Move(166, 289, 631, 13_707, 0.229)])
+    dropped = frozenset({4, 18, 35, 98, 128, 149, 153, 181, 232, 238, 269})
+    far = {28: 6.4e-6, 62: 1e-6, 100: 5.5e-6, 104: 1.5e-6, 107: 4.6e-6, 138: 1e-6, 192: 1e-6}
+    added = {45: 0.53, 54: 0.4, 113: 0.55, 121: 0.5, 122: 0.4, 137: 0.6, 218: 0.5}
+    distortion = Distortion(dropped, frozenset(), far, added)
+    analyser = Analyser(0.4393, -100.4, 8e6)
+    steps_file(folder / "a.csv", {1: train})
+    vcd_file(folder / "a.vcd", edges(1, train, analyser, distortion), analyser)
+
+    (motor,) = compared(folder)["motors"]
+
+    assert numbers(motor["missing"]) == dropped
+    assert numbers(motor["surplus"]) == surplus(len(train), distortion)
+    assert numbers(motor["too_far"]) == set(far)

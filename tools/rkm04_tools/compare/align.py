@@ -8,8 +8,8 @@ most pairs is right.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -26,9 +26,14 @@ REACH = 0.3
 """How much of the interval to its neighbour a pulse may be off and still be that pulse ..."""
 REACH_SECONDS = 50e-6
 """... and how much it may be off at all."""
-WINDOWS = (12, 6, 3, 1)
+WINDOWS = (12, 6, 3)
+SURE_WINDOW = 6
 WINDOWS_TRIED = 64
-PLACES_TRIED = 16
+PLACES_OF_WINDOW = 4
+PLACES_TRIED = 24
+ALIKE_MAX = 20_000
+SURE_PART = 0.9
+"""A place that nothing else looks like is right if so much of all pulses is paired from there."""
 
 Pairs = dict[int, tuple[Ints, Ints]]
 """Of each motor, the numbers from 0 of simulated and captured pulses that belong together."""
@@ -68,6 +73,16 @@ class _Trains:
     rate_max: float
 
 
+@dataclass(frozen=True)
+class _Place:
+    """Two pulses, counted from 0, that may belong together; `is_only`: nothing else looks so."""
+
+    motor: int
+    simulated: int
+    captured: int
+    is_only: bool = False
+
+
 def align(
     simulated: Trains, captured: Trains, resolution: float, with_rate: bool
 ) -> Alignment | None:
@@ -85,19 +100,20 @@ def align(
     )
     perfect = min(sum(map(len, each.values())) for each in (trains.simulated, trains.captured))
     best: Alignment | None = None
-    tried: list[Alignment] = []
-    for motor, i, j in _places(trains):
-        if any(_has_pair(trains, each, motor, i, j) for each in tried):
+    tried: list[Clock] = []
+    for place in _places(trains):
+        if any(_has_pair(trains, clock, place) for clock in tried):
             continue
-        found = _from(trains, motor, i, j)
-        tried.append(found)
+        found = _from(trains, place)
+        tried.append(found.clock)
         if best is None or found.count > best.count:
             best = found
         elif found.count == best.count:
-            best = Alignment(best.clock, best.overall, best.has_rate, best.pairs, elsewhere=True)
-        if len(tried) == PLACES_TRIED or (best.count == perfect == len(trains.all_simulated)):
+            best = replace(best, elsewhere=True)
+        is_sure = place.is_only and found.count >= SURE_PART * perfect
+        if is_sure or found.count == len(trains.all_simulated) or len(tried) == PLACES_TRIED:
             break
-    return best
+    return best if best and best.count else None
 
 
 def _gaps(pulses: Floats) -> Floats:
@@ -106,58 +122,91 @@ def _gaps(pulses: Floats) -> Floats:
     return nearer
 
 
-def _places(trains: _Trains) -> Iterator[tuple[int, int, int]]:
-    """Motor and two pulses that may belong together, the likeliest first."""
+def _places(trains: _Trains) -> Iterator[_Place]:
+    """Pulses that may belong together, the likeliest first."""
     motors = sorted(trains.simulated, key=lambda m: -min(_lengths(trains, m)))
-    for size in WINDOWS:
-        rows = [row for motor in motors for row in _windows(trains, motor, size)]
-        for _, motor, j, found in sorted(rows, key=lambda row: row[:3]):
-            for i in found[:: max(1, len(found) // PLACES_TRIED)]:
-                yield motor, int(i), j
+    for sizes in (WINDOWS, (1,)):
+        rows = [row for motor in motors for row in _windows(trains, motor, sizes)]
+        for row in sorted(rows, key=lambda row: (row.count, -row.size, row.motor, row.captured)):
+            is_only = row.count == 1 and row.size >= SURE_WINDOW
+            for i in row.simulated[:: -(-len(row.simulated) // PLACES_OF_WINDOW)]:
+                yield _Place(row.motor, int(i), row.captured, is_only)
         if rows:
             return
     for motor in motors:
         n, m = _lengths(trains, motor)
-        yield from [(motor, 0, 0), (motor, n - 1, m - 1), (motor, 0, m - 1), (motor, n - 1, 0)]
+        for i, j in ((0, 0), (n - 1, m - 1), (0, m - 1), (n - 1, 0)):
+            yield _Place(motor, i, j)
 
 
 def _lengths(trains: _Trains, motor: int) -> tuple[int, int]:
     return len(trains.simulated[motor]), len(trains.captured[motor])
 
 
-def _windows(trains: _Trains, motor: int, size: int) -> Iterator[tuple[int, int, int, Ints]]:
-    """Intervals in a row of the capture: in how many places of the simulation they are, and where.
+@dataclass(frozen=True)
+class _Window:
+    """Intervals in a row of the capture, from a pulse on, and the places that look so.
+
+    `simulated` are the first pulses of these places, or of some of them; `count` is their number.
+    """
+
+    motor: int
+    size: int
+    captured: int
+    count: int
+    simulated: Ints
+
+
+def _windows(trains: _Trains, motor: int, sizes: Sequence[int]) -> Iterator[_Window]:
+    """Windows that look like places of the simulation.
 
     Half of them are taken where intervals change most, as in ramps and at the ends of moves.
     """
     between, seen = np.diff(trains.simulated[motor]), np.diff(trains.captured[motor])
-    last = len(seen) - size
-    if last < 0 or len(between) < size:
-        return
     half = WINDOWS_TRIED // 2
-    change = np.abs(np.diff(np.log(np.maximum(seen, 1e-9))))
-    starts = {int(at) for at in np.linspace(0, last, half)}
-    starts |= {int(at) - size // 2 for at in np.argsort(-change, kind="stable")[:half]}
-    for j in sorted(at for at in starts if 0 <= at <= last):
-        found = np.arange(len(between) - size + 1)
-        for k in range(size):
-            slack = 2 * trains.resolution + (trains.rate_max or 1e-9) * seen[j + k]
-            found = found[np.abs(between[found + k] - seen[j + k]) <= slack]
-        if len(found):
-            yield len(found), motor, j, found
+    changed = np.argsort(-np.abs(np.diff(np.log(np.maximum(seen, 1e-9)))), kind="stable")[:half]
+    order = np.argsort(between, kind="stable")
+    slack = 2 * trains.resolution + (trains.rate_max or 1e-9) * seen
+    for size in sizes:
+        last = len(seen) - size
+        if last < 0 or len(between) < size:
+            continue
+        starts = {int(at) for at in np.linspace(0, last, half)}
+        starts |= {int(at) - size // 2 for at in changed}
+        for j in sorted(at for at in starts if 0 <= at <= last):
+            count, found = _alike(between, order, seen[j : j + size], slack[j : j + size])
+            if count:
+                yield _Window(motor, size, j, count, found)
 
 
-def _has_pair(trains: _Trains, alignment: Alignment, motor: int, i: int, j: int) -> bool:
-    """Whether an alignment would pair these two, too."""
-    expected = alignment.clock.capture(trains.simulated[motor][i : i + 1])[0]
-    away = abs(float(trains.captured[motor][j] - expected))
-    return away <= min(REACH * float(trains.gaps[motor][i]), REACH_SECONDS)
+def _alike(between: Floats, order: Ints, seen: Floats, slack: Floats) -> tuple[int, Ints]:
+    """In how many places intervals are as these ones, within slack, and where.
+
+    Of too many places only some are looked at; then the count is no less than that of these.
+    """
+    first = np.searchsorted(between, seen - slack, side="left", sorter=order)
+    end = np.searchsorted(between, seen + slack, side="right", sorter=order)
+    rarest = int(np.argmin(end - first))
+    every = 1 + int(end[rarest] - first[rarest]) // ALIKE_MAX
+    found = np.sort(order[first[rarest] : end[rarest] : every]) - rarest
+    found = found[(found >= 0) & (found <= len(between) - len(seen))]
+    for k in range(len(seen)):
+        found = found[np.abs(between[found + k] - seen[k]) <= slack[k]]
+    return every * len(found), found
 
 
-def _from(trains: _Trains, motor: int, i: int, j: int) -> Alignment:
+def _has_pair(trains: _Trains, clock: Clock, place: _Place) -> bool:
+    """Whether a clock would pair these two, too."""
+    i = place.simulated
+    expected = clock.capture(trains.simulated[place.motor][i : i + 1])[0]
+    away = abs(float(trains.captured[place.motor][place.captured] - expected))
+    return away <= min(REACH * float(trains.gaps[place.motor][i]), REACH_SECONDS)
+
+
+def _from(trains: _Trains, place: _Place) -> Alignment:
     """Align everything from a first pair on."""
-    x = float(trains.simulated[motor][i])
-    line = Line(x, float(trains.captured[motor][j]) - x, 0.0)
+    x = float(trains.simulated[place.motor][place.simulated])
+    line = Line(x, float(trains.captured[place.motor][place.captured]) - x, 0.0)
     if trains.rate_max == 0:
         line = _fitted(trains, pair(trains, Clock([x], [line]), -np.inf, np.inf), line)
         return _finish(trains, Clock([x], [line]))
@@ -263,10 +312,11 @@ def _nearest(expected: Floats, captured: Floats, reach: Floats) -> tuple[Ints, I
     j = np.where(is_before, before, after)
     away = np.abs(captured[j] - expected)
     i = np.flatnonzero(away <= reach)
-    best = i[np.lexsort((away[i], j[i]))]
-    _, first = np.unique(j[best], return_index=True)
-    chosen = best[first]
-    return chosen, j[chosen]
+    if (np.diff(j[i]) == 0).any():
+        nearest_first = i[np.lexsort((away[i], j[i]))]
+        _, first = np.unique(j[nearest_first], return_index=True)
+        i = nearest_first[first]
+    return i, j[i]
 
 
 def _finish(trains: _Trains, clock: Clock) -> Alignment:

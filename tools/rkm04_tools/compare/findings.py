@@ -158,7 +158,9 @@ def compare(
     deviations = captured[j] - expected[i]
     both = Places(i + 1, captured[j])
     missing = _rest(len(expected), i)
-    is_outside = (expected[missing] < allowed.begin) | (expected[missing] > allowed.end)
+    is_outside = np.zeros(len(missing), dtype=bool)
+    if alignment:
+        is_outside = (expected[missing] < allowed.begin) | (expected[missing] > allowed.end)
     return Motor(
         motor,
         len(captured),

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from rkm04_tools.compare.align import Alignment
+from rkm04_tools.compare.clock import RATE_MAX
 from rkm04_tools.compare.findings import Allowed, Motor, Places, Shift, wander_max
 from rkm04_tools.compare.sampling import DIGITS, GIVEN, SEEN, Resolution
 from rkm04_tools.table import table, thousands
@@ -99,8 +100,11 @@ def _head(result: Result) -> Iterator[str]:
     )
     tick = _time(1 / result.tick_hz)
     yield f"{result.steps}: {result.steps_kind} of the simulator, {tick} a tick"
-    if result.alignment is None or not result.alignment.count:
-        yield "nothing fits: nowhere are the captured pulses the simulated ones"
+    if result.alignment is None:
+        yield (
+            "nothing fits: nowhere are the captured pulses the simulated ones, with clocks that "
+            f"differ by no more than {RATE_MAX * 1e6:.0f} ppm"
+        )
         return
     line = result.alignment.overall
     zero = float(line.capture(np.zeros(1))[0])
@@ -252,7 +256,7 @@ def _or_none(seconds: float | None) -> str:
 def as_json(result: Result) -> dict[str, Any]:
     """For scripts; times in seconds of the capture, deviations in nanoseconds."""
     alignment = result.alignment
-    line = alignment.overall if alignment and alignment.count else None
+    line = alignment.overall if alignment else None
     return {
         "same": result.is_same,
         "capture": {

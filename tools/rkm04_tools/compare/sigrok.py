@@ -154,11 +154,12 @@ def _words(data: bytes, unit: int) -> Words:
 
 def _add(edges: Edges, masks: dict[str, int], before: Words, words: Words, at: int) -> None:
     """Add the edges of a part whose first sample has this number."""
-    changed = words ^ np.concatenate((before, words[:-1]))
-    where = np.flatnonzero(changed)
+    where = np.flatnonzero(words[1:] != words[:-1]) + 1
+    if words[0] != before[0]:
+        where = np.insert(where, 0, 0)
     if not len(where):
         return
-    changed = changed[where]
+    changed = words[where] ^ np.concatenate((before, words))[where]
     for name, mask in masks.items():
         edges.extend(name, where[(changed & changed.dtype.type(mask)) != 0] + at)
 

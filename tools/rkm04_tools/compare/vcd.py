@@ -20,6 +20,8 @@ TIMESCALE = re.compile(r"(10{0,2})\s*(s|ms|us|ns|ps|fs)")
 UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "ps": 1e-12, "fs": 1e-15}
 NO_WIRES = ("real", "realtime", "event", "string", "parameter", "integer", "time")
 SIGROK_RATE = re.compile(r"Acquisition with \S+ channels at ([\d.]+ ?[kMG]?Hz)")
+OWN = re.compile(r"\s*rkm04-")
+"""What the simulator and the virtual board write is exact to the digit, and on nobody's samples."""
 TIME, SECTION_MARK = ord("#"), ord("$")
 WITH_CODE = frozenset(b"rRbBsS")
 """How a value begins that has the code of its signal as a word of its own."""
@@ -46,6 +48,8 @@ class VcdReader:
         self._unit_seconds = self._timescale(sections)
         rate = SIGROK_RATE.search(" ".join(text for kind, text in sections if kind == "comment"))
         self._sample_hz = hertz(rate[1]) if rate else 0.0
+        if any(kind == "version" and OWN.match(text) for kind, text in sections):
+            self._sample_hz = 1 / self._unit_seconds
         self._codes = dict(_wires(text for kind, text in sections if kind == "var"))
         self.names = list(self._codes)
         if not self.names:
