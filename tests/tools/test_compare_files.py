@@ -301,4 +301,17 @@ def test_a_session_of_other_data_does_not_fit(tool, steps, tmp_path):
     result = tool("compare", path, steps)
 
     assert result.status == 1
+    assert "nothing fits: nowhere are the captured pulses the simulated ones" in result.out
     assert "not the same" in result.out
+
+
+def test_a_capture_of_another_program_does_not_fit(tool, tmp_path):
+    other = pulses([Move(900, 100, 700, 4_000, 0.3), Move(-900, 100, 700, 4_000)])
+    steps = steps_file(tmp_path / "other.csv", {1: other})
+
+    told = tool("compare", vcd_file(tmp_path / "a.vcd", SEEN, ANALYSER), steps, "--json").json
+
+    (motor,) = told["motors"]
+    assert (told["offset_seconds"], motor["both"]) == (None, 0)
+    assert motor["missing"]["pulses"][0]["last"] == 1800
+    assert motor["surplus"]["count"] == 120

@@ -32,6 +32,8 @@ WINDOWS_TRIED = 64
 PLACES_OF_WINDOW = 4
 PLACES_TRIED = 24
 ALIKE_MAX = 20_000
+FITS_PART = 0.25
+"""Fewer pairs than so much of all pulses are together by chance."""
 SURE_PART = 0.9
 """A place that nothing else looks like is right if so much of all pulses is paired from there."""
 
@@ -113,7 +115,7 @@ def align(
         is_sure = place.is_only and found.count >= SURE_PART * perfect
         if is_sure or found.count == len(trains.all_simulated) or len(tried) == PLACES_TRIED:
             break
-    return best if best and best.count else None
+    return best if best and best.count >= FITS_PART * perfect else None
 
 
 def _gaps(pulses: Floats) -> Floats:

@@ -103,7 +103,8 @@ def _head(result: Result) -> Iterator[str]:
     if result.alignment is None:
         yield (
             "nothing fits: nowhere are the captured pulses the simulated ones, with clocks that "
-            f"differ by no more than {RATE_MAX * 1e6:.0f} ppm"
+            f"differ by no more than {RATE_MAX * 1e6:.0f} ppm; is it the same program, and are the "
+            "channels right?"
         )
         return
     line = result.alignment.overall
