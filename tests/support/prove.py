@@ -286,21 +286,6 @@ def missing() -> list[str]:
     return absent
 
 
-def tell_stale() -> int:
-    """Says which files are not as they were proved, and proves nothing."""
-    before = recorded()
-    stale = [
-        path.name
-        for path in files()
-        if before.get(path.name, {}).get("digest") != digest(read(path))
-    ]
-    if not stale:
-        print(f"as they were proved: {len(before)} files")
-        return 0
-    print(f"SKIPPED: not as they were proved, tools/test --long proves them: {', '.join(stale)}")
-    return 77
-
-
 def main() -> int:
     parser = argparse.ArgumentParser(prog="prove.py", description="Proves the contracts.")
     parser.add_argument("names", nargs="*", help="files, without .acsl or .h; all if none")
@@ -308,9 +293,6 @@ def main() -> int:
         "--all", action="store_true", help="also what is as it was proved, that without smoke tests"
     )
     parser.add_argument("--record", action="store_true", help="write down what is proved")
-    parser.add_argument(
-        "--stale", action="store_true", help="only say what is not as it was proved; then status 77"
-    )
     parser.add_argument("--seconds", type=int, default=SECONDS, help="for each goal and prover")
     parser.add_argument("--wp", action="append", default=[], help="one more option for Frama-C")
     options = parser.parse_args()
@@ -319,8 +301,6 @@ def main() -> int:
         return 77
     if unknown := set(options.names) - {path.stem for path in files()}:
         parser.error(f"nothing to prove in {', '.join(sorted(unknown))}")
-    if options.stale:
-        return tell_stale()
     good = True
     before, proved = recorded(), {}
     for path in files(options.names):

@@ -320,7 +320,7 @@ def steps(
     }
     if quick:
         return taken(first)
-    every = ["--all"] if fuzz_seconds > FUZZ_SECONDS else ["--stale"]
+    every = ["--all"] if fuzz_seconds > FUZZ_SECONDS else []
     contracts, models = begin_proofs("prove.py", *every), begin_proofs("line_model.py")
     last: dict[str, Callable[[], Count]] = {"Proofs": lambda: contracts() + models()}
     if fuzz_seconds > FUZZ_SECONDS:
