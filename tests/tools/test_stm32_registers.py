@@ -49,7 +49,7 @@ FIELDS = {
     "PLLQ": "PLLQ0",
 }
 INSTANCES = {"GPIO": "GPIOA", "USART": "USART1"}
-CORE = {"STK", "SCB"}  # blocks of the processor, which the description does not have
+CORE = {"STK", "SCB", "DWT"}  # blocks of the processor, which the description does not have
 
 
 @dataclass(frozen=True)

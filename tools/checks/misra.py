@@ -24,7 +24,7 @@ from typing import Any
 from checks.static import ARM_FOLDERS, ROOT, includes, tool
 
 BASELINE = ROOT / "tools" / "checks" / "misra_baseline.json"
-SCOPE = ("firmware", "hal/stm32", "-ihal/stm32/bench")
+SCOPE = ("firmware", "hal/stm32", "-ihal/stm32/bench", "-ihal/stm32/bringup")
 RULE_NUMBER = re.compile(r"\d+\.\d+")
 RULE = re.compile(r"misra-c2012-(\d+\.\d+)")
 ARGUMENTS = [

@@ -6,9 +6,9 @@ set(script ${PROJECT_SOURCE_DIR}/hal/stm32/stm32f405.ld)
 set(elf $<TARGET_FILE:unit_image>)
 set(output ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${image})
 
-# firmware_add_image(<target> <name> <library> <main>): a main and the library that it needs, for the board.
-function(firmware_add_image target name library main)
-    add_executable(${target} ${main})
+# firmware_add_image(<target> <name> <library> <source>...): a main and the library that it needs, for the board.
+function(firmware_add_image target name library)
+    add_executable(${target} ${ARGN})
     set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} SUFFIX .elf LINK_DEPENDS ${script})
     target_link_libraries(${target} PRIVATE ${library} hal hal_stm32 warnings)
     # Relocations stay in the image (-q): they tell the checks what refers to what.
@@ -17,6 +17,15 @@ function(firmware_add_image target name library main)
 endfunction()
 firmware_add_image(unit_image ${image} ${FIRMWARE_UNIT} firmware/${FIRMWARE_UNIT}/main.c)
 firmware_add_image(bench_image ${image}-bench firmware_inside hal/stm32/bench/bench_main.c)
+
+# What a new board is tried with.
+set(bringup bringup-${FIRMWARE_BOARD})
+set(bringup_output ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${bringup})
+file(GLOB bringup_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/hal/stm32/bringup/*.c)
+firmware_add_image(bringup_image ${bringup} engine_step ${bringup_sources})
+target_link_libraries(bringup_image PRIVATE base)
+target_include_directories(bringup_image PRIVATE ${PROJECT_SOURCE_DIR}/hal/stm32/boards/${FIRMWARE_BOARD})
+target_compile_definitions(bringup_image PRIVATE BRINGUP_BOARD="${FIRMWARE_BOARD}")
 
 # For a test that asks for it.
 firmware_add_image(disarm_image ${image}-disarm firmware_inside tests/vboard/images/disarm_main.c)
@@ -30,6 +39,10 @@ add_custom_command(OUTPUT ${output}.hex ${output}.bin
     COMMAND ${CMAKE_OBJCOPY} -O ihex ${elf} ${output}.hex
     COMMAND ${CMAKE_OBJCOPY} -O binary ${elf} ${output}.bin
     DEPENDS unit_image VERBATIM COMMENT "Files for flashing")
+add_custom_command(OUTPUT ${bringup_output}.hex ${bringup_output}.bin
+    COMMAND ${CMAKE_OBJCOPY} -O ihex $<TARGET_FILE:bringup_image> ${bringup_output}.hex
+    COMMAND ${CMAKE_OBJCOPY} -O binary $<TARGET_FILE:bringup_image> ${bringup_output}.bin
+    DEPENDS bringup_image VERBATIM COMMENT "Files for flashing, to try the board")
 add_custom_command(OUTPUT checked.stamp
     COMMAND ${run_check} checks.board_pins ${board_header}
     COMMAND ${run_check} checks.ram_code ${elf}
@@ -37,4 +50,5 @@ add_custom_command(OUTPUT checked.stamp
     DEPENDS unit_image ${board_header} ${checks}/board_pins.py ${checks}/ram_code.py
         ${PROJECT_SOURCE_DIR}/tools/rkm04_tools/board_header.py
     VERBATIM COMMENT "Checking pins, and what runs from RAM")
-add_custom_target(board_files ALL DEPENDS ${output}.hex ${output}.bin checked.stamp)
+add_custom_target(board_files ALL
+    DEPENDS ${output}.hex ${output}.bin ${bringup_output}.hex ${bringup_output}.bin checked.stamp)

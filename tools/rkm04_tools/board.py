@@ -21,7 +21,9 @@ from rkm04_tools.table import table, thousands
 ROOT = Path(__file__).resolve().parents[2]
 PRESETS = ROOT / "CMakePresets.json"
 BOARDS = ROOT / "hal" / "stm32" / "boards"
-UNIT = "rkm04"
+UNIT, BRINGUP = "rkm04", "bringup"
+IMAGES = (UNIT, BRINGUP)
+"""That of the unit, and the one that a new board is tried with."""
 DEFAULT_BOARD = "f405"
 COMPILER = "arm-none-eabi-gcc"
 FLASH_ADDRESS = "0x08000000"
@@ -43,11 +45,12 @@ class Image:
 
     board: str
     folder: Path
+    what: str = UNIT
 
     @property
     def name(self) -> str:
         """Unit and board."""
-        return f"{UNIT}-{self.board}"
+        return f"{self.what}-{self.board}"
 
     def file(self, suffix: str) -> Path:
         """The file of one kind: elf, hex, bin."""
@@ -93,17 +96,17 @@ def version() -> str:
     return match[1] if match else ""
 
 
-def image_of(board: str) -> Image:
+def image_of(board: str, what: str = UNIT) -> Image:
     """Where a board's image is built: the default one where the preset builds it."""
     if board not in names():
         raise Failure(f"{board}: no such board; there are {', '.join(names())}")
     folder = "stm32" if board == DEFAULT_BOARD else f"stm32-{board}"
-    return Image(board, ROOT / "build" / folder)
+    return Image(board, ROOT / "build" / folder, what)
 
 
-def build(board: str, target: str = "all") -> Image:
+def build(board: str, target: str = "all", what: str = UNIT) -> Image:
     """Build the image of a board, with the compiler installed if need be, or another target."""
-    image = image_of(board)
+    image = image_of(board, what)
     if not shutil.which(COMPILER):
         _call([str(ROOT / "tools" / "setup"), "board"], "the compiler cannot be installed")
     configure = ["cmake", "--preset", "stm32", "-B", str(image.folder), f"-DFIRMWARE_BOARD={board}"]
@@ -142,7 +145,7 @@ def _call(command: list[str], complaint: str, *kept: int) -> None:
 
 def run_build(options: Namespace) -> int:
     """`board build`: say where the files are."""
-    image = build(options.board)
+    image = build(options.board, what=options.image)
     files = [str(image.file(kind).relative_to(ROOT)) for kind in ("elf", "hex", "bin")]
     if options.json:
         print(json.dumps({"board": image.board, "version": version(), "files": files}))
@@ -189,7 +192,7 @@ def run_flash(options: Namespace) -> int:
     """`board flash`: write the image into the board, or show how."""
     if options.tool == "stm32flash" and not options.port:
         raise Failure("stm32flash needs --port, the serial device that the board is connected to")
-    image = build(options.board)
+    image = build(options.board, what=options.image)
     command = flash_command(options.tool, image, options.probe, options.port or "")
     if options.dry_run:
         print(json.dumps({"command": command}) if options.json else shlex.join(command))

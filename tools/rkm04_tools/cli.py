@@ -11,6 +11,7 @@ from functools import partial
 from typing import Any, NoReturn, TypeAlias
 
 from rkm04_tools import bench, board, board_options, check, completion, serve
+from rkm04_tools.bringup import options as bringup_options
 from rkm04_tools.client_options import NODE_HELP, PORT_HELP, add_client_commands
 from rkm04_tools.compare import options as compare_options
 from rkm04_tools.failure import DONE, INTERRUPTED, NOT_SO, Failure
@@ -132,6 +133,13 @@ def _bench(options: argparse.Namespace) -> int:
     return bench_target.run(options)
 
 
+def _bringup(options: argparse.Namespace) -> int:
+    """Import what speaks to ports only when it is needed."""
+    from rkm04_tools.bringup import command
+
+    return command.run(options)
+
+
 def _compare(options: argparse.Namespace) -> int:
     """Import numpy only when it is needed."""
     from rkm04_tools.compare import command
@@ -168,6 +176,7 @@ def make_parser() -> Parser:
     _add_compare(commands)
     _add_bench(commands)
     _add_board(commands)
+    _add_bringup(commands)
     _add_serve(commands)
     _add_service(commands)
     add_client_commands(partial(_add, commands))
@@ -247,6 +256,12 @@ def _add_compare(commands: Commands) -> None:
     compare_options.add_arguments(command)
 
 
+def _add_bringup(commands: Commands) -> None:
+    example = f"{bringup_options.EXAMPLE}\n\n{bringup_options.NOTES}"
+    command = _add(commands, "bringup", _bringup, bringup_options.TITLE, example)
+    bringup_options.add_arguments(command)
+
+
 def _add_serve(commands: Commands) -> None:
     title = "units without hardware: they run in real time and speak the line"
     serve.add_arguments(_add(commands, "serve", serve.run, title, serve.EXAMPLE))
@@ -324,6 +339,10 @@ def _add_board(commands: Commands) -> None:
     for part in parts:
         part.add_argument("--board", metavar="NAME", default=board.DEFAULT_BOARD,
                           help=f"one of {', '.join(board.names())}")  # fmt: skip
+    for part in (parts[0], parts[2]):
+        part.add_argument("--image", choices=board.IMAGES, default=board.UNIT,
+                          help="that of the unit, or the one a new board is tried with "
+                               f"(default: {board.UNIT})")  # fmt: skip
     board_options.add_arguments(parts[-1])
     flash = parts[-2]
     flash.epilog = f"{BOOT0}\n\n{flash.epilog}"

@@ -1,0 +1,63 @@
+/*
+ * The bring-up image: what a new board tells of itself over its line, at 19 200 Bd in plain text, so that a terminal
+ * does as well as `tools/rkm04 bringup`. It uses the drivers of the unit's image, and nothing of a unit. Nothing is
+ * switched but by a command, and an output that is on goes off a minute after the last one.
+ *
+ * A command is a letter, perhaps a number, and the end of the line: see README.md beside this file. The answer is
+ * lines of a name and values, then `end LETTER SUM`, the sum of all bytes before that line; or `error LETTER WHY`.
+ *
+ * Main only, but for the interrupts that these files start.
+ */
+#ifndef BRINGUP_H
+#define BRINGUP_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "hal_run.h"
+
+/* Each answers a command on the line. */
+void bringup_part_tell(void);
+void bringup_clock_tell(void);
+void bringup_inputs_tell(void);
+void bringup_cycles_tell(void);
+
+/* What the part says of its last reset, which the start of the board clears: taken before that. */
+void bringup_part_take_reset(void);
+
+/* Begins to count edges anew. */
+void bringup_inputs_forget(void);
+
+/* Counts edges of the inputs from the start of the interrupts on. Tick interrupt. */
+void bringup_inputs_isr(void *context, uint64_t since_tick);
+
+/* Counts the cycles of each interrupt from now on; the interrupts have been started. */
+void bringup_cycles_start(void);
+
+/* Switches one of the wires of a kind on and all others of all kinds off; number 0: all off. A null answer: done, and
+ * the levels that the pins have now were told; else why not. */
+const char *bringup_outputs_set(char kind, uint32_t number);
+
+/* Ends what has been on for too long. */
+void bringup_outputs_watch(void);
+
+/* Never return: main stands still until the watchdog resets the part; the stack overflows. */
+_Noreturn void bringup_hang(void);
+_Noreturn void bringup_overflow(void);
+
+/* bringup_say.c: text on the line. */
+void say_name(const char *name);
+void say_word(const char *word);
+void say_decimal(uint32_t value);
+void say_hex(uint32_t value, unsigned digits);
+void say_line_end(void);
+/* The last line of an answer; of a refusal. */
+void say_end(char command);
+void say_error(char command, const char *why);
+/* Until all has been sent. */
+void say_wait(void);
+
+/* Lets so many milliseconds pass. */
+void bringup_wait(uint32_t milliseconds);
+
+#endif

@@ -1,0 +1,29 @@
+#include "bringup.h"
+#include "stm32_private.h"
+#include "stm32f4.h"
+
+enum {
+    SOURCE_PLACE = 2,
+    FIELD = 3,
+    LATENCY = 0xF,
+};
+
+static void tell(const char *name, uint32_t value)
+{
+    say_name(name);
+    say_decimal(value);
+    say_line_end();
+}
+
+void bringup_clock_tell(void)
+{
+    uint32_t control = RCC_CR;
+    tell("crystal", stm32_board_clock.crystal ? 1U : 0U);
+    tell("core_hz", stm32_board_clock.core_hz);
+    tell("apb1_hz", stm32_board_clock.apb1_hz);
+    tell("apb2_hz", stm32_board_clock.apb2_hz);
+    tell("crystal_ready", (control & RCC_CR_HSERDY) != 0 ? 1U : 0U);
+    tell("pll_ready", (control & RCC_CR_PLLRDY) != 0 ? 1U : 0U);
+    tell("source", RCC_CFGR >> SOURCE_PLACE & FIELD);
+    tell("wait_states", FLASH_ACR & LATENCY);
+}

@@ -1,0 +1,77 @@
+#include <stddef.h>
+
+#include "base_limits.h"
+#include "base_tick.h"
+#include "bringup.h"
+#include "hal_board.h"
+#include "hal_io.h"
+#include "hal_step.h"
+#include "hal_time.h"
+#include "stm32_pins.h"
+
+enum {
+    ON_MS_MAX = 60000,
+    SETTLE_MS = 1,
+};
+
+static struct {
+    uint64_t off_tick;
+    bool on;
+} outputs;
+
+static const uint8_t output_pins[UNIT_OUTPUTS] = {
+    STM32_PIN_BO_1, STM32_PIN_BO_2, STM32_PIN_BO_3, STM32_PIN_BO_4,
+    STM32_PIN_BO_5, STM32_PIN_BO_6, STM32_PIN_BO_7, STM32_PIN_BO_8,
+};
+static const uint8_t led_pins[UNIT_MOTORS] = {STM32_PIN_LED_1, STM32_PIN_LED_2, STM32_PIN_LED_3, STM32_PIN_LED_4};
+static const uint8_t direction_pins[UNIT_MOTORS] = {STM32_PIN_DIR_1, STM32_PIN_DIR_2, STM32_PIN_DIR_3, STM32_PIN_DIR_4};
+static const uint8_t step_pins[UNIT_MOTORS] = {STM32_PIN_STEP_1, STM32_PIN_STEP_2, STM32_PIN_STEP_3, STM32_PIN_STEP_4};
+
+/* Where number is 0, none. */
+static void switch_all(char kind, uint32_t number)
+{
+    hal_io_write_outputs(kind == 'o' && number != 0 ? (uint8_t)(1U << (number - 1U)) : 0U);
+    for (unsigned i = 0; i < UNIT_MOTORS; i++) {
+        hal_io_set_led(i, kind == 'e' && number == i + 1U);
+        hal_step_set_direction(i, kind == 'd' && number == i + 1U);
+    }
+}
+
+/* The pins as they are, whatever was written. */
+static void tell_pins(const char *name, const uint8_t *pins, unsigned count, bool one_is_high)
+{
+    uint32_t mask = 0;
+    for (unsigned i = 0; i < count; i++) {
+        mask |= stm32_pin_read(pins[i]) == one_is_high ? UINT32_C(1) << i : 0U;
+    }
+    say_name(name);
+    say_hex(mask, 2);
+    say_line_end();
+}
+
+const char *bringup_outputs_set(char kind, uint32_t number)
+{
+    if (number > (kind == 'o' ? (uint32_t)UNIT_OUTPUTS : (uint32_t)UNIT_MOTORS)) {
+        return "number";
+    }
+    if (kind != 'o' && number != 0 && !hal_board_may_move()) {
+        return "no_crystal";
+    }
+    switch_all(kind, number);
+    outputs.on = number != 0;
+    outputs.off_tick = hal_time_now() + (uint64_t)ON_MS_MAX * TICKS_PER_MS;
+    bringup_wait(SETTLE_MS);
+    tell_pins("outputs", output_pins, UNIT_OUTPUTS, BOARD_BO_LEVEL == 1U);
+    tell_pins("leds", led_pins, UNIT_MOTORS, BOARD_LED_LEVEL == 1U);
+    tell_pins("directions", direction_pins, UNIT_MOTORS, BOARD_DIR_LEVEL == 1U);
+    tell_pins("steps", step_pins, UNIT_MOTORS, BOARD_STEP_LEVEL == 1U);
+    return NULL;
+}
+
+void bringup_outputs_watch(void)
+{
+    if (outputs.on && hal_time_now() >= outputs.off_tick) {
+        switch_all('o', 0);
+        outputs.on = false;
+    }
+}

@@ -1,0 +1,104 @@
+#include "base_tick.h"
+#include "bringup.h"
+#include "hal_board.h"
+#include "hal_line.h"
+#include "hal_time.h"
+
+/* Of the bytes of an answer. */
+static uint32_t sum;
+
+enum {
+    DIGITS_MAX = 10
+};
+
+static void put(char byte)
+{
+    sum += (uint8_t)byte;
+    while (!hal_line_write((uint8_t)byte)) {
+        hal_board_idle(hal_time_now() + TICKS_PER_MS);
+    }
+}
+
+static void put_text(const char *text)
+{
+    while (*text != '\0') {
+        put(*text++);
+    }
+}
+
+void say_name(const char *name)
+{
+    put_text(name);
+}
+
+void say_word(const char *word)
+{
+    put(' ');
+    put_text(word);
+}
+
+void say_decimal(uint32_t value)
+{
+    char digits[DIGITS_MAX];
+    unsigned count = 0;
+    do {
+        digits[count++] = (char)('0' + value % 10U);
+        value /= 10U;
+    } while (value != 0);
+    put(' ');
+    while (count > 0) {
+        put(digits[--count]);
+    }
+}
+
+void say_hex(uint32_t value, unsigned digits)
+{
+    put(' ');
+    while (digits-- > 0) {
+        put("0123456789abcdef"[value >> 4U * digits & 0xFU]);
+    }
+}
+
+void say_line_end(void)
+{
+    put('\n');
+}
+
+static void put_ending(const char *what, char command)
+{
+    put_text(what);
+    put(' ');
+    put(command);
+}
+
+void say_end(char command)
+{
+    uint32_t of_answer = sum;
+    put_ending("end", command);
+    say_decimal(of_answer);
+    say_line_end();
+    sum = 0;
+}
+
+void say_error(char command, const char *why)
+{
+    put_ending("error", command);
+    say_word(why);
+    say_line_end();
+    sum = 0;
+}
+
+void say_wait(void)
+{
+    while (!hal_line_is_idle()) {
+        hal_board_idle(hal_time_now() + TICKS_PER_MS);
+    }
+}
+
+void bringup_wait(uint32_t milliseconds)
+{
+    uint64_t end = hal_time_now() + (uint64_t)milliseconds * TICKS_PER_MS;
+    while (hal_time_now() < end) {
+        hal_board_idle(end);
+    }
+}

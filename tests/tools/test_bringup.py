@@ -1,0 +1,361 @@
+"""`bringup`: the walk over a board that nobody has tried: on the virtual board, on fake lines."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import re
+import shutil
+import socket
+import subprocess
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+from rkm04_tools import board, virtual_board
+from rkm04_tools.bringup import command, talk
+from rkm04_tools.bringup.part import option_bytes
+from rkm04_tools.bringup.plan import STEPS
+from rkm04_tools.line_errors import GarbledAnswer, NoAnswer
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = Path(os.environ.get("RKM04_BUILD") or ROOT / "build" / "host") / "bin" / "rkm04-vboard"
+INNER = {"address switch": 1, "outputs": 8, "LEDs": 4, "directions": 4}
+"""Questions inside of a step."""
+PRESSED_MS, APART_MS, ROUNDS = 60, 20, 90
+
+modelled = pytest.mark.skipif(
+    not PROGRAM.is_file() or not shutil.which(board.COMPILER),
+    reason="there is no virtual board, or no compiler for the image",
+)
+
+
+def pressing() -> str:
+    """Somebody who presses one input after the other, again and again."""
+    lines = []
+    for i in range(8 * ROUNDS):
+        at = 100 + i * (PRESSED_MS + APART_MS)
+        lines += [f"{at},{i % 8 + 1},1", f"{at + PRESSED_MS},{i % 8 + 1},0"]
+    return "\n".join([*lines, ""])
+
+
+def answers(*, leave: Sequence[str] = (), until: str = "", no: Sequence[int] = ()) -> str:
+    """What somebody types who goes through it: leaves steps out, says n to some outputs, and is
+    gone before the step `until`."""
+    lines = ["y"]
+    for step in STEPS:
+        if step.name == until:
+            break
+        if step.name in leave:
+            lines.append("s")
+            continue
+        inner = ["y"] * INNER.get(step.name, 0)
+        for number in no if step.name == "outputs" else ():
+            inner[number - 1] = "n"
+        lines += ["", *inner, ""]
+    return "\n".join([*lines, ""])
+
+
+@pytest.fixture
+def typed(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
+    return lambda text: monkeypatch.setattr("sys.stdin", io.StringIO(text))
+
+
+@pytest.fixture(scope="module")
+def elf() -> Path:
+    return board.build(board.DEFAULT_BOARD, what=board.BRINGUP).file("elf")
+
+
+@pytest.fixture
+def powered(elf: Path, tmp_path: Path) -> Iterator[Callable[..., str]]:
+    """Power on a virtual board with the image; where its line is."""
+    running: list[subprocess.Popen[str]] = []
+
+    def begin(*options: str) -> str:
+        (tmp_path / "pins").write_text(virtual_board.board_pins(board.DEFAULT_BOARD))
+        (tmp_path / "inputs").write_text(pressing())
+        arguments = ["--elf", elf, "--pins", tmp_path / "pins", "--inputs", tmp_path / "inputs"]
+        line = [PROGRAM, *arguments, "--tcp", "0", "--for", "300", *options]
+        process = subprocess.Popen(
+            list(map(str, line)), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+        )
+        running.append(process)
+        assert process.stderr is not None
+        match = re.search(r"socket://\S+", process.stderr.readline())
+        assert match
+        return match[0]
+
+    yield begin
+    for process in running:
+        process.kill()
+        process.communicate()
+
+
+def step(report: dict[str, Any], name: str) -> dict[str, Any]:
+    found: dict[str, Any] = next(each for each in report["steps"] if each["name"] == name)
+    return found
+
+
+def seen(report: dict[str, Any], name: str, what: str) -> tuple[str, str]:
+    """What was seen, and whether it is good."""
+    row = next(row for row in step(report, name)["seen"] if row["what"].strip() == what)
+    return row["seen"], row["verdict"]
+
+
+def bad(report: dict[str, Any]) -> list[str]:
+    return [
+        f"{each['name']}: {row['what'].strip()}"
+        for each in report["steps"] for row in each["seen"] if row["verdict"] == "BAD"
+    ]  # fmt: skip
+
+
+@modelled
+def test_a_good_board_is_gone_through_and_all_is_good(tool, powered, typed, tmp_path):
+    port = powered("--option-bytes", "0fffaae1")
+    typed(answers())
+
+    result = tool("bringup", "--port", port, "--json", "--report", tmp_path / "report.txt")
+
+    report = result.json
+    assert bad(report) == []
+    assert (result.status, report["complete"], report["good"]) == (0, True, True)
+    assert seen(report, "part", "flash") == ("1024 kB", "good")
+    assert seen(report, "part", "brown-out reset")[0].startswith("level 3")
+    assert seen(report, "start", "last reset")[0] == "brown-out, reset pin, power-on"
+    assert seen(report, "clocks", "clock") == ("168 MHz", "good")
+    assert seen(report, "outputs", "BO_8 at PB15") == ("on, alone", "good")
+    assert seen(report, "watchdog", "cause of the start") == ("watchdog", "good")
+    assert seen(report, "stack guard", "cause of the start") == ("fault", "good")
+    assert "exception 3" in seen(report, "stack guard", "fault")[0]
+    assert "Are the motors unpowered" in result.err
+    written = (tmp_path / "report.txt").read_text()
+    assert written.endswith("nothing bad was seen\n")
+
+
+@modelled
+def test_what_is_wrong_with_a_board_is_found_and_what_was_not_done_is_told(tool, powered, typed):
+    port = powered("--flash-kb", "512", "--stuck", "PC2=1", "--stuck", "PC5=0", "--stuck", "PB8=0",
+                   "--stuck", "PB10=1")  # fmt: skip
+    typed(answers(leave=["LEDs"], no=[1], until="interrupts"))
+
+    result = tool("bringup", "--port", port, "--json", "--patience", "2")
+
+    report = result.json
+    assert (result.status, report["complete"], report["good"]) == (1, False, False)
+    assert seen(report, "part", "flash") == ("512 kB", "BAD")
+    assert seen(report, "part", "brown-out reset")[1] == "note"
+    assert seen(report, "inputs", "BI_3 at PC2") == ("always 0", "BAD")
+    assert seen(report, "inputs", "BI_6 at PC5") == ("always 1", "BAD")
+    assert "also 1 then: BI_6" in seen(report, "inputs", "BI_1 at PC0")[0]
+    assert seen(report, "outputs", "BO_1 at PB8") == ("not so", "BAD")
+    rows = [row["seen"] for row in step(report, "outputs")["seen"] if "read" in row["what"]]
+    assert rows[:3] == ["BO_3", "BO_2, BO_3", "BO_3"]
+    assert [step(report, name)["state"] for name in ("LEDs", "directions", "watchdog")] == [
+        "left out", "done", "not done",
+    ]  # fmt: skip
+
+
+@modelled
+def test_a_board_without_a_crystal_is_told_and_its_leds_and_directions_too(tool, powered, typed):
+    port = powered("--no-crystal")
+    few = [step.name for step in STEPS if step.name not in ("line", "clocks", "LEDs", "directions")]
+    text = answers(leave=few).replace("y\ny\ny\ny\n", "")
+    typed(text)
+
+    result = tool("bringup", "--port", port)
+
+    assert result.status == 1
+    assert re.search(r"BAD +crystal +does not run +runs, 8 MHz", result.out)
+    assert re.search(r"BAD +clock +", result.out) is None
+    assert result.out.count("there is no crystal") >= 2
+    assert "NOT DONE: part, start, inputs" in result.out
+
+
+@modelled
+def test_an_image_for_other_pins_ends_the_walk_before_anything_is_switched(tool, powered, typed):
+    port = powered()
+    typed(answers())
+
+    result = tool("bringup", "--board", "weact-f405", "--port", port)
+
+    assert result.status == 1
+    assert "the board has the image bringup-f405 1, not bringup-weact-f405 1" in result.out
+    assert "NOT DONE: line, part" in result.out
+
+
+@pytest.fixture
+def listener() -> Iterator[socket.socket]:
+    """A port at which nobody answers."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        server.settimeout(0.1)
+        yield server
+
+
+def port_of(listener: socket.socket) -> str:
+    return f"socket://127.0.0.1:{listener.getsockname()[1]}"
+
+
+@pytest.fixture
+def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(talk, "ANSWER_SECONDS", 0.05)
+
+
+def test_a_silent_line_is_told_loudly_with_what_to_look_at(tool, listener, typed, impatient):
+    typed("y\n\nr\nq\n")
+
+    result = tool("bringup", "--board", "weact-f405", "--port", port_of(listener))
+
+    assert result.status == 3
+    assert result.out.count("Nothing answers. What to look at") == 2
+    assert "board flash --board weact-f405 --image bringup" in result.out
+    assert "DE and /RE at LINE_DE (PB15)" in result.out
+    assert "BAD: line (answer); NOT DONE: line, part" in result.out
+
+
+@pytest.mark.parametrize("text", ["n\n", "", "q\n"])
+def test_nothing_is_even_opened_before_the_motors_are_said_to_be_unpowered(
+    tool, listener, typed, text
+):
+    typed(text)
+
+    result = tool("bringup", "--port", port_of(listener))
+
+    assert result.status == 1
+    assert "NOT DONE: line, part" in result.out
+    with pytest.raises(TimeoutError):
+        listener.accept()
+
+
+class FakeLine:
+    """A line that answers each command with the next of some texts, in pieces."""
+
+    name = "fake"
+
+    def __init__(self, *texts: bytes) -> None:
+        self.texts = list(texts)
+        self.sent: list[bytes] = []
+        self._there = b""
+
+    def read(self, seconds: float) -> bytes:
+        piece, self._there = self._there[:7], self._there[7:]
+        return piece
+
+    def write(self, data: bytes) -> None:
+        self.sent.append(data)
+        self._there += self.texts.pop(0) if self.texts else b""
+
+    def close(self) -> None:
+        pass
+
+
+def whole(text: bytes, letter: bytes) -> bytes:
+    return text + b"end %s %d\n" % (letter, sum(text))
+
+
+READY = whole(b"ready bringup-f405 1\n", b"h")
+
+
+@pytest.mark.parametrize(
+    "before",
+    [
+        b"",
+        READY.replace(b"ready", b"rea\xffy"),
+        READY[:-3],
+        b"error ? broken\n",
+        whole(b"ready bringup-f405 1\n", b"p"),
+        b"\xff" * 500,
+    ],
+)
+def test_an_answer_that_was_damaged_is_asked_for_again(before):
+    line = FakeLine(before, READY)
+
+    assert talk.Talk(line).ask("h").words("ready") == ["bringup-f405", "1"]
+    assert line.sent == [b"\nh\n"] * 2
+
+
+def test_an_adapter_that_hears_itself_is_no_matter():
+    line = FakeLine(b"\nh\n" + READY)
+
+    assert talk.Talk(line).ask("h").word("ready") == "bringup-f405"
+
+
+def test_silence_and_noise_are_told_apart():
+    with pytest.raises(NoAnswer, match="no answer"):
+        talk.Talk(FakeLine(b"\nh\n")).ask("h")
+    with pytest.raises(GarbledAnswer, match="no whole answer"):
+        talk.Talk(FakeLine(b"\x80\x81\n")).ask("h")
+
+
+def test_what_restarts_the_board_is_sent_once_only():
+    line = FakeLine()
+
+    with pytest.raises(NoAnswer):
+        talk.Talk(line).ask("w", tries=1)
+    assert line.sent == [b"\nw\n"]
+
+
+class InterruptedHands:
+    """Somebody who presses Ctrl-C once all is typed."""
+
+    def __init__(self, text: str) -> None:
+        self._text = io.StringIO(text)
+
+    def readline(self) -> str:
+        text = self._text.readline()
+        if not text:
+            raise KeyboardInterrupt
+        return text
+
+
+def test_ctrl_c_among_the_outputs_switches_them_off_and_tells_what_was_not_done(
+    tool, monkeypatch, tmp_path
+):
+    on = whole(b"outputs 01\nleds 00\ndirections 00\nsteps 00\n", b"o")
+    line = FakeLine(READY, on, on)
+    monkeypatch.setattr(command, "open_transport", lambda _: line)
+    early = [step.name for step in STEPS[1:] if step.name != "outputs"]
+    kept = answers(leave=early, until="LEDs").splitlines()
+    monkeypatch.setattr("sys.stdin", InterruptedHands("\n".join(kept[:-9]) + "\n"))
+
+    result = tool("bringup", "--port", "x", "--report", tmp_path / "report.txt")
+
+    assert result.status == 130
+    assert line.sent[1:] == [b"\no1\n", b"\no0\n"]
+    assert "interrupted" in result.out
+    assert "outputs: not done" in (tmp_path / "report.txt").read_text()
+
+
+@pytest.mark.parametrize(
+    ("control", "verdicts"),
+    [
+        (0x0FFFAAE1, ["good", "good"]),
+        (0x0FFFAAED, ["good", "note"]),
+        (0x0FFF00E1, ["BAD", "good"]),
+        (0x0FFEAAE1, ["BAD", "good"]),
+        (0x0FFFAAC1, ["BAD", "good"]),
+    ],
+)
+def test_option_bytes_are_held_against_what_board_options_wants(control, verdicts):
+    assert [row.verdict for row in option_bytes("f405", control)] == verdicts
+
+
+def test_an_image_is_flashed_by_its_name(tool, monkeypatch):
+    def built(name: str, target: str = "all", what: str = board.UNIT) -> board.Image:
+        return board.image_of(name, what)
+
+    monkeypatch.setattr(board, "build", built)
+
+    shown = tool("board", "flash", "--image", "bringup", "--board", "weact-f405", "--dry-run").out
+
+    assert "bringup-weact-f405.elf" in shown
+
+
+def test_the_report_can_be_read_by_programs(tool, listener, typed, impatient):
+    typed("y\n\nq\n")
+
+    result = tool("bringup", "--port", port_of(listener), "--json")
+
+    assert json.loads(result.out)["steps"][0]["seen"][0]["verdict"] == "BAD"
+    assert "Nothing answers" in result.err

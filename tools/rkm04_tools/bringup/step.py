@@ -1,0 +1,38 @@
+"""What a step of the walk is, and what it has to do with."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from rkm04_tools.board_header import Board
+from rkm04_tools.bringup.findings import Seen
+from rkm04_tools.bringup.person import Person
+from rkm04_tools.bringup.talk import Talk
+
+
+@dataclass(frozen=True)
+class Bench:
+    """The board on the bench, and who stands before it."""
+
+    board: str
+    header: Board
+    talk: Talk
+    person: Person
+    patience: float
+    """Seconds without anything new after which waiting for the person's hands ends."""
+
+    def pin_of(self, signal: str) -> str:
+        """The pin of a signal, as in PA15."""
+        return next(f"P{pin.pin}" for pin in self.header.pins if pin.signal == signal)
+
+
+@dataclass(frozen=True)
+class Step:
+    """One screen."""
+
+    name: str
+    do: str
+    """What to connect, and what will happen."""
+    expect: str
+    run: Callable[[Bench], list[Seen]]

@@ -1,0 +1,126 @@
+"""Steps at the pins: inputs, the address switch, and outputs one at a time."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+from rkm04_tools.bringup.findings import Seen, compared, noted
+from rkm04_tools.bringup.person import NO, YES
+from rkm04_tools.bringup.step import Bench
+from rkm04_tools.bringup.talk import Answer, Refused
+
+INPUTS, OUTPUTS, MOTORS = 8, 8, 4
+POLL_SECONDS = 0.3
+KINDS = {"BO": ("o", "outputs", OUTPUTS), "LED": ("e", "leds", MOTORS),
+         "DIR": ("d", "directions", MOTORS)}  # fmt: skip
+"""Letter of the command, what the pins are called in its answer, how many there are."""
+NO_CRYSTAL = "no_crystal"
+IS_IT_SO = "y: so it is, n: it is not, q: stop here"
+
+
+def look_at_inputs(bench: Bench) -> list[Seen]:
+    """Every input on and off, in any order, by the person's hand."""
+    bench.talk.ask("n")
+    told: set[int] = set()
+    last = time.monotonic()
+    while True:
+        answer = bench.talk.ask("i")
+        new = _moved(answer) - told
+        for number in sorted(new):
+            bench.person.tell(f"  {_name(bench, f'BI_{number}')}: to 1 and back")
+        told |= new
+        now = time.monotonic()
+        last = now if new else last
+        if len(told) == INPUTS or now - last > bench.patience:
+            return [_input(bench, answer, number) for number in range(1, INPUTS + 1)]
+        time.sleep(POLL_SECONDS)
+
+
+def _moved(answer: Answer) -> set[int]:
+    """Inputs that have gone to 1 and back."""
+    pairs = zip(answer.numbers("rises"), answer.numbers("falls"), strict=True)
+    return {i for i, (up, down) in enumerate(pairs, 1) if up and down}
+
+
+def _input(bench: Bench, answer: Answer, number: int) -> Seen:
+    place = number - 1
+    level = answer.number("inputs", 16) >> place & 1
+    up, down = answer.numbers("rises")[place], answer.numbers("falls")[place]
+    beside = [i + 1 for i in range(INPUTS) if answer.numbers("beside", 16)[place] >> i & 1]
+    seen = f"{up} times to 1, {down} to 0, now {level}"
+    if not up and not down:
+        seen = f"always {level}"
+    if beside:
+        seen += f"; also 1 then: {', '.join(f'BI_{each}' for each in beside)}"
+    good = bool(up and down and not beside)
+    what = _name(bench, f"BI_{number}")
+    return compared(what, seen, "to 1 and back to 0, alone", good)
+
+
+def _name(bench: Bench, signal: str) -> str:
+    return f"{signal} at {bench.pin_of(signal)}"
+
+
+def look_at_switch(bench: Bench) -> list[Seen]:
+    node = bench.talk.ask("i").number("node")
+    closed = [f"S1-{i + 1}" for i in range(4) if node - 1 >> i & 1]
+    bench.person.tell(f"The switch says address {node}: {', '.join(closed) or 'none'} closed.")
+    right = bench.person.choose(f"Is it so? {IS_IT_SO}", YES + NO) == YES
+    return [compared("address", str(node), "as the switch stands", right)]
+
+
+def walk(kind: str) -> Callable[[Bench], list[Seen]]:
+    """One after the other of a kind goes on, alone."""
+
+    def run(bench: Bench) -> list[Seen]:
+        letter, _, count = KINDS[kind]
+        seen: list[Seen] = []
+        try:
+            for number in range(1, count + 1):
+                seen += _switch(bench, kind, number)
+        except Refused as refused:
+            if refused.why != NO_CRYSTAL:
+                raise
+            seen.append(compared("cannot be switched", "there is no crystal", "a crystal", False))
+        finally:
+            bench.talk.ask(f"{letter}0")
+        return seen
+
+    return run
+
+
+def _switch(bench: Bench, kind: str, number: int) -> list[Seen]:
+    letter, _, _ = KINDS[kind]
+    signal = f"{kind}_{number}"
+    answer = bench.talk.ask(f"{letter}{number}")
+    what = _name(bench, signal)
+    bench.person.tell(f"{what} is on, all others are off.")
+    right = bench.person.choose(f"Is it so? {IS_IT_SO}", YES + NO) == YES
+    return [
+        compared(what, "on, alone" if right else "not so", "on, alone", right),
+        _read_back(answer, kind, number),
+    ]
+
+
+def _read_back(answer: Answer, kind: str, number: int) -> Seen:
+    """What the part itself reads at its pins: a short to a neighbour is seen without a meter."""
+    on = []
+    for name, (_, pins, count) in KINDS.items():
+        mask = answer.number(pins, 16)
+        on += [f"{name}_{i + 1}" for i in range(count) if mask >> i & 1]
+    on += [f"STEP_{i + 1}" for i in range(MOTORS) if answer.number("steps", 16) >> i & 1]
+    wanted = [f"{kind}_{number}"]
+    return compared("  read at the pins", ", ".join(on) or "none is on", f"{wanted[0]} only",
+                    on == wanted)  # fmt: skip
+
+
+def look_at_cycles(bench: Bench) -> list[Seen]:
+    """How long the interrupts take."""
+    rows = [row[1:] for row in bench.talk.ask("t").rows if row[0] == "cycles"]
+    ticks = next((int(count) for name, count, _ in rows if name == "tick"), 0)
+    seen = [
+        noted(f"{name} interrupt", f"{count} times, longest {longest} cycles" if int(count)
+              else "has not come yet") for name, count, longest in rows
+    ]  # fmt: skip
+    return [compared("clock of 1 ms", f"{ticks} times", "comes", ticks > 0), *seen]
