@@ -13,7 +13,7 @@ from itertools import pairwise
 
 import pytest
 from chance import SEED
-from path_chains import any_chain, corners, long_corners, vector
+from path_chains import ACCEL_MAX, SPEED_MAX, any_chain, corners, long_corners, vector
 from path_probe import NEVER, SPEED, STOP, Case, Change, deviation, ideal, run
 
 GOAL_TICKS = 0.65
@@ -66,6 +66,18 @@ def test_of_what_is_told_in_part_nothing_is_another_pulse() -> None:
         pairs = [word.split(":") for word in some]
         assert [all_ticks[int(ordinal) - 1] for ordinal, _ in pairs] == [t for _, t in pairs]
         assert int(pairs[-1][0]) == len(all_ticks)
+
+
+def test_an_axis_that_turns_at_a_stand_is_late_enough_with_any_acceleration() -> None:
+    """With 500 us the speed at the border is 0, and the way from there in that time one step."""
+    there, back = (100, 100, 0, 0), (-100, 99, 0, 0)
+    case = Case(
+        (vector(there, SPEED_MAX, ACCEL_MAX), vector(back, SPEED_MAX, ACCEL_MAX)), turn_us=500
+    )
+    (made,) = run([case])
+    ticks = [int(word) for word in made.trains[0]]
+    assert -ticks[100] - ticks[99] == 500 * 84
+    assert_exact([case])
 
 
 def moments() -> list[int]:

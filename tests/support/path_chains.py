@@ -98,7 +98,7 @@ def any_chain(
         rng.choice((0, 0, rng.randint(1, count))),
         tuple(any_change(rng, tick) for tick in moments),
         rng.getrandbits(61),
-        rng.choice((12, 12, 1, 100)),
+        rng.choice((12, 12, 1, 100, 500)),
         start_speed=start_speed,
     )
 

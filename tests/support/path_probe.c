@@ -115,7 +115,7 @@ static bool read_case(struct probe *probe)
         return false;
     }
     probe->epoch = read_number(UINT64_MAX);
-    probe->turn_us = (uint32_t)read_number(1000);
+    probe->turn_us = (uint32_t)read_number(PATH_TURN_US_MAX);
     probe->start_speed = (uint32_t)read_number(PATH_SPEED_MAX);
     probe->ring_size = (uint32_t)read_number(RING_MAX);
     probe->vectors = (uint32_t)read_number(VECTORS_MAX);

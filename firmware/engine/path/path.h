@@ -78,7 +78,11 @@ struct path {
 };
 
 /* An empty path that stands. `size` places, a power of two, at least 2. `turn_us`: DIR wants so much time from the last
- * pulse one way to the first the other way, 1 to 1000. */
+ * pulse one way to the first the other way, 1 to PATH_TURN_US_MAX.
+ *
+ * The speed at a border where an axis turns is the one at which its first pulse after it, as the path speeds up, comes
+ * just late enough: u = L/(T*|d|) - A*T/2 in the vector after the border. Where that is not above 0 it is 0, the path
+ * stands there for a moment; PATH_TURN_US_MAX is chosen so that this always suffices. */
 void path_init(struct path *path, struct path_section *ring, uint32_t size, uint32_t turn_us);
 
 /* The start/stop speed of what begins with the next start, 1/256 step/s of the longest axis, 0 to PATH_SPEED_MAX; 0
@@ -115,7 +119,8 @@ struct path_wish {
 };
 
 /* The first whole step of the longest axis that is due at or after the wish, or, in a cruise, a place between steps
- * about then. False if the path comes to rest before. */
+ * about then. False if the path comes to rest before. Lays sections up to the wish, goes back over those of the ring at
+ * most, and looks at five steps at most. */
 bool path_find(struct path *path, const struct path_wish *wish, struct path_place *place);
 
 /* Another speed for a section, from the place on at which the path is changed next, or from the next start on. Nothing

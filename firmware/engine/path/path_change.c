@@ -5,6 +5,9 @@
 #include "path_look.h"
 #include "step_scale.h"
 
+/* As many steps after the first guess path_find looks at. */
+static const unsigned FIND_STEPS = 4;
+
 /* Where path_find is looking: on a leg of a section's course. */
 struct look {
     const struct path_course *course;
@@ -62,7 +65,9 @@ static struct path_entry step_at(const struct path_course *course, uint64_t step
 }
 
 /* The first whole step of the course after its beginning that is due at or after a tick; after the last one if none is.
- * What way_at tells is less than the way of a tick too much, so the step before that one is due earlier. */
+ * What way_at tells is less than the way of a tick too much, so the step before that one is due earlier. It is hardly
+ * too little: the leg's place and the way are rounded down, which makes two steps, a speed's fraction of a quantum and
+ * the last digit of a time may make one each. So the search ends after FIND_STEPS more. */
 static uint64_t find_step(const struct look *look)
 {
     uint64_t rest = 0;
@@ -71,7 +76,7 @@ static uint64_t find_step(const struct look *look)
     uint64_t last = wide_divide(look->course->end, look->course->grains_per_step, &rest);
     uint64_t step = begin + way_at(look, &rest);
     step = step < first ? first : step;
-    while (step <= last && !is_due(step_at(look->course, step).time, look->tick)) {
+    for (unsigned i = 0; i < FIND_STEPS && step <= last && !is_due(step_at(look->course, step).time, look->tick); i++) {
         step++;
     }
     return step;

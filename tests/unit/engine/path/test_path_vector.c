@@ -117,7 +117,7 @@ void test_a_turn_may_need_a_stand_and_may_need_nothing(void)
     struct path_section before = section_of(-1, -1);
     struct path_vector fast = rig_vector(1, 1, 1000, STEP_ACCEL_MAX);
     struct path_section after = taken(&fast);
-    path_section_mind_turns(&after, &before, 1000);
+    path_section_mind_turns(&after, &before, PATH_TURN_US_MAX);
     TEST_ASSERT_EQUAL_UINT64(0, after.border2);
     after = section_of(1, INT32_MAX);
     uint64_t border2 = after.border2;
