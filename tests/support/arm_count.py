@@ -16,7 +16,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -56,15 +56,18 @@ class Missing(Exception):
     """The compiler for ARM is not there."""
 
 
-def build(folder: Path) -> Path:
-    """Links the step path without libraries of ours, code at CODE and data at RAM."""
-    stages = [ROOT / "firmware" / name for name in ("base", "engine/step", "engine/motion")]
-    sources = [*stages[0].glob("base_[tw]i*.c"), *stages[1].glob("*.c"), *stages[2].glob("*.c")]
+STEP_PATH = ("base/base_[tw]i*.c", "engine/step/*.c", "engine/motion/*.c")
+
+
+def link(folder: Path, bench: str, names: Sequence[str] = STEP_PATH) -> Path:
+    """Links sources of firmware/ without libraries of ours, code at CODE and data at RAM."""
+    sources = [path for name in names for path in (ROOT / "firmware").glob(name)]
+    stages = {path.parent for path in sources}
     includes = [f"-I{path}" for path in [*stages, ROOT / "hal" / "include"]]
-    target = folder / "arm_bench.elf"
-    link = ["-nostartfiles", f"-Wl,-Ttext={CODE:#x},-Tdata={RAM:#x},-e,bench_begin"]
-    command = [COMPILER, *FLAGS, *includes, *link, "-o", str(target)]
-    command += [str(ROOT / "tests/support/arm/arm_bench.c"), *map(str, sources)]
+    target = folder / "bench.elf"
+    options = ["-nostartfiles", f"-Wl,-Ttext={CODE:#x},-Tdata={RAM:#x},-e,bench_begin"]
+    command = [COMPILER, *FLAGS, *includes, *options, "-o", str(target)]
+    command += [str(ROOT / "tests/support/arm" / bench), *map(str, sources)]
     try:
         subprocess.run(command, check=True, capture_output=True, text=True)
     except FileNotFoundError as error:
@@ -159,7 +162,7 @@ def summary(counts: list[int]) -> dict[str, float]:
 def measure() -> dict[str, object]:
     """Counts for all moves; the figure is the mean of the generator over the ramps."""
     with tempfile.TemporaryDirectory() as folder:
-        counter = load(build(Path(folder)))
+        counter = load(link(Path(folder), "arm_bench.c"))
     rows = []
     worst = 0.0
     for name, move in MOVES.items():

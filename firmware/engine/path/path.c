@@ -134,11 +134,19 @@ static bool is_alone(const struct path_cursor *cursor, const struct path_course 
     return gap || (brakes && (cursor->section_begins || !path_segment_is_fast(course, leg, steps, at)));
 }
 
+/* Whether the next pulse is known to come at a tick or later. */
+static bool cursor_is_late(const struct path_cursor *cursor, uint64_t until_tick)
+{
+    uint64_t tick = cursor->found ? path_segment_tick(&cursor->at) : 0U;
+    return tick >= until_tick;
+}
+
 static void hand_over(struct path_cursor *cursor, const struct path_segment *segment)
 {
     cursor->before = segment->tick;
     cursor->pulse += segment->segment.steps;
     cursor->fresh = false;
+    cursor->found = false;
     cursor->section_begins = false;
     cursor->leg_begins = false;
 }
@@ -146,7 +154,7 @@ static void hand_over(struct path_cursor *cursor, const struct path_segment *seg
 bool path_next(struct path *path, unsigned axis, uint64_t until_tick, struct path_segment *segment)
 {
     struct path_cursor *cursor = &path->axis[axis];
-    const struct path_course *course = seek(path, axis, until_tick);
+    const struct path_course *course = cursor_is_late(cursor, until_tick) ? NULL : seek(path, axis, until_tick);
     if (course == NULL) {
         return false;
     }
@@ -154,13 +162,16 @@ bool path_next(struct path *path, unsigned axis, uint64_t until_tick, struct pat
     const struct path_leg *leg = &course->leg[cursor->leg];
     struct path_stretch stretch = {
         .steps = path_section_steps(section, axis), .pulse = cursor->pulse, .last = cursor->last};
-    struct path_pulse at = path_course_pulse(course, leg, stretch.steps, stretch.pulse);
-    stretch.alone = is_alone(cursor, course, stretch.steps, &at);
-    segment->tick = path_segment_tick(&at);
-    if (segment->tick >= until_tick) {
+    if (!cursor->found) {
+        cursor->at = path_course_pulse(course, leg, stretch.steps, stretch.pulse);
+        cursor->found = true;
+    }
+    if (cursor_is_late(cursor, until_tick)) {
         return false;
     }
-    segment->segment = path_segment_lay(course, leg, &stretch, &at);
+    stretch.alone = is_alone(cursor, course, stretch.steps, &cursor->at);
+    segment->tick = path_segment_tick(&cursor->at);
+    segment->segment = path_segment_lay(course, leg, &stretch, &cursor->at);
     segment->backward = section->vector.steps[axis] < 0;
     hand_over(cursor, segment);
     return true;

@@ -5,9 +5,6 @@
 #include "path_look.h"
 #include "step_scale.h"
 
-/* As many steps after the first guess path_find looks at. */
-static const unsigned FIND_STEPS = 4;
-
 /* Where path_find is looking: on a leg of a section's course. */
 struct look {
     const struct path_course *course;
@@ -67,16 +64,20 @@ static struct path_entry step_at(const struct path_course *course, uint64_t step
 /* The first whole step of the course after its beginning that is due at or after a tick; after the last one if none is.
  * What way_at tells is less than the way of a tick too much, so the step before that one is due earlier. It is hardly
  * too little: the leg's place and the way are rounded down, which makes two steps, a speed's fraction of a quantum and
- * the last digit of a time may make one each. So the search ends after FIND_STEPS more. */
+ * the last digit of a time may make one each. So the search ends after as many more. */
 static uint64_t find_step(const struct look *look)
 {
+    const unsigned most = 4;
     uint64_t rest = 0;
     uint64_t begin = wide_divide(look->leg->place, look->course->grains_per_step, &rest);
     uint64_t first = wide_divide(look->course->leg[0].place, look->course->grains_per_step, &rest) + 1U;
     uint64_t last = wide_divide(look->course->end, look->course->grains_per_step, &rest);
     uint64_t step = begin + way_at(look, &rest);
     step = step < first ? first : step;
-    for (unsigned i = 0; i < FIND_STEPS && step <= last && !is_due(step_at(look->course, step).time, look->tick); i++) {
+    for (unsigned i = 0; i < most; i++) {
+        if (step > last || is_due(step_at(look->course, step).time, look->tick)) {
+            break;
+        }
         step++;
     }
     return step;

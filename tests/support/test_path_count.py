@@ -1,0 +1,13 @@
+"""What the planner of paths costs: a step up is seen here first."""
+
+from __future__ import annotations
+
+from path_count import measure
+
+CHAIN = "100 steps, ramp and cruise in each"
+INSTRUCTIONS_MAX = 20_000
+
+
+def test_a_vector_of_four_axes_is_planned_within_its_budget() -> None:
+    row = measure([CHAIN])[CHAIN]
+    assert 10_000 < int(str(row["all of a vector"])) <= INSTRUCTIONS_MAX
