@@ -14,13 +14,14 @@
 
 /* Reset and clock control */
 #define RCC_BASE 0x40023800U
-#define RCC_CR STM32_REGISTER(RCC_BASE + 0x00U)      /* 7.3.1 */
-#define RCC_PLLCFGR STM32_REGISTER(RCC_BASE + 0x04U) /* 7.3.2 */
-#define RCC_CFGR STM32_REGISTER(RCC_BASE + 0x08U)    /* 7.3.3 */
-#define RCC_AHB1ENR STM32_REGISTER(RCC_BASE + 0x30U) /* 7.3.10 */
-#define RCC_APB1ENR STM32_REGISTER(RCC_BASE + 0x40U) /* 7.3.13 */
-#define RCC_APB2ENR STM32_REGISTER(RCC_BASE + 0x44U) /* 7.3.14 */
-#define RCC_CSR STM32_REGISTER(RCC_BASE + 0x74U)     /* 7.3.21 */
+#define RCC_CR STM32_REGISTER(RCC_BASE + 0x00U)       /* 7.3.1 */
+#define RCC_PLLCFGR STM32_REGISTER(RCC_BASE + 0x04U)  /* 7.3.2 */
+#define RCC_CFGR STM32_REGISTER(RCC_BASE + 0x08U)     /* 7.3.3 */
+#define RCC_AHB1ENR STM32_REGISTER(RCC_BASE + 0x30U)  /* 7.3.10 */
+#define RCC_APB1RSTR STM32_REGISTER(RCC_BASE + 0x20U) /* 7.3.8 */
+#define RCC_APB1ENR STM32_REGISTER(RCC_BASE + 0x40U)  /* 7.3.13 */
+#define RCC_APB2ENR STM32_REGISTER(RCC_BASE + 0x44U)  /* 7.3.14 */
+#define RCC_CSR STM32_REGISTER(RCC_BASE + 0x74U)      /* 7.3.21 */
 #define RCC_CR_HSION (1U << 0)
 #define RCC_CR_HSIRDY (1U << 1)
 #define RCC_CR_HSEON (1U << 16)
@@ -38,12 +39,17 @@
 #define RCC_CFGR_PPRE1(n) ((n) << 10)
 #define RCC_CFGR_PPRE2(n) ((n) << 13)
 #define RCC_AHB1ENR_GPIOAEN (1U << 0)
+#define RCC_APB1RSTR_TIM5RST (1U << 3)
 #define RCC_APB1ENR_TIM2EN (1U << 0)
+#define RCC_APB1ENR_TIM5EN (1U << 3)
 #define RCC_APB1ENR_USART2EN (1U << 17)
 #define RCC_APB1ENR_USART3EN (1U << 18)
 #define RCC_APB1ENR_PWREN (1U << 28)
 #define RCC_APB2ENR_USART1EN (1U << 4)
+#define RCC_APB2ENR_ADC1EN (1U << 8)
 #define RCC_APB2ENR_SYSCFGEN (1U << 14)
+#define RCC_CSR_LSION (1U << 0)
+#define RCC_CSR_LSIRDY (1U << 1)
 #define RCC_CSR_RMVF (1U << 24)
 #define RCC_CSR_BORRSTF (1U << 25)
 #define RCC_CSR_PORRSTF (1U << 27)
@@ -142,6 +148,36 @@
 #define TIM2_CCER_CC3P (1U << 9)
 #define TIM2_CCER_CC4E (1U << 12)
 #define TIM2_CCER_CC4P (1U << 13)
+
+/* What captures the low-speed oscillator */
+#define TIM5_BASE 0x40000C00U
+#define TIM5_CR1 STM32_REGISTER(TIM5_BASE + 0x00U)   /* 18.4.1 */
+#define TIM5_SR STM32_REGISTER(TIM5_BASE + 0x10U)    /* 18.4.5 */
+#define TIM5_CCMR2 STM32_REGISTER(TIM5_BASE + 0x1CU) /* 18.4.8 */
+#define TIM5_CCER STM32_REGISTER(TIM5_BASE + 0x20U)  /* 18.4.9 */
+#define TIM5_CNT STM32_REGISTER(TIM5_BASE + 0x24U)   /* 18.4.10 */
+#define TIM5_CCR4 STM32_REGISTER(TIM5_BASE + 0x40U)  /* 18.4.16 */
+#define TIM5_OR STM32_REGISTER(TIM5_BASE + 0x50U)    /* 18.4.20 */
+#define TIM5_CR1_CEN (1U << 0)
+#define TIM5_SR_CC4IF (1U << 4)
+#define TIM5_CCMR2_CC4S(n) ((n) << 8)
+#define TIM5_CCMR2_IC4PSC(n) ((n) << 10)
+#define TIM5_CCER_CC4E (1U << 12)
+#define TIM5_OR_TI4_RMP(n) ((n) << 6)
+
+/* What converts the internal reference; CCR is that of all three converters */
+#define ADC1_BASE 0x40012000U
+#define ADC1_SR STM32_REGISTER(ADC1_BASE + 0x00U)    /* 13.13.1 */
+#define ADC1_CR2 STM32_REGISTER(ADC1_BASE + 0x08U)   /* 13.13.3 */
+#define ADC1_SMPR1 STM32_REGISTER(ADC1_BASE + 0x0CU) /* 13.13.4 */
+#define ADC1_SQR3 STM32_REGISTER(ADC1_BASE + 0x34U)  /* 13.13.11 */
+#define ADC1_DR STM32_REGISTER(ADC1_BASE + 0x4CU)    /* 13.13.14 */
+#define ADC1_SR_EOC (1U << 1)
+#define ADC1_CR2_ADON (1U << 0)
+#define ADC1_CR2_SWSTART (1U << 30)
+#define ADC1_SQR3_SQ1(n) ((n) << 0)
+#define C_ADC_BASE 0x40012300U
+#define C_ADC_CCR STM32_REGISTER(C_ADC_BASE + 0x04U) /* 13.13.16 */
 
 /* The line; which of the three is the board's affair */
 #define USART1_BASE 0x40011000U

@@ -113,7 +113,7 @@ def bad(report: dict[str, Any]) -> list[str]:
 
 @modelled
 def test_a_good_board_is_gone_through_and_all_is_good(tool, powered, typed, tmp_path):
-    port = powered("--option-bytes", "0fffaae1")
+    port = powered("--option-bytes", "0fffaae1", "--lsi", "30000", "--supply", "3.25")
     typed(answers())
 
     result = tool("bringup", "--port", port, "--json", "--report", tmp_path / "report.txt")
@@ -125,6 +125,8 @@ def test_a_good_board_is_gone_through_and_all_is_good(tool, powered, typed, tmp_
     assert seen(report, "part", "brown-out reset")[0].startswith("level 3")
     assert seen(report, "start", "last reset")[0] == "brown-out, reset pin, power-on"
     assert seen(report, "clocks", "clock") == ("168 MHz", "good")
+    assert seen(report, "clocks", "low-speed oscillator") == ("30000 Hz", "good")
+    assert seen(report, "supply", "supply at the part") == ("3.25 V", "good")
     assert seen(report, "outputs", "BO_8 at PB15") == ("on, alone", "good")
     assert seen(report, "watchdog", "cause of the start") == ("watchdog", "good")
     assert seen(report, "stack guard", "cause of the start") == ("fault", "good")
@@ -137,7 +139,7 @@ def test_a_good_board_is_gone_through_and_all_is_good(tool, powered, typed, tmp_
 @modelled
 def test_what_is_wrong_with_a_board_is_found_and_what_was_not_done_is_told(tool, powered, typed):
     port = powered("--flash-kb", "512", "--stuck", "PC2=1", "--stuck", "PC5=0", "--stuck", "PB8=0",
-                   "--stuck", "PB10=1")  # fmt: skip
+                   "--stuck", "PB10=1", "--supply", "3.05")  # fmt: skip
     typed(answers(leave=["LEDs"], no=[1], until="interrupts"))
 
     result = tool("bringup", "--port", port, "--json", "--patience", "2")
@@ -146,6 +148,7 @@ def test_what_is_wrong_with_a_board_is_found_and_what_was_not_done_is_told(tool,
     assert (result.status, report["complete"], report["good"]) == (1, False, False)
     assert seen(report, "part", "flash") == ("512 kB", "BAD")
     assert seen(report, "part", "brown-out reset")[1] == "note"
+    assert seen(report, "supply", "supply at the part") == ("3.05 V", "BAD")
     assert seen(report, "inputs", "BI_3 at PC2") == ("always 0", "BAD")
     assert seen(report, "inputs", "BI_6 at PC5") == ("always 1", "BAD")
     assert "also 1 then: BI_6" in seen(report, "inputs", "BI_1 at PC0")[0]
@@ -170,7 +173,7 @@ def test_a_board_without_a_crystal_is_told_and_its_leds_and_directions_too(tool,
     assert re.search(r"BAD +crystal +does not run +runs, 8 MHz", result.out)
     assert re.search(r"BAD +clock +", result.out) is None
     assert result.out.count("there is no crystal") >= 2
-    assert "NOT DONE: part, start, inputs" in result.out
+    assert "NOT DONE: part, start, supply, inputs" in result.out
 
 
 @modelled

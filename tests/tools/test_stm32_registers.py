@@ -33,6 +33,7 @@ INTERRUPT = re.compile(r"^#define (\w+)_IRQ (\d+)U", re.MULTILINE)
 REGISTERS = {
     ("TIM2", "CCMR1"): "CCMR1_Output",
     ("TIM2", "CCMR2"): "CCMR2_Output",
+    ("TIM5", "CCMR2"): "CCMR2_Input",
     ("NVIC", "ISER"): "ISER0",
     ("NVIC", "ICER"): "ICER0",
     ("NVIC", "ICPR"): "ICPR0",
@@ -41,6 +42,7 @@ REGISTERS = {
     ("DBG", "IDCODE"): "DBGMCU_IDCODE",
 }
 FIELDS = {
+    "TI4_RMP": "IT4_RMP",
     "IWDGRSTF": "WDGRSTF",
     "SW": "SW0",
     "SWS": "SWS0",

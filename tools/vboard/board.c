@@ -90,7 +90,9 @@ static void wire_peripherals(struct board *board)
                                                           .conditions = &board->conditions,
                                                           .gpio = &board->gpio,
                                                           .requests = &board->requests,
-                                                          .settings = &options->timer_settings});
+                                                          .settings = &options->timer_settings,
+                                                          .rcc = &board->rcc,
+                                                          .lsi_hz = options->lsi_hz});
     }
     board->requests.listener = (struct request_listener){.model = &board->dma, .note = dma_note_request};
     dma_init(&board->dma, (struct dma_wires){.clock = clock,
@@ -99,6 +101,7 @@ static void wire_peripherals(struct board *board)
                                              .memory = &board->memory,
                                              .bus = &board->bus,
                                              .requests = &board->requests});
+    adc_init(&board->adc, (struct adc_wires){.clock = clock, .report = report, .conditions = &board->conditions});
     for (unsigned i = 0; i < USARTS; i++) {
         usart_init(&board->usart[i], (struct usart_wires){.number = i,
                                                           .clock = clock,

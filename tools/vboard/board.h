@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "adc.h"
 #include "bus.h"
 #include "clock.h"
 #include "conditions.h"
@@ -76,6 +77,7 @@ struct board {
     struct timer timer[TIMERS];
     struct usart usart[USARTS];
     struct dma dma;
+    struct adc adc;
 
     struct pins pins;
     struct rs485 line;

@@ -33,6 +33,7 @@ static void reset_peripherals(struct board *board, enum reset_cause cause)
         usart_reset(&board->usart[i]);
     }
     dma_reset(&board->dma);
+    adc_reset(&board->adc);
     syscfg_reset(&board->syscfg);
     supply_reset(&board->supply);
     exti_reset(&board->exti);
@@ -92,6 +93,8 @@ static void reset_peripheral(struct board *board, uint32_t offset, unsigned bit)
         usart_reset(&board->usart[bit - 16U]);
     } else if (offset == APB2 && bit == 4) {
         usart_reset(&board->usart[0]);
+    } else if (offset == APB2 && bit == 8) { /* all three converters */
+        adc_reset(&board->adc);
     }
 }
 

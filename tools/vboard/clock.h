@@ -26,6 +26,7 @@ enum event {
     EVENT_RCC,
     EVENT_CRYSTAL,
     EVENT_IWDG,
+    EVENT_LSI,
     EVENT_LINE,
     EVENT_INPUTS,
     EVENT_FAULT,

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "adc.h"
+
 static uint8_t *allocate(uint32_t bytes, uint8_t filling)
 {
     uint8_t *memory = aligned_alloc(MEMORY_PAGE_BYTES, bytes);
@@ -19,6 +21,8 @@ static void fill_system_area(struct memory *memory, uint32_t flash_kb)
     memcpy(memory->system + 0xA10, id, sizeof id);       /* RM0090 section 39.1: unique device id */
     memory->system[0xA22] = (uint8_t)(flash_kb & 0xFFU); /* section 39.2 */
     memory->system[0xA23] = (uint8_t)(flash_kb >> 8);
+    memory->system[0xA2A] = (uint8_t)(ADC_CALIBRATION & 0xFF); /* DS8626: VREFIN_CAL */
+    memory->system[0xA2B] = (uint8_t)(ADC_CALIBRATION >> 8);
 }
 
 static bool map(uc_engine *engine, uint32_t base, uint32_t bytes, uint32_t rights, uint8_t *memory)

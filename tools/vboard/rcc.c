@@ -149,6 +149,11 @@ static void write_cr(struct rcc *rcc, uint32_t value)
     update_switch(rcc);
 }
 
+bool rcc_lsi_runs(const struct rcc *rcc)
+{
+    return rcc->lsi_ready_ps <= clock_now_ps(rcc->wires.clock);
+}
+
 void rcc_start_lsi(struct rcc *rcc)
 {
     *word(rcc, RCC_CSR) |= CSR_LSION;
@@ -304,7 +309,7 @@ bool rcc_read(void *model, uint32_t offset, uint32_t *value)
     } else if (offset == RCC_CIR) {
         *value |= rcc->css_flag ? CIR_CSSF : 0U;
     } else if (offset == RCC_CSR) {
-        *value |= rcc->reset_flags | (rcc->lsi_ready_ps <= clock_now_ps(rcc->wires.clock) ? CSR_LSIRDY : 0U);
+        *value |= rcc->reset_flags | (rcc_lsi_runs(rcc) ? CSR_LSIRDY : 0U);
     }
     return true;
 }

@@ -90,6 +90,9 @@ bool rcc_clock_has_come(const struct rcc *rcc, uint32_t offset, unsigned bit);
 /* Lets the part run from the PLL at 60 MHz, which runs from the crystal if there is one. */
 void rcc_run_from_pll(struct rcc *rcc);
 
+/* Whether the low-speed oscillator runs. */
+bool rcc_lsi_runs(const struct rcc *rcc);
+
 /* Starts the low-speed oscillator, as the watchdog does. */
 void rcc_start_lsi(struct rcc *rcc);
 

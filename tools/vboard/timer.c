@@ -1,5 +1,6 @@
 #include "timer.h"
 
+#include "timer_capture.h"
 #include "timer_output.h"
 
 enum {
@@ -69,7 +70,7 @@ void timer_update_event(struct timer *timer, bool by_software, uint64_t cycle)
 static void turn(struct timer *timer, uint64_t cycle)
 {
     for (unsigned i = 0; i < TIMER_CHANNELS; i++) {
-        if (timer->channel[i].compare > timer->arr_used) {
+        if (timer->channel[i].compare > timer->arr_used && !timer_is_captured(timer, i)) {
             timer->sr |= 2U << i;
             timer_request_channel(timer, i, cycle);
         }
@@ -80,7 +81,7 @@ static void turn(struct timer *timer, uint64_t cycle)
     timer_plan(timer, cycle);
     timer_update_outputs(timer, cycle);
     for (unsigned i = 0; i < TIMER_CHANNELS; i++) {
-        if (timer->channel[i].compare == 0) {
+        if (timer->channel[i].compare == 0 && !timer_is_captured(timer, i)) {
             match(timer, i, cycle);
         }
     }
@@ -128,6 +129,7 @@ void timer_reset(struct timer *timer)
         requests_lower(timer->wires.requests, request_line(timer->wires.number, i));
     }
     timer_set_event(timer);
+    timer_plan_capture(timer);
     timer_update_interrupt(timer);
 }
 
@@ -135,4 +137,7 @@ void timer_init(struct timer *timer, struct timer_wires wires)
 {
     timer->wires = wires;
     clock_attach(wires.clock, (enum event)(EVENT_TIM2 + wires.number), on_event, timer);
+    if (wires.number == TIMERS - 1U) { /* TIM5 */
+        clock_attach(wires.clock, EVENT_LSI, timer_note_lsi, timer);
+    }
 }

@@ -1,5 +1,7 @@
 #include "timer_counter.h"
 
+#include "timer_capture.h"
+
 bool timer_is_wide(const struct timer *timer)
 {
     return timer->wires.number == 0 || timer->wires.number == 3; /* TIM2 and TIM5 have 32 bits */
@@ -54,7 +56,7 @@ void timer_find_match(struct timer *timer, unsigned channel, uint64_t cycle)
     struct timer_channel *at = &timer->channel[channel];
     uint32_t now = timer_count_at(timer, cycle);
     at->due = VTIME_NEVER;
-    if (!timer_runs(timer) || at->compare > last_count(timer)) {
+    if (!timer_runs(timer) || at->compare > last_count(timer) || timer_is_captured(timer, channel)) {
         return;
     }
     if (at->compare > now) {

@@ -12,6 +12,7 @@
 #include "conditions.h"
 #include "gpio.h"
 #include "nvic.h"
+#include "rcc.h"
 #include "report.h"
 #include "requests.h"
 
@@ -22,7 +23,8 @@ enum {
 
 struct timer_channel {
     uint32_t compare; /* what the counter is compared with */
-    uint32_t preload; /* what CCR reads */
+    uint32_t preload; /* what CCR reads; of an input, what was captured */
+    unsigned edges;   /* of an input, since the last capture */
     uint64_t due;     /* cycle of the next match; NEVER: none before the counter turns over */
     uint8_t mode;     /* OCxM, as it was when the output was looked at last */
     bool below;       /* and whether the counter was below the value */
@@ -47,6 +49,8 @@ struct timer_wires {
     struct gpio *gpio;
     struct requests *requests; /* to the DMA controller */
     const struct timer_settings *settings;
+    const struct rcc *rcc; /* whose low-speed oscillator can be captured, and its rate */
+    uint64_t lsi_hz;
 };
 
 struct timer {
@@ -62,6 +66,8 @@ struct timer {
     uint32_t arr; /* as written */
     uint32_t arr_used;
     uint32_t remap; /* OR */
+    bool hears_lsi; /* edges of the low-speed oscillator come in; the next one rises */
+    bool lsi_level;
     uint32_t count; /* at the anchor */
     uint64_t anchor_cycle;
     uint64_t start_cycle; /* the first time it was started since reset; NEVER: not yet */

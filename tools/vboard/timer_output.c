@@ -1,5 +1,7 @@
 #include "timer_output.h"
 
+#include "timer_capture.h"
+
 enum {
     MODE_FROZEN,
     MODE_ACTIVE,   /* at a match */
@@ -45,7 +47,7 @@ static void tell_pins(struct timer *timer, unsigned channel, uint64_t cycle)
 {
     struct timer_channel *at = &timer->channel[channel];
     uint32_t enable = timer->ccer >> 4U * channel;
-    bool driven = (enable & 1U) != 0;
+    bool driven = (enable & 1U) != 0 && !timer_is_captured(timer, channel);
     bool level = driven && at->reference != ((enable & 2U) != 0);
     if (level == at->pin_level && driven == at->pin_driven) {
         return;

@@ -1,6 +1,7 @@
 #include "timer_registers.h"
 
 #include "timer.h"
+#include "timer_capture.h"
 #include "timer_output.h"
 
 enum {
@@ -23,7 +24,7 @@ enum {
     SR_FLAGS = 0x1E5F,
     CHANNEL_FLAGS = 0x1E,
     CCMR_PRELOAD = 1 << 3,
-    CCER_MODELLED = 0x3333,
+    CCER_MODELLED = 0xBBBB,
 };
 
 bool timer_register_is_wide(const void *model, uint32_t offset)
@@ -33,11 +34,19 @@ bool timer_register_is_wide(const void *model, uint32_t offset)
     return timer_is_wide(timer) && counts;
 }
 
+static uint32_t read_compare(struct timer *timer, unsigned channel)
+{
+    if (timer_is_captured(timer, channel)) {
+        timer_take_capture(timer, channel);
+    }
+    return timer->channel[channel].preload;
+}
+
 bool timer_read(void *model, uint32_t offset, uint32_t *value)
 {
-    const struct timer *timer = model;
+    struct timer *timer = model;
     if (offset >= TIM_CCR1 && offset <= TIM_CCR4) {
-        *value = timer->channel[(offset - TIM_CCR1) / 4U].preload;
+        *value = read_compare(timer, (offset - TIM_CCR1) / 4U);
         return true;
     }
     switch (offset) {
@@ -156,15 +165,15 @@ static void take_compare(struct timer *timer, unsigned channel)
 
 static void write_ccmr(struct timer *timer, unsigned index, uint32_t value)
 {
-    if ((value & 0x0303U) != 0) {
-        refuse(timer, "input capture");
-    }
+    timer_check_modes(timer, index, value);
     if ((value & 0x8080U) != 0) {
         refuse(timer, "clearing outputs by ETRF");
     }
     timer->ccmr[index] = value;
+    timer_plan_capture(timer);
     for (unsigned i = 2U * index; i < 2U * index + 2U; i++) {
-        if (!preloads(timer, i) && timer->channel[i].compare != timer->channel[i].preload) {
+        if (!preloads(timer, i) && !timer_is_captured(timer, i) &&
+            timer->channel[i].compare != timer->channel[i].preload) {
             take_compare(timer, i);
         } else {
             timer_update_output(timer, i, timer->wires.clock->now);
@@ -174,6 +183,10 @@ static void write_ccmr(struct timer *timer, unsigned index, uint32_t value)
 
 static void write_compare(struct timer *timer, unsigned channel, uint32_t value)
 {
+    if (timer_is_captured(timer, channel)) {
+        report_fail(timer->wires.report, "TIM_CCR: the register of an input can only be read (RM0090 18.4.13)");
+        return;
+    }
     timer->channel[channel].preload = value & timer_width_mask(timer);
     if (!preloads(timer, channel)) {
         take_compare(timer, channel);
@@ -231,10 +244,9 @@ static bool write_register(void *model, uint32_t offset, uint32_t value)
         write_ccmr(timer, (offset - TIM_CCMR1) / 4U, value);
         return true;
     case TIM_CCER:
-        if ((value & ~(uint32_t)CCER_MODELLED) != 0) {
-            report_fail(timer->wires.report, "TIM_CCER: CCxNP must be kept cleared for an output (RM0090 18.4.9)");
-        }
+        timer_check_enables(timer, value);
         timer->ccer = value & CCER_MODELLED;
+        timer_plan_capture(timer);
         timer_update_outputs(timer, timer->wires.clock->now);
         return true;
     case TIM_CNT:
@@ -243,7 +255,8 @@ static bool write_register(void *model, uint32_t offset, uint32_t value)
         return write_counter(timer, offset, value);
     case TIM_OR:
         timer->remap = value;
-        return timer_is_wide(timer) && value == 0;
+        timer_plan_capture(timer);
+        return timer_is_wide(timer) && (value == 0 || (timer->wires.number != 0 && value == TIMER_OR_TI4_LSI));
     default:
         return false;
     }

@@ -31,6 +31,13 @@ void bringup_inputs_forget(void);
 /* Counts edges of the inputs from the start of the interrupts on. Tick interrupt. */
 void bringup_inputs_isr(void *context, uint64_t since_tick);
 
+/* The rate of the low-speed oscillator; first of all, as it takes the board's timers for it, 31 ms. */
+void bringup_measure_oscillator(void);
+void bringup_measure_tell_oscillator(void);
+
+/* The supply, by the internal reference. */
+void bringup_measure_tell_supply(void);
+
 /* Counts the cycles of each interrupt from now on; the interrupts have been started. */
 void bringup_cycles_start(void);
 

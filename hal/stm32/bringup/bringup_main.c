@@ -75,6 +75,10 @@ static bool tell(char letter)
         return true;
     case 'c':
         bringup_clock_tell();
+        bringup_measure_tell_oscillator();
+        return true;
+    case 'v':
+        bringup_measure_tell_supply();
         return true;
     case 'i':
         bringup_inputs_tell();
@@ -159,6 +163,7 @@ int main(void)
     struct command command = {.length = 0};
     struct hal_line_byte byte;
     bringup_part_take_reset();
+    bringup_measure_oscillator();
     hal_board_init();
     hal_run_start(&client);
     bringup_cycles_start();

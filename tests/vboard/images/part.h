@@ -64,7 +64,18 @@
 #define TIM_CNT(tim) REG((tim) + 0x24)
 #define TIM_PSC(tim) REG((tim) + 0x28)
 #define TIM_ARR(tim) REG((tim) + 0x2C)
+#define TIM_OR(tim) REG((tim) + 0x50)
 #define TIM_CCR(tim, n) REG((tim) + 0x30 + 4 * (n))
+
+#define ADC1 0x40012000u
+#define ADC_SR REG(ADC1 + 0x00)
+#define ADC_CR1 REG(ADC1 + 0x04)
+#define ADC_CR2 REG(ADC1 + 0x08)
+#define ADC_SMPR1 REG(ADC1 + 0x0C)
+#define ADC_SQR1 REG(ADC1 + 0x2C)
+#define ADC_SQR3 REG(ADC1 + 0x34)
+#define ADC_DR REG(ADC1 + 0x4C)
+#define ADC_CCR REG(ADC1 + 0x304)
 
 #define DMA1 0x40026000u
 #define DMA_LISR REG(DMA1 + 0x00)

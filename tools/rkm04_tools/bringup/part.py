@@ -20,6 +20,9 @@ RESETS = {
 }  # fmt: skip
 """RCC_CSR, RM0090 7.3.21."""
 WATCHDOG_FLAG, SOFTWARE_FLAG = 1 << 29, 1 << 28
+LSI_HZ = range(17_000, 47_001)
+SUPPLY_MAX_MV = 3600
+"""DS8626."""
 CORE_HZ = 168_000_000
 SOURCES = {0: "internal oscillator", 1: "crystal without PLL", 2: "PLL"}
 EMPTY_IDS = ({"00000000"}, {"ffffffff"})
@@ -114,4 +117,19 @@ def look_at_clocks(bench: Bench) -> list[Seen]:
         noted("APB1, APB2", f"{answer.number('apb1_hz') / 1e6:g} MHz, "
               f"{answer.number('apb2_hz') / 1e6:g} MHz"),
         noted("wait states of the flash", answer.word("wait_states")),
+        compared("low-speed oscillator", f"{answer.number('lsi_hz')} Hz",
+                 "17 to 47 kHz; the watchdog's", answer.number("lsi_hz") in LSI_HZ),
+    ]  # fmt: skip
+
+
+def look_at_supply(bench: Bench) -> list[Seen]:
+    """By the part's own reference and what its factory has measured."""
+    answer = bench.talk.ask("v")
+    least = int(bench.header.values["BOARD_SUPPLY_MIN_MV"].rstrip("U"))
+    millivolts, good = answer.number("supply_mv"), answer.number("detector_good") == 1
+    return [
+        compared("supply at the part", f"{millivolts / 1000:.2f} V",
+                 f"{least / 1000:.2f} to {SUPPLY_MAX_MV / 1000:.2f} V",
+                 least <= millivolts <= SUPPLY_MAX_MV),
+        compared("voltage detector", "good" if good else "too low", "good", good),
     ]  # fmt: skip

@@ -24,8 +24,10 @@ STEPS = (
          "an STM32F405 or F407 with 1 MB of flash", part.look_at_part),
     Step("start", "Nothing to do: why the part has started.",
          "power-on or reset pin", part.look_at_start),
-    Step("clocks", "Nothing to do: what drives the processor.",
+    Step("clocks", "Nothing to do: what drives the processor, and the watchdog.",
          "the crystal, by the PLL, 168 MHz", part.look_at_clocks),
+    Step("supply", "Nothing to do: the part measures its supply by its own reference.",
+         "3.3 V", part.look_at_supply),
     Step("inputs",
          "Set each input to 1 and back to 0, one after the other, in any order (by a switch or\n"
          "jumper, see the board's page). It ends when all have been, or nothing new comes.",
