@@ -1,4 +1,4 @@
-"""The page without a service, as one file: it checks and simulates as the service does."""
+"""The page without a service, as one file: it checks and simulates as the service, with a unit."""
 
 from __future__ import annotations
 
@@ -7,20 +7,28 @@ import gzip
 import json
 import os
 import re
+import signal
+import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import pytest
+from page_looks import AXE, CUT, OUTSIDE, OVER, SIZES, VIOLATIONS
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 from rkm04_tools.failure import Failure
 from rkm04_tools.service import static
 from rkm04_tools.service.checking import check, examples
 from rkm04_tools.service.curves import Curves, read_wanted
+from rkm04_tools.service.orders import TEXT_MAX
 from wasm_build import build_wasm
 
 GZIPPED_BYTES_MAX = 400_000
+REAL_TIME_SECONDS = 3
+ASLEEP_SECONDS = 4
+LOAD_MAX = 0.5
+"""Of one core, with motors as fast as they can be; far more than is needed on an idle machine."""
 WORK = """async ([orders]) => {
     const brought = JSON.parse(document.getElementById("alone").textContent);
     const script = new Blob([brought.worker], { type: "text/javascript" });
@@ -33,6 +41,25 @@ WORK = """async ([orders]) => {
         orders.forEach((order) => worker.postMessage(order));
     });
 }"""
+UNIT = """([orders, seconds]) => {
+    const brought = JSON.parse(document.getElementById("alone").textContent);
+    const script = new Blob([brought.worker], { type: "text/javascript" });
+    const worker = new Worker(URL.createObjectURL(script));
+    const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    worker.postMessage({ kind: "program", bytes: bytes(brought.program) });
+    worker.postMessage({ kind: "unit", bytes: bytes(brought.unit), names: brought.names });
+    const told = [];
+    return new Promise((take) => {
+        const end = () => { worker.terminate(); take(told); };
+        worker.onmessage = ({ data }) => {
+            told.push({ ...JSON.parse(data), at_s: performance.now() / 1000 });
+            told.length === 1 && setTimeout(end, 1000 * seconds);
+        };
+        worker.postMessage("");
+        orders.forEach((order) => worker.postMessage(JSON.stringify(order)));
+    });
+}"""
+"""What another unit tells in some seconds from its first word on, after it was given orders."""
 
 
 @pytest.fixture(scope="module")
@@ -63,6 +90,7 @@ def alone(context: BrowserContext, written: Path) -> Iterator[Page]:
     page.on("websocket", lambda socket: asked.append(socket.url))
     page.goto(written.as_uri())
     expect(page.locator("#plan")).to_have_attribute("data-drawn", re.compile(r"\d+"))
+    expect(page.locator("body")).to_have_attribute("data-connected", "true")
     yield page
     assert faults == []
     assert set(asked) <= {"file", "data", "blob"}
@@ -80,6 +108,11 @@ def write(page: Page, text: str) -> None:
     page.locator(".cm-content").click()
     page.keyboard.press("ControlOrMeta+a")
     page.keyboard.insert_text(text)
+
+
+def steps(page: Page) -> int:
+    """The live position of the first motor."""
+    return int(re.sub(r"\D", "", page.locator("#position-1").inner_text()))
 
 
 def test_it_is_one_file_of_less_than_400_kb_gzipped(written):
@@ -155,25 +188,172 @@ def test_the_examples_are_there_with_their_inputs(alone):
     expect(alone.locator("#plan")).to_have_attribute("data-pulses", re.compile("[1-9]"))
 
 
-def test_it_says_that_there_is_no_unit_and_shows_nothing_that_would_act_on_one(alone):
-    expect(alone.locator("#state")).to_contain_text("no unit")
-    for place in ("#send", "#connect", "#resume", "#live", "#answers"):
-        expect(alone.locator(place)).to_be_hidden()
+def test_a_text_that_is_no_program_any_more_is_refused_as_the_service_refuses_it(alone):
+    text = "F1 R\n" * (TEXT_MAX // 5 + 1)
+    body = {"programs": {"1": text}, "inputs": [], "seconds": 60, "points": 2000}
+    orders: list[dict[str, Any]] = [
+        {"kind": "check", "text": text},
+        {"kind": "curve", "request": body},
+    ]
+    told = alone.evaluate(
+        WORK.replace("told.push(data)", "told.push(data.trouble ?? data.answer.error)"),
+        [[{**order, "id": number} for number, order in enumerate(orders)]],
+    )
+
+    assert told == [f"the text is too long; {TEXT_MAX} characters are the most"] * 2
 
 
-def test_stop_is_there_and_never_says_that_anything_was_stopped(alone):
-    expect(alone.locator("#stop")).to_be_visible()
+def test_a_program_is_sent_runs_and_is_stored(alone):
+    write(alone, "\\ C100 S100 V2000 A4000 F300 R")
+    alone.locator("#send").click()
+    expect(alone.locator("#position-1")).to_have_text("300")
+    expect(alone.locator("#state-1")).to_contain_text("rests")
+    expect(alone.locator("#log .log-item").first).to_contain_text("sent and accepted")
+
+    for message, words in (
+        ("store", "commands stored: 6"),
+        ("program", "C100S100V2000A4000F300R"),
+        ("position", "motor 1: 300"),
+        ("version", "version 01.01"),
+        ("table", "no move in progress"),
+        ("progress", "command number"),
+    ):
+        alone.locator("#message").select_option(message)
+        alone.locator("#send").click()
+        expect(alone.locator("#log .log-item").first).to_contain_text(words)
+
+
+def test_all_programs_start_together_and_escape_stops_them_until_resume(alone):
+    for motor in (1, 2):
+        alone.locator(f"#tab-{motor}").click()
+        write(alone, "\\ C100 S500 V500 A1000 F100000 R")
+    alone.locator("#together").check()
+    alone.locator("#send-all").click()
+    expect(alone.locator("#log .log-item").first).to_contain_text("started together")
+    for motor in (1, 2):
+        expect(alone.locator(f"#state-{motor}")).to_contain_text("moves")
+
     alone.keyboard.press("Escape")
 
-    expect(alone.locator("#alarm")).to_have_attribute("data-kind", "failed")
-    expect(alone.locator("#alarm")).to_contain_text("emergency stop")
+    expect(alone.locator("#alarm")).to_have_attribute("data-kind", "done")
+    expect(alone.locator("#state-2")).to_have_text("stopped by K")
+    assert alone.locator("#position-1").inner_text() == alone.locator("#position-2").inner_text()
+    alone.locator("#resume").click()
+    expect(alone.locator("#state-1")).to_contain_text("moves")
 
 
-def test_a_browser_without_webassembly_is_told_in_plain_words(context, written):
+def test_an_error_is_shown_in_the_program_and_nothing_is_sent(alone):
+    write(alone, "F1 R\nV20000")
+    alone.locator("#send").click()
+
+    expect(alone.locator("#log .log-item").first).to_contain_text("found 20000")
+    expect(alone.locator("#position-1")).to_have_text("0")
+
+
+def test_an_input_is_clicked(alone):
+    write(alone, "\\ C100 O3 F7 R")
+    alone.locator("#send").click()
+    expect(alone.locator("#state-1")).to_have_text("waits for input 3 = 1")
+    third = alone.locator("#live-inputs .lamp").nth(2)
+    expect(third).to_be_enabled()
+
+    third.click()
+
+    expect(third).to_have_attribute("data-level", "1")
+    expect(alone.locator("#position-1")).to_have_text("7")
+
+
+def test_the_unit_keeps_real_time_with_four_motors_at_16000_steps_per_s(alone):
+    fast = "\\ C100 S2000 V16000 A60000 F16000000 R"
+    texts = {str(motor): fast for motor in range(1, 5)}
+    order = {"type": "request", "id": 1, "message": "send_all", "motor": 0, "texts": texts}
+    told = alone.evaluate(UNIT, [[order], REAL_TIME_SECONDS])
+
+    lives = [one for one in told if one["type"] == "live" and one["time_s"] > 1]
+    first, last = lives[0], lives[-1]
+    passed = last["time_s"] - first["time_s"]
+    print(f"load {last['unit']['clock']['load']:.3f}")
+    assert passed == pytest.approx(last["at_s"] - first["at_s"], abs=0.5)
+    for before, after in zip(first["motors"], last["motors"], strict=True):
+        assert after["position"] - before["position"] == pytest.approx(16_000 * passed, abs=2)
+    assert last["unit"]["late_steps"] == 0
+    assert last["unit"]["clock"]["stood_s"] == 0
+    assert last["unit"]["clock"]["load"] <= LOAD_MAX
+
+
+def test_what_was_asked_long_ago_is_not_done_but_a_stop_is(alone):
+    beat = -1
+    told = alone.evaluate(
+        UNIT,
+        [
+            [
+                {
+                    "type": "request",
+                    "id": 1,
+                    "message": "send",
+                    "motor": 1,
+                    "text": "F9 R",
+                    "beat": beat,
+                },
+                {"type": "input", "input": 3, "level": 1, "beat": beat},
+                {"type": "stop", "id": 2, "nodes": [], "beat": beat},
+            ],
+            0.5,
+        ],
+    )
+
+    answers_ = [one for one in told if one["type"] == "answer"]
+    assert [(one["message"], (one["error"] or {}).get("kind")) for one in answers_] == [
+        ("send", "Late"),
+        ("stop", None),
+    ]
+    last = [one for one in told if one["type"] == "live"][-1]
+    assert last["motors"][0]["position"] == 0
+    assert last["inputs"] == [0] * 8
+
+
+def test_axe_finds_nothing_serious_and_nothing_lies_over_something_else(alone):
+    alone.evaluate(AXE.read_text())
+    for width, height in (SIZES[0], SIZES[-1]):
+        alone.set_viewport_size({"width": width, "height": height})
+        assert alone.evaluate(VIOLATIONS) == [], width
+        for finds in (OUTSIDE, OVER, CUT):
+            assert alone.evaluate(finds) == [], width
+
+
+def test_without_webassembly_there_is_no_unit_and_stop_confirms_nothing(context, written):
     page = context.new_page()
     page.add_init_script("delete globalThis.WebAssembly")
     page.goto(written.as_uri())
     write(page, "F1 R")
 
     expect(page.locator("#verdict")).to_contain_text("has no WebAssembly")
+    expect(page.locator("#state")).to_contain_text("no unit")
+    for place in ("#send", "#connect", "#resume", "#live", "#answers"):
+        expect(page.locator(place)).to_be_hidden()
+    page.keyboard.press("Escape")
+    expect(page.locator("#alarm")).to_have_attribute("data-kind", "failed")
+    expect(page.locator("#alarm")).to_contain_text("emergency stop")
     page.close()
+
+
+def renderers(browser: Browser) -> list[int]:
+    told = browser.new_browser_cdp_session().send("SystemInfo.getProcessInfo")
+    return [one["id"] for one in told["processInfo"] if one["type"] == "renderer"]
+
+
+def test_a_page_that_slept_says_that_the_time_of_the_unit_stood(alone, browser):
+    write(alone, "\\ C100 S1000 V1000 A1000 F1000000 R")
+    alone.locator("#send").click()
+    expect(alone.locator("#state-1")).to_contain_text("moves")
+    asleep = renderers(browser)
+    before = steps(alone)
+    for process in asleep:
+        os.kill(process, signal.SIGSTOP)
+    time.sleep(ASLEEP_SECONDS)
+    for process in asleep:
+        os.kill(process, signal.SIGCONT)
+
+    expect(alone.locator("#live-facts")).to_contain_text("time stood for")
+    assert steps(alone) < before + 1000 * ASLEEP_SECONDS
+    expect(alone.locator("#state-1")).to_contain_text("moves")

@@ -284,7 +284,7 @@ def _add_service(commands: Commands) -> None:
     command.add_argument(
         "--static", metavar="DIR",
         help="write the page into a folder instead, as one file that checks and simulates programs "
-        "by itself, without a service and so without a unit",
+        "by itself and has a virtual unit, but no line to real ones",
     )  # fmt: skip
 
 

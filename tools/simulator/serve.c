@@ -39,9 +39,6 @@ enum {
 /* So long units may run before clients are looked at again. */
 #define BUSY_NS UINT64_C(5000000)
 
-/* Real time by which they may be late. */
-#define LAG_MS_MAX UINT64_C(1000)
-
 /* So much they run at a time. */
 #define SLICE_TICKS ((uint64_t)TICKS_PER_MS)
 
@@ -127,7 +124,7 @@ static void follow_clock(struct serve *serve)
         uint64_t left = target - serve->units.now;
         serve_units_run(&serve->units, serve->units.now + (left < SLICE_TICKS ? left : SLICE_TICKS));
     }
-    uint64_t lag_max = (uint64_t)serve->clock.milli_speed * LAG_MS_MAX * TICKS_PER_MS / 1000U;
+    uint64_t lag_max = (uint64_t)serve->clock.milli_speed * SERVE_LAG_MS_MAX * TICKS_PER_MS / 1000U;
     if (serve->units.now < target && target - serve->units.now > lag_max) {
         serve_clock_set(&serve->clock, begin_ns, serve->units.now);
     }

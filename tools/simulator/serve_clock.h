@@ -12,6 +12,9 @@ enum {
     SERVE_MILLI_SPEED_MAX = 1000000
 };
 
+/* Real time by which units may be late; if they are later, the clock goes on from where they are. */
+#define SERVE_LAG_MS_MAX UINT64_C(1000)
+
 struct serve_clock {
     uint64_t base_ns;     /* real time, and ... */
     uint64_t base_tick;   /* ... the tick that it was then */

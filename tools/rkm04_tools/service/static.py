@@ -1,4 +1,4 @@
-"""`service --static`: the page as one file that needs no service, with the simulator in it."""
+"""`service --static`: the page as one file that needs no service, with a unit in it."""
 
 from __future__ import annotations
 
@@ -11,22 +11,23 @@ from pathlib import Path
 from rkm04_tools import host
 from rkm04_tools.failure import DONE, Failure
 from rkm04_tools.service.checking import examples
+from rkm04_tools.status import CAUSES, ERRORS, LINE_COUNTS
 
-PROGRAM = "bin/rkm04-host.wasm"
+PROGRAM, UNIT = "bin/rkm04-host.wasm", "bin/rkm04-unit.wasm"
 NAME = "index.html"
 
 
 def write(folder: Path) -> int:
     """Write the page into a folder, which is made if need be."""
     build = host.program_path().parents[2]
-    page, program = build / "service", build / "wasm" / PROGRAM
-    for needed in (page / "engine.js", program):
+    page, wasm = build / "service", build / "wasm"
+    for needed in (page / "engine.js", wasm / PROGRAM, wasm / UNIT):
         if not needed.is_file():
             raise Failure(f"{needed}: not built; start the command as tools/rkm04, which builds it")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         place, part = folder / NAME, folder / f"{NAME}.part"
-        part.write_text(_whole(page, program.read_bytes()), encoding="utf-8")
+        part.write_text(_whole(page, wasm), encoding="utf-8")
         part.replace(place)
     except OSError as error:
         with contextlib.suppress(OSError):
@@ -37,10 +38,12 @@ def write(folder: Path) -> int:
     return DONE
 
 
-def _whole(page: Path, program: bytes) -> str:
+def _whole(page: Path, wasm: Path) -> str:
     """The page with all that it refers to; what it brings along it finds under `alone`."""
     brought = {
-        "program": base64.b64encode(program).decode("ascii"),
+        "program": base64.b64encode((wasm / PROGRAM).read_bytes()).decode("ascii"),
+        "unit": base64.b64encode((wasm / UNIT).read_bytes()).decode("ascii"),
+        "names": {"causes": CAUSES, "errors": ERRORS, "line": list(LINE_COUNTS)},
         "worker": (page / "engine.js").read_text(encoding="utf-8"),
         "examples": examples(),
     }

@@ -129,7 +129,7 @@ export class Connection {
         const state = this.#state;
         const isOpen = this.#link.isOpen.value;
         const isFresh = this.#presence.isFresh.value;
-        const isBad = (!isOpen && engine === null) || (state?.error && !state.connected);
+        const isBad = (!isOpen && engine?.hasUnit !== false) || (state?.error && !state.connected);
         this.#pill.dataset.kind = isFresh ? "good" : isBad ? "bad" : "idle";
         const [place, ...more] = this.#stateText(isOpen, isFresh);
         this.#pill.replaceChildren(
@@ -151,11 +151,9 @@ export class Connection {
     }
 
     #troubleText(isOpen: boolean): string {
-        if (engine !== null) {
-            return "";
-        }
         if (!isOpen) {
-            return t("state.lost");
+            const isExpected = engine === null || (engine.hasUnit && this.#link.client !== null);
+            return isExpected ? t(engine === null ? "state.lost" : "alone.lost") : "";
         }
         const trouble = this.#state?.error ? troubleText(this.#state.error) : "";
         return this.#state?.away ? `${trouble}. ${t("state.comesBack")}` : trouble;
@@ -164,11 +162,11 @@ export class Connection {
     /** The place first, which gives way where there is no room for it. */
     #stateText(isOpen: boolean, isFresh: boolean): string[] {
         const state = this.#state;
-        if (engine !== null) {
-            return [t("alone.state")];
+        if (engine?.hasUnit === false) {
+            return [t("alone.noUnit")];
         }
         if (!isOpen) {
-            return [t("state.noService")];
+            return [t(engine === null ? "state.noService" : "alone.away")];
         }
         const port = state?.virtual ? t("port.virtualShort") : (state?.port ?? "");
         const seconds = this.#presence.seconds.value;
@@ -181,7 +179,7 @@ export class Connection {
         }
         const version = state.unit ? state.unit.version : "";
         const busy = state.busy ? t("state.busy") : "";
-        const place = t("state.connected", { port, node: state.node });
+        const place = engine === null ? t("state.connected", { port, node: state.node }) : t("alone.state");
         return [place, ...[isFresh ? version : seen, busy].filter((part) => part !== "")];
     }
 }

@@ -38,7 +38,16 @@ export const cs: Dictionary = {
         + "Stránka se znovu spojí sama; pokud ne, spusťte tools/rkm04 service.",
     "state.notSent": "Neodesláno: servisní program neodpovídá",
 
-    "alone.state": "bez jednotky: jen programy",
+    "alone.state": "virtuální jednotka v této stránce",
+    "alone.away": "virtuální jednotka nedostupná",
+    "alone.noUnit": "bez jednotky: jen programy",
+    "alone.lost":
+        "Virtuální jednotka v této stránce neodpovídá. Co teď stisknete, se neodešle a nestane se ani později. "
+        + "Pokud se jednotka nevrátí, načtěte stránku znovu.",
+    "alone.notSent": "Neodesláno: virtuální jednotka neodpovídá",
+    "alone.hint":
+        "Jednotka je v této stránce: nehýbe žádným strojem a po novém načtení stránky začíná znovu, bez uložených "
+        + "programů. Když stránka nebo počítač spí, její čas stojí. Pro skutečné jednotky: tools/rkm04 service.",
     "alone.noWebAssembly":
         "Tento prohlížeč nemá WebAssembly, které zde kontroluje a simuluje. Použijte jiný, nebo tools/rkm04 service.",
     "alone.failed": "Simulátor v této stránce selhal; načtěte stránku znovu.",
@@ -179,6 +188,8 @@ export const cs: Dictionary = {
     "live.stopped": "zastaven povelem K",
     "live.ended": "zastaven vstupem X",
     "live.failed": "chyba: {error}",
+    "live.clock": "reálný čas, zátěž {percent} %",
+    "live.stood": "čas stál celkem {seconds} s, protože stránka nebo počítač spaly; pokračoval od téhož místa",
     "live.late": "opožděné kroky {count}",
     "live.line": "chyby na lince {faults}, opakování {repeats}",
     "live.lineTitle": "Co jednotka na lince napočítala, jména jsou z firmware/rkm04/docs/line.md",

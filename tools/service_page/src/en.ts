@@ -36,7 +36,16 @@ export const en = {
         + "The page connects again by itself; if it does not, start tools/rkm04 service.",
     "state.notSent": "Not sent: the service program does not answer",
 
-    "alone.state": "no unit: programs only",
+    "alone.state": "virtual unit in this page",
+    "alone.away": "virtual unit not reached",
+    "alone.noUnit": "no unit: programs only",
+    "alone.lost":
+        "The virtual unit in this page does not answer. What is pressed now is not sent, and is not done later. "
+        + "If the unit does not come back, load the page again.",
+    "alone.notSent": "Not sent: the virtual unit does not answer",
+    "alone.hint":
+        "The unit is in this page: it moves no machine, and begins anew, without stored programs, when the page is "
+        + "loaded again. While the page or the computer sleeps its time stands. For real units: tools/rkm04 service.",
     "alone.noWebAssembly":
         "This browser has no WebAssembly, which checks and simulates here. Take one that has it, or tools/rkm04 service.",
     "alone.failed": "The simulator in this page has failed; load the page again.",
@@ -177,6 +186,8 @@ export const en = {
     "live.stopped": "stopped by K",
     "live.ended": "stopped by X",
     "live.failed": "failed: {error}",
+    "live.clock": "real time, load {percent} %",
+    "live.stood": "time stood for {seconds} s in all, as the page or the computer slept; it went on from there",
     "live.late": "late steps {count}",
     "live.line": "faults on the line {faults}, repeats {repeats}",
     "live.lineTitle": "What the unit has counted on the line, by the names of firmware/rkm04/docs/line.md",

@@ -1,11 +1,19 @@
 import type { Order, Told } from "./engine_worker";
 import { t } from "./i18n";
+import type { Bytes } from "./program_host";
+import type { Line } from "./link";
 import type { Curve, CurveRequest, Example, Verdict } from "./protocol";
+import { UnitLine } from "./unit_line";
+import type { StatusNames } from "./unit_messages";
 
 /** What a page brings along that no service serves; tools/rkm04 service --static puts it in. */
 interface Brought {
     /** The program rkm04-host for WebAssembly, base64. */
     program: string;
+    /** The module rkm04-unit, likewise. */
+    unit: string;
+    /** What Get Status tells by number. */
+    names: StatusNames;
     /** The script of the worker. */
     worker: string;
     examples: Example[];
@@ -22,13 +30,23 @@ interface Waiting {
 /** The simulator in a worker, so that the page, and STOP on it, never wait for it. */
 export class Engine {
     readonly examples: Example[];
+    /** Whether the page has a unit of its own. */
+    readonly hasUnit = typeof WebAssembly !== "undefined";
+    readonly #brought: Brought;
     readonly #worker: Worker | null;
+    /** The worker of the unit, which must not wait for checks and curves. */
+    #unit: Worker | null = null;
     readonly #waiting = new Map<number, Waiting>();
     #last_id = 0;
 
     constructor(brought: Brought) {
         this.examples = brought.examples;
-        this.#worker = typeof WebAssembly === "undefined" ? null : this.#begin(brought);
+        this.#brought = brought;
+        this.#worker = this.hasUnit ? begun(brought) : null;
+        if (this.#worker !== null) {
+            this.#worker.onmessage = ({ data }: MessageEvent<Told>) => this.#hear(data);
+            this.#worker.onerror = ({ message }) => this.#lose(message);
+        }
     }
 
     check(text: string): Promise<Verdict> {
@@ -39,14 +57,14 @@ export class Engine {
         return this.#ask((id) => ({ kind: "curve", id, request }));
     }
 
-    #begin({ program, worker }: Brought): Worker {
-        const place = URL.createObjectURL(new Blob([worker], { type: "text/javascript" }));
-        const begun = new Worker(place);
-        begun.onmessage = ({ data }: MessageEvent<Told>) => this.#hear(data);
-        begun.onerror = ({ message }) => this.#lose(message);
-        const bytes = Uint8Array.from(atob(program), (character) => character.charCodeAt(0));
-        begun.postMessage({ kind: "program", bytes } satisfies Order);
-        return begun;
+    /** A line to the unit, which begins with the first one. */
+    line(): Line {
+        if (this.#unit === null) {
+            const { unit, names } = this.#brought;
+            this.#unit = begun(this.#brought);
+            this.#unit.postMessage({ kind: "unit", bytes: decoded(unit), names } satisfies Order);
+        }
+        return new UnitLine(this.#unit);
     }
 
     #ask<T>(order: (id: number) => Order): Promise<T> {
@@ -77,6 +95,18 @@ export class Engine {
         this.#waiting.forEach(({ fail }) => fail(new NoEngine(`${t("alone.failed")} (${message})`)));
         this.#waiting.clear();
     }
+}
+
+function decoded(text: string): Bytes {
+    return Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+}
+
+/** A worker that has the program. */
+function begun({ program, worker }: Brought): Worker {
+    const place = URL.createObjectURL(new Blob([worker], { type: "text/javascript" }));
+    const made = new Worker(place);
+    made.postMessage({ kind: "program", bytes: decoded(program) } satisfies Order);
+    return made;
 }
 
 /** The engine of a page that no service serves; null: there is a service, and it does the work. */

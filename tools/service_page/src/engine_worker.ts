@@ -1,18 +1,28 @@
 import { ProgramHost, type Bytes } from "./program_host";
 import type { CurveRequest } from "./protocol";
 import { Simulator } from "./simulator";
+import type { StatusNames } from "./unit_messages";
+import { UnitRunner } from "./unit_runner";
 
-/** What the page asks the worker for: first the program, then checks and curves, each answered under its number. */
+/**
+ * What the page asks a worker for: first the program, then checks and curves, each answered under its number. Another
+ * worker gets the program and the unit; from then on what they say to each other is text.
+ */
 export type Order =
     | { kind: "program"; bytes: Bytes }
     | { kind: "check"; id: number; text: string }
-    | { kind: "curve"; id: number; request: CurveRequest };
+    | { kind: "curve"; id: number; request: CurveRequest }
+    | { kind: "unit"; bytes: Bytes; names: StatusNames }
+    | string;
 
 export type Told = { id: number; answer: unknown } | { id: number; trouble: string };
 
-let simulator: Simulator | null = null;
+type Question = Extract<Order, { id: number }>;
 
-function obey(order: Exclude<Order, { kind: "program" }>): Told {
+let simulator: Simulator | null = null;
+let unit: UnitRunner | null = null;
+
+function obey(order: Question): Told {
     try {
         if (simulator === null) {
             throw new Error("the simulator is not there");
@@ -25,9 +35,13 @@ function obey(order: Exclude<Order, { kind: "program" }>): Told {
 }
 
 self.addEventListener("message", ({ data }: MessageEvent<Order>) => {
-    if (data.kind === "program") {
+    if (typeof data === "string") {
+        unit?.hear(data);
+    } else if (data.kind === "program") {
         simulator = new Simulator(new ProgramHost(data.bytes));
-    } else {
+    } else if (data.kind !== "unit") {
         self.postMessage(obey(data));
+    } else if (simulator !== null) {
+        unit = new UnitRunner(data.bytes, simulator, data.names, (text) => self.postMessage(text));
     }
 });

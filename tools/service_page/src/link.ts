@@ -10,8 +10,18 @@ const LOOK_MS = 250;
 type Kind = FromService["type"];
 type Of<K extends Kind> = Extract<FromService, { type: K }>;
 
+/** What messages go over: a WebSocket to the service, or what takes its place. */
+export interface Line {
+    onmessage: ((event: MessageEvent) => void) | null;
+    onclose: (() => void) | null;
+    /** Whether it takes messages now. */
+    readonly isReady: boolean;
+    send(text: string): void;
+    close(): void;
+}
+
 /**
- * The WebSocket to the service. It opens itself again when it is lost or falls silent; nothing is queued meanwhile,
+ * The line to the service. It opens itself again when it is lost or falls silent; nothing is queued meanwhile,
  * and opening sends nothing, so that a page which comes back never acts on a unit.
  */
 export class Link {
@@ -21,12 +31,17 @@ export class Link {
     client: number | null = null;
     readonly #handlers = new Map<Kind, ((message: FromService) => void)[]>();
     readonly #onRefused: ((message: ToService) => void)[] = [];
-    #socket: WebSocket | null = null;
+    readonly #connectTo: () => Line;
+    #socket: Line | null = null;
     #heard_ms = 0;
     /** The youngest sign of life: what is sent carries it, and the service refuses what is older than it looks. */
     #beat = 0;
     #retry_ms = FIRST_RETRY_MS;
     #last_id = 0;
+
+    constructor(connectTo: () => Line) {
+        this.#connectTo = connectTo;
+    }
 
     on<K extends Kind>(kind: K, handler: (message: Of<K>) => void): void {
         const handlers = this.#handlers.get(kind) ?? [];
@@ -47,7 +62,7 @@ export class Link {
     /** Sends now or not at all; returns whether it was sent. */
     send(message: ToService): boolean {
         this.#watch();
-        if (!this.isOpen.value || this.#socket?.readyState !== WebSocket.OPEN) {
+        if (!this.isOpen.value || this.#socket?.isReady !== true) {
             this.#onRefused.forEach((handler) => handler(message));
             return false;
         }
@@ -62,7 +77,7 @@ export class Link {
     }
 
     #connect(): void {
-        const socket = new WebSocket(`ws://${location.host}/ws`);
+        const socket = this.#connectTo();
         this.#socket = socket;
         this.#heard_ms = performance.now();
         socket.onmessage = (event) => this.#receive(JSON.parse(String(event.data)) as FromService);

@@ -79,6 +79,17 @@ const CAUSES: Record<string, () => string> = {
     fault: () => t("live.causeFault"),
 };
 
+/** How the unit in a page keeps up with real time. */
+function clockFacts({ clock }: LiveUnit): { words: string; isBad: boolean }[] {
+    if (!clock) {
+        return [];
+    }
+    const percent = Math.ceil(100 * clock.load);
+    const pace = { words: t("live.clock", { percent: numberText(percent) }), isBad: false };
+    const seconds = numberText(Math.round(clock.stood_s));
+    return clock.stood_s === 0 ? [pace] : [{ words: t("live.stood", { seconds }), isBad: true }, pace];
+}
+
 /** What is to be known of a unit beside its motors, the unusual first. */
 export function unitFacts(unit: LiveUnit): { words: string; isBad: boolean }[] {
     const cause = CAUSES[unit.cause]?.() ?? (unit.cause === "power-on" ? "" : unit.cause);
@@ -93,7 +104,7 @@ export function unitFacts(unit: LiveUnit): { words: string; isBad: boolean }[] {
     const late = { words: t("live.late", { count: numberText(unit.late_steps) }), isBad: unit.late_steps > 0 };
     const asFacts = (words: string[], isBad: boolean): { words: string; isBad: boolean }[] =>
         words.filter((each) => each !== "").map((each) => ({ words: each, isBad }));
-    return [...asFacts(bad, true), ...asFacts(plain, false), late];
+    return [...asFacts(bad, true), ...clockFacts(unit), ...asFacts(plain, false), late];
 }
 
 /** Faults of the line that the unit has counted. */

@@ -100,9 +100,10 @@ export class Log {
             ["←", "log.answer", answer.answer_message, answer.answer_bytes],
         ] as const;
         for (const [arrow, label, message, frame] of rows) {
-            if (frame) {
+            if (message || frame) {
                 const name = make("i", { title: t(label), "aria-label": t(label), role: "img" }, arrow);
-                const parts = [this.#code("log.message", message ?? ""), this.#code("log.frame", frame)];
+                const framed = frame ? [this.#code("log.frame", frame)] : [];
+                const parts = [this.#code("log.message", message ?? ""), ...framed];
                 item.append(make("div", { class: "log-bytes" }, name, ...parts));
             }
         }

@@ -12,13 +12,14 @@ import { Presence } from "./presence";
 import { Programs } from "./programs";
 import { ALL_MOTORS } from "./protocol";
 import { Scan } from "./scan";
+import { ServiceLine } from "./service_line";
 import { Stop } from "./stop";
 
 /*
  * Puts the parts together. The parts do not know each other; what one of them needs of another is handed in
  * here. Nothing on this page acts on a unit except what the user presses (stop.ts, commands.ts, connection.ts).
  */
-const link = new Link();
+const link = new Link(() => (engine === null ? new ServiceLine() : engine.line()));
 setUpLanguage(byId("language", HTMLSelectElement));
 
 const plan: Plan = new Plan(() => programs.texts());
@@ -47,7 +48,7 @@ stop.onPress(() => commands.forgetReset());
 link.onRefused((message) => {
     if (message.type !== "ports") {
         const name = message.type === "request" ? message.message : message.type;
-        log.say(name, { cause: t("state.notSent"), next: "" });
+        log.say(name, { cause: t(engine === null ? "state.notSent" : "alone.notSent"), next: "" });
     }
 });
 
@@ -78,9 +79,11 @@ link.isOpen.onChange((isOpen) => {
     }
 });
 plan.programsChanged();
-if (engine === null) {
+if (engine !== null) {
+    document.body.dataset.alone = engine.hasUnit ? "unit" : "programs";
+}
+if (engine === null || engine.hasUnit) {
     link.open();
 } else {
     programs.check();
-    document.body.dataset.alone = "true";
 }

@@ -88,6 +88,8 @@ export interface LiveUnit {
     simulating: boolean;
     late_steps: number;
     line: Record<string, number>;
+    /** Of the unit in a page: for how long its time has stood, and the share of real time that it needs. */
+    clock?: { stood_s: number; load: number };
 }
 
 export interface Live {

@@ -2,6 +2,8 @@ import { ProgramHost, type Bytes } from "./program_host";
 import { MOTORS, type Curve, type CurveRequest, type MotorCurve, type Problem, type Verdict } from "./protocol";
 
 const PROBLEMS_MAX = 100;
+/** Characters: more than 700 commands with comments. */
+export const TEXT_MAX = 200_000;
 /** What a simulation may take; only programs that never wait need more for a minute. */
 const REAL_SECONDS = "0.5";
 /** States in which only a message makes the program go on, in words. */
@@ -13,7 +15,7 @@ const STATES: Record<string, string> = {
     failed: "error",
 };
 
-interface Checked {
+export interface Checked {
     commands: { line: number; column: number; ordinal: number; text: string }[];
     stored: number;
     problems: Problem[];
@@ -42,13 +44,13 @@ export class Simulator {
     }
 
     check(text: string): Verdict {
-        const { problems, more, stored } = this.#check(text);
+        const { problems, more, stored } = this.read(text);
         const told = problems.slice(0, PROBLEMS_MAX);
         return { problems: told, more: problems.length - told.length + more, commands: stored };
     }
 
     curve({ programs, inputs, seconds, points, range }: CurveRequest): Curve {
-        const checked = new Map(Object.entries(programs).map(([motor, text]) => [Number(motor), this.#check(text)]));
+        const checked = new Map(Object.entries(programs).map(([motor, text]) => [Number(motor), this.read(text)]));
         for (const [motor, { problems }] of checked) {
             const first = problems.find(({ severity }) => severity === "error");
             if (first) {
@@ -79,7 +81,11 @@ export class Simulator {
         }
     }
 
-    #check(text: string): Checked {
+    /** All that the parser says of a program. */
+    read(text: string): Checked {
+        if (text.length > TEXT_MAX) {
+            throw new Error(`the text is too long; ${TEXT_MAX} characters are the most`);
+        }
         return JSON.parse(this.#host.run(["check", "-"], new Map(), encode(text))) as Checked;
     }
 }
