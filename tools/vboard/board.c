@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "complain.h"
+#include "timer_capture.h"
 
 #define HZ_BEFORE_RESET 1000000U /* at cycle 0, where the first reset sets another rate */
 
@@ -94,6 +95,7 @@ static void wire_peripherals(struct board *board)
                                                           .rcc = &board->rcc,
                                                           .lsi_hz = options->lsi_hz});
     }
+    timer_capture_init(&board->timer[TIMERS - 1U]);
     board->requests.listener = (struct request_listener){.model = &board->dma, .note = dma_note_request};
     dma_init(&board->dma, (struct dma_wires){.clock = clock,
                                              .report = report,
@@ -239,7 +241,7 @@ static bool connect(struct board *board)
 static bool build_processor(struct board *board)
 {
     uint32_t flash_kb = (uint32_t)board->options->flash_settings.kb;
-    return cpu_open(&board->cpu) && memory_init(&board->memory, board->cpu.engine, flash_kb) &&
+    return cpu_open(&board->cpu) && memory_init(&board->memory, board->cpu.engine, flash_kb, ADC_CALIBRATION) &&
            bus_init(&board->bus, (struct bus_wires){.clock = &board->clock,
                                                     .cpu = &board->cpu,
                                                     .report = &board->report,

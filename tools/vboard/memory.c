@@ -3,8 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "adc.h"
-
 static uint8_t *allocate(uint32_t bytes, uint8_t filling)
 {
     uint8_t *memory = aligned_alloc(MEMORY_PAGE_BYTES, bytes);
@@ -15,14 +13,14 @@ static uint8_t *allocate(uint32_t bytes, uint8_t filling)
     return memory;
 }
 
-static void fill_system_area(struct memory *memory, uint32_t flash_kb)
+static void fill_system_area(struct memory *memory, uint32_t flash_kb, uint16_t calibration)
 {
     static const uint8_t id[12] = "VBOARD-0001";
     memcpy(memory->system + 0xA10, id, sizeof id);       /* RM0090 section 39.1: unique device id */
     memory->system[0xA22] = (uint8_t)(flash_kb & 0xFFU); /* section 39.2 */
     memory->system[0xA23] = (uint8_t)(flash_kb >> 8);
-    memory->system[0xA2A] = (uint8_t)(ADC_CALIBRATION & 0xFF); /* DS8626: VREFIN_CAL */
-    memory->system[0xA2B] = (uint8_t)(ADC_CALIBRATION >> 8);
+    memory->system[0xA2A] = (uint8_t)(calibration & 0xFFU); /* DS8626: VREFIN_CAL */
+    memory->system[0xA2B] = (uint8_t)(calibration >> 8);
 }
 
 static bool map(uc_engine *engine, uint32_t base, uint32_t bytes, uint32_t rights, uint8_t *memory)
@@ -43,7 +41,7 @@ static bool map_all(const struct memory *memory, uc_engine *engine)
            map(engine, MEMORY_SRAM_BASE, MEMORY_SRAM_BYTES, UC_PROT_ALL, memory->sram);
 }
 
-bool memory_init(struct memory *memory, uc_engine *engine, uint32_t flash_kb)
+bool memory_init(struct memory *memory, uc_engine *engine, uint32_t flash_kb, uint16_t calibration)
 {
     memory->flash = allocate(MEMORY_FLASH_BYTES, 0xFF);
     memory->ccm = allocate(MEMORY_CCM_BYTES, MEMORY_UNTOUCHED);
@@ -54,7 +52,7 @@ bool memory_init(struct memory *memory, uc_engine *engine, uint32_t flash_kb)
         memory->options == NULL) {
         return false;
     }
-    fill_system_area(memory, flash_kb);
+    fill_system_area(memory, flash_kb, calibration);
     memory->flash_bytes = flash_kb * 1024U;
     return map_all(memory, engine);
 }

@@ -33,8 +33,9 @@ struct memory {
 /* The RAM holds what it does at power-on. */
 void memory_forget(struct memory *memory);
 
-/* Maps all into the addresses of the processor; the part has 512 or 1024 kB of flash. */
-bool memory_init(struct memory *memory, uc_engine *engine, uint32_t flash_kb);
+/* Maps all into the addresses of the processor; the part has 512 or 1024 kB of flash, and the factory has measured the
+ * internal reference (VREFIN_CAL). */
+bool memory_init(struct memory *memory, uc_engine *engine, uint32_t flash_kb, uint16_t calibration);
 void memory_discard(struct memory *memory);
 
 /* Where `bytes` bytes at an address of a memory are; null if they are not all inside one. */

@@ -1,6 +1,5 @@
 #include "timer.h"
 
-#include "timer_capture.h"
 #include "timer_output.h"
 
 enum {
@@ -129,7 +128,9 @@ void timer_reset(struct timer *timer)
         requests_lower(timer->wires.requests, request_line(timer->wires.number, i));
     }
     timer_set_event(timer);
-    timer_plan_capture(timer);
+    if (timer->wires.number == TIMERS - 1U) { /* TIM5 */
+        clock_set(timer->wires.clock, EVENT_LSI, VTIME_NEVER);
+    }
     timer_update_interrupt(timer);
 }
 
@@ -137,7 +138,4 @@ void timer_init(struct timer *timer, struct timer_wires wires)
 {
     timer->wires = wires;
     clock_attach(wires.clock, (enum event)(EVENT_TIM2 + wires.number), on_event, timer);
-    if (wires.number == TIMERS - 1U) { /* TIM5 */
-        clock_attach(wires.clock, EVENT_LSI, timer_note_lsi, timer);
-    }
 }

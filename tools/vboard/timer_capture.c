@@ -21,11 +21,6 @@ static uint32_t enable_of(const struct timer *timer, unsigned channel)
     return timer->ccer >> 4U * channel & 0xFU;
 }
 
-bool timer_is_captured(const struct timer *timer, unsigned channel)
-{
-    return (mode_of(timer, channel) & 3U) != 0;
-}
-
 static void check_mode(const struct timer *timer, unsigned channel, uint32_t mode)
 {
     bool changes = ((mode ^ mode_of(timer, channel)) & 3U) != 0;
@@ -119,7 +114,7 @@ void timer_take_capture(struct timer *timer, unsigned channel)
     timer_update_interrupt(timer);
 }
 
-void timer_note_lsi(void *model, uint64_t cycle)
+static void on_lsi_event(void *model, uint64_t cycle)
 {
     struct timer *timer = model;
     bool rises = timer->lsi_level;
@@ -128,4 +123,9 @@ void timer_note_lsi(void *model, uint64_t cycle)
         note_edge(timer, CHANNEL_4, rises, cycle);
     }
     plan_next(timer, ps);
+}
+
+void timer_capture_init(struct timer *timer)
+{
+    clock_attach(timer->wires.clock, EVENT_LSI, on_lsi_event, timer);
 }

@@ -15,8 +15,8 @@ enum {
     TIMER_OR_TI4_LSI = 1 << 6
 };
 
-/* Whether a channel is an input (CCxS). */
-bool timer_is_captured(const struct timer *timer, unsigned channel);
+/* Once, for TIM5, after timer_init. */
+void timer_capture_init(struct timer *timer);
 
 /* A write of CCMR or CCER is about to be taken over: ends the run where the manual forbids it, or it is not modelled.
  */
@@ -28,8 +28,5 @@ void timer_plan_capture(struct timer *timer);
 
 /* The program reads the register of a channel that is an input: the flag goes (18.4.5). */
 void timer_take_capture(struct timer *timer, unsigned channel);
-
-/* An edge of the low-speed oscillator, for a struct timer. */
-void timer_note_lsi(void *model, uint64_t cycle);
 
 #endif

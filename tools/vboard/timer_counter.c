@@ -1,7 +1,5 @@
 #include "timer_counter.h"
 
-#include "timer_capture.h"
-
 bool timer_is_wide(const struct timer *timer)
 {
     return timer->wires.number == 0 || timer->wires.number == 3; /* TIM2 and TIM5 have 32 bits */
@@ -16,6 +14,11 @@ uint32_t timer_width_mask(const struct timer *timer)
 bool timer_runs(const struct timer *timer)
 {
     return (timer->cr1 & TIMER_CR1_CEN) != 0 && timer->arr_used != 0;
+}
+
+bool timer_is_captured(const struct timer *timer, unsigned channel)
+{
+    return (timer->ccmr[channel / 2U] >> 8U * (channel % 2U) & 3U) != 0;
 }
 
 uint64_t timer_tick_cycles(const struct timer *timer)

@@ -94,6 +94,9 @@ uint32_t timer_width_mask(const struct timer *timer);
 
 bool timer_runs(const struct timer *timer);
 
+/* Whether a channel is an input (CCxS, section 18.4.7). */
+bool timer_is_captured(const struct timer *timer, unsigned channel);
+
 /* Cycles of HCLK in one tick. */
 uint64_t timer_tick_cycles(const struct timer *timer);
 

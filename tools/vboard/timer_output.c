@@ -1,7 +1,5 @@
 #include "timer_output.h"
 
-#include "timer_capture.h"
-
 enum {
     MODE_FROZEN,
     MODE_ACTIVE,   /* at a match */
