@@ -90,7 +90,7 @@ static uint64_t fall_of(const struct path *path)
     if (path->stopping) {
         return start2;
     }
-    return path_look_jumps(path, path->laid) && start2 > limit ? start2 - limit : 0;
+    return start2 > limit ? start2 - limit : 0;
 }
 
 /* Out of the section in which the plan begins, with the speed and the way that are left. */

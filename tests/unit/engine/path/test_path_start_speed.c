@@ -153,10 +153,12 @@ void test_a_change_below_the_start_speed_falls_at_once_when_it_is_slow_already(v
 
 void test_vectors_that_come_later_are_a_chain_of_their_own(void)
 {
-    (void)rig_add(&rig, 100, 0, 3000, 10000);
+    (void)rig_add(&rig, 50, 0, 3000, 10000);
+    (void)rig_add(&rig, 50, 0, 3000, 10000);
     start(1000);
     (void)pulses(1);
     (void)rig_add(&rig, 100, 0, 3000, 10000);
+    TEST_ASSERT_EQUAL_UINT32(2, rig.path.known);
     TEST_ASSERT_FALSE(path_lags(&rig.path));
     change_at(2000000, false);
     TEST_ASSERT_TRUE(pulses(UINT64_MAX) < 100);
