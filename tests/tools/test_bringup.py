@@ -42,8 +42,8 @@ def pressing() -> str:
 
 
 def answers(*, leave: Sequence[str] = (), until: str = "", no: Sequence[int] = ()) -> str:
-    """What somebody types who goes through it: leaves steps out, says n to some outputs, and is
-    gone before the step `until`."""
+    """What somebody types who goes through it: leaves steps out, has some outputs switched twice
+    and says n then, and is gone before the step `until`."""
     lines = ["y"]
     for step in STEPS:
         if step.name == until:
@@ -53,7 +53,7 @@ def answers(*, leave: Sequence[str] = (), until: str = "", no: Sequence[int] = (
             continue
         inner = ["y"] * INNER.get(step.name, 0)
         for number in no if step.name == "outputs" else ():
-            inner[number - 1] = "n"
+            inner[number - 1] = "r\nn"
         lines += ["", *inner, ""]
     return "\n".join([*lines, ""])
 
@@ -126,7 +126,7 @@ def test_a_good_board_is_gone_through_and_all_is_good(tool, powered, typed, tmp_
     assert seen(report, "start", "last reset")[0] == "brown-out, reset pin, power-on"
     assert seen(report, "clocks", "clock") == ("168 MHz", "good")
     assert seen(report, "clocks", "low-speed oscillator") == ("30000 Hz", "good")
-    assert seen(report, "supply", "supply at the part") == ("3.25 V", "good")
+    assert seen(report, "supply", "supply at the part") == ("3.250 V", "good")
     assert seen(report, "outputs", "BO_8 at PB15") == ("on, alone", "good")
     assert seen(report, "watchdog", "cause of the start") == ("watchdog", "good")
     assert seen(report, "stack guard", "cause of the start") == ("fault", "good")
@@ -148,11 +148,12 @@ def test_what_is_wrong_with_a_board_is_found_and_what_was_not_done_is_told(tool,
     assert (result.status, report["complete"], report["good"]) == (1, False, False)
     assert seen(report, "part", "flash") == ("512 kB", "BAD")
     assert seen(report, "part", "brown-out reset")[1] == "note"
-    assert seen(report, "supply", "supply at the part") == ("3.05 V", "BAD")
+    assert seen(report, "supply", "supply at the part") == ("3.050 V", "BAD")
     assert seen(report, "inputs", "BI_3 at PC2") == ("always 0", "BAD")
     assert seen(report, "inputs", "BI_6 at PC5") == ("always 1", "BAD")
     assert "also 1 then: BI_6" in seen(report, "inputs", "BI_1 at PC0")[0]
     assert seen(report, "outputs", "BO_1 at PB8") == ("not so", "BAD")
+    assert seen(report, "outputs", "BO_2 at PB9") == ("on, alone", "good")
     rows = [row["seen"] for row in step(report, "outputs")["seen"] if "read" in row["what"]]
     assert rows[:3] == ["BO_3", "BO_2, BO_3", "BO_3"]
     assert [step(report, name)["state"] for name in ("LEDs", "directions", "watchdog")] == [

@@ -128,8 +128,8 @@ def look_at_supply(bench: Bench) -> list[Seen]:
     least = int(bench.header.values["BOARD_SUPPLY_MIN_MV"].rstrip("U"))
     millivolts, good = answer.number("supply_mv"), answer.number("detector_good") == 1
     return [
-        compared("supply at the part", f"{millivolts / 1000:.2f} V",
-                 f"{least / 1000:.2f} to {SUPPLY_MAX_MV / 1000:.2f} V",
+        compared("supply at the part", f"{millivolts / 1000:.3f} V",
+                 f"{least / 1000:.3f} to {SUPPLY_MAX_MV / 1000:.3f} V",
                  least <= millivolts <= SUPPLY_MAX_MV),
         compared("voltage detector", "good" if good else "too low", "good", good),
     ]  # fmt: skip

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 
 from rkm04_tools.bringup.findings import Seen, compared, noted
-from rkm04_tools.bringup.person import NO, YES
+from rkm04_tools.bringup.person import AGAIN, NO, YES
 from rkm04_tools.bringup.step import Bench
 from rkm04_tools.bringup.talk import Answer, Refused
 
@@ -48,7 +48,7 @@ def _input(bench: Bench, answer: Answer, number: int) -> Seen:
     level = answer.number("inputs", 16) >> place & 1
     up, down = answer.numbers("rises")[place], answer.numbers("falls")[place]
     beside = [i + 1 for i in range(INPUTS) if answer.numbers("beside", 16)[place] >> i & 1]
-    seen = f"{up} times to 1, {down} to 0, now {level}"
+    seen = f"to 1: {up}, to 0: {down}, now {level}"
     if not up and not down:
         seen = f"always {level}"
     if beside:
@@ -91,14 +91,17 @@ def walk(kind: str) -> Callable[[Bench], list[Seen]]:
 
 
 def _switch(bench: Bench, kind: str, number: int) -> list[Seen]:
+    """Until the person has seen it: the image switches it off after a minute."""
     letter, _, _ = KINDS[kind]
     signal = f"{kind}_{number}"
-    answer = bench.talk.ask(f"{letter}{number}")
     what = _name(bench, signal)
-    bench.person.tell(f"{what} is on, all others are off.")
-    right = bench.person.choose(f"Is it so? {IS_IT_SO}", YES + NO) == YES
+    said = AGAIN
+    while said == AGAIN:
+        answer = bench.talk.ask(f"{letter}{number}")
+        bench.person.tell(f"{what} is on for a minute, all others are off.")
+        said = bench.person.choose(f"Is it so? r: once more, {IS_IT_SO}", YES + NO + AGAIN)
     return [
-        compared(what, "on, alone" if right else "not so", "on, alone", right),
+        compared(what, "on, alone" if said == YES else "not so", "on, alone", said == YES),
         _read_back(answer, kind, number),
     ]
 
