@@ -27,6 +27,29 @@ int f(int a)
     return 0;
 }
 """
+FREED_BY_ANOTHER = """
+#include <stdlib.h>
+static void drop(int *p, int count)
+{
+    for (int i = 0; i < count; i++) {
+        p[i] = 0;
+    }
+    if (count > 1) {
+        p[1] = 1;
+    }
+    free(p);
+}
+
+int f(int count)
+{
+    int *p = malloc(8);
+    if (p == NULL) {
+        return 0;
+    }
+    drop(p, count);
+    return *p;
+}
+"""
 BASELINE: dict[str, Any] = {"rules": {"15.5": {"count": 2, "reason": "because"}}, "left": []}
 
 
@@ -55,14 +78,22 @@ def test_a_flat_switch_counts_once(source):
     assert list(static.complexities([source(SWITCH)])) == []
 
 
-def test_what_clang_tidy_finds_is_found(source):
-    found = list(static.analyse([source(NOTHING_FREED)]))
+@pytest.mark.parametrize("deep", [False, True])
+def test_what_clang_tidy_finds_is_found(source, deep):
+    found = list(static.analyse([source(NOTHING_FREED)], deep))
 
     assert any("[clang-analyzer-unix.Malloc]" in each for each in found), found
 
 
+def test_what_goes_through_another_function_is_found_in_the_deep(source):
+    text = source(FREED_BY_ANOTHER)
+
+    assert list(static.analyse([text], deep=False)) == []
+    assert any("after it is freed" in each for each in static.analyse([text], deep=True))
+
+
 def test_a_file_that_does_not_compile_is_found(source):
-    assert list(static.analyse([source("int f(\n")])) != []
+    assert list(static.analyse([source("int f(\n")], deep=False)) != []
 
 
 def test_what_is_left_is_left_in_its_file_only():

@@ -343,6 +343,7 @@ def long_steps() -> dict[str, Callable[[], Count]]:
         return Count(passed=1) if good else Count(failed=1)
 
     return {
+        "Static analysis across functions": lambda: shown("checks.static", "--deep"),
         "Planted bugs (host, stm32)": lambda: shown("checks.planted"),
         "Mutation (host)": lambda: shown("checks.mutation", "--jobs", "2"),
     }

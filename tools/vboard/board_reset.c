@@ -78,6 +78,24 @@ static void reset_on_ahb1(struct board *board, unsigned bit)
     }
 }
 
+static void reset_on_apb1(struct board *board, unsigned bit)
+{
+    if (bit < TIMERS) {
+        timer_reset(&board->timer[bit]);
+    } else if (bit == 17 || bit == 18) {
+        usart_reset(&board->usart[bit - 16U]);
+    }
+}
+
+static void reset_on_apb2(struct board *board, unsigned bit)
+{
+    if (bit == 4) {
+        usart_reset(&board->usart[0]);
+    } else if (bit == 8) { /* all three converters */
+        adc_reset(&board->adc);
+    }
+}
+
 static void reset_peripheral(struct board *board, uint32_t offset, unsigned bit)
 {
     enum {
@@ -87,14 +105,10 @@ static void reset_peripheral(struct board *board, uint32_t offset, unsigned bit)
     };
     if (offset == AHB1) {
         reset_on_ahb1(board, bit);
-    } else if (offset == APB1 && bit < TIMERS) {
-        timer_reset(&board->timer[bit]);
-    } else if (offset == APB1 && (bit == 17 || bit == 18)) {
-        usart_reset(&board->usart[bit - 16U]);
-    } else if (offset == APB2 && bit == 4) {
-        usart_reset(&board->usart[0]);
-    } else if (offset == APB2 && bit == 8) { /* all three converters */
-        adc_reset(&board->adc);
+    } else if (offset == APB1) {
+        reset_on_apb1(board, bit);
+    } else if (offset == APB2) {
+        reset_on_apb2(board, bit);
     }
 }
 

@@ -52,18 +52,11 @@ void example_unit_take(struct example_unit *unit, char letter)
 {
     bool second = letter >= 'A' && letter <= 'Z';
     struct axis *axis = &unit->axis[second];
-    switch (second ? letter - 'A' + 'a' : letter) {
-    case 'f':
-        run(axis, false);
-        break;
-    case 'b':
-        run(axis, true);
-        break;
-    case 's':
+    char order = (char)(second ? letter - 'A' + 'a' : letter);
+    if (order == 's') {
         (void)axis_stop(axis, AXIS_CAUSE_COMMAND);
-        break;
-    default:
-        break;
+    } else if (order == 'f' || order == 'b') {
+        run(axis, order == 'b');
     }
 }
 
