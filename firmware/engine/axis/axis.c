@@ -195,7 +195,7 @@ void axis_poll(struct axis *axis)
 }
 
 /* Takes the steps that were made off the order; no section is left if that was all. A run without end stays one. */
-static void keep_rest(struct motion_order *order, uint64_t steps_made)
+static void take_off_made(struct motion_order *order, uint64_t steps_made)
 {
     unsigned done = 0;
     if (motion_order_is_endless(order)) {
@@ -219,7 +219,7 @@ bool axis_take_end(struct axis *axis)
     }
     uint64_t made = axis_steps_made(axis);
     hal_trace(axis_end_tick(axis), axis->motor + 1U, HAL_TRACE_DONE, signed_steps(axis, made));
-    keep_rest(&axis->order, made);
+    take_off_made(&axis->order, made);
     return true;
 }
 

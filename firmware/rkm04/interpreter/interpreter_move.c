@@ -59,7 +59,7 @@ static void spend_guards(struct interpreter *interpreter, enum axis_cause cause)
 
 /* K has come: what is left of its move is gone on with after C75. A move that something else had begun to stop before
  * is over. */
-static void keep_rest(struct interpreter *interpreter, enum axis_cause cause)
+static void settle_resume(struct interpreter *interpreter, enum axis_cause cause)
 {
     if (cause != AXIS_CAUSE_PAUSE || !axis_has_rest(interpreter->axis)) {
         interpreter->resume_state = INTERPRETER_RUNNING;
@@ -81,9 +81,9 @@ static void leave_move(struct interpreter *interpreter, enum axis_cause cause, u
     } else if (interpreter->state == INTERPRETER_MOVING) {
         interpreter->state = INTERPRETER_RUNNING;
     } else if (interpreter->state == INTERPRETER_STOPPED) {
-        keep_rest(interpreter, cause);
+        settle_resume(interpreter, cause);
     } else if (interpreter->state == INTERPRETER_RESUMING) {
-        keep_rest(interpreter, cause);
+        settle_resume(interpreter, cause);
         interpreter_continue(interpreter, now_ticks);
     } else if (interpreter->state == INTERPRETER_RESETTING) {
         interpreter->state = INTERPRETER_IDLE;
