@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from alone_page import steps, write, write_alone
 from page_looks import AXE, CUT, OUTSIDE, OVER, SIZES, VIOLATIONS
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 from rkm04_tools.failure import Failure
@@ -22,7 +23,6 @@ from rkm04_tools.service import static
 from rkm04_tools.service.checking import check, examples
 from rkm04_tools.service.curves import Curves, read_wanted
 from rkm04_tools.service.orders import TEXT_MAX
-from wasm_build import build_wasm
 
 GZIPPED_BYTES_MAX = 400_000
 REAL_TIME_SECONDS = 3
@@ -63,14 +63,9 @@ UNIT = """([orders, seconds]) => {
 
 
 @pytest.fixture(scope="module")
-def written(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The page in a folder of its own."""
-    folder = tmp_path_factory.mktemp("alone") / "page"
-    with pytest.MonkeyPatch.context() as patch:
-        host = build_wasm().parents[1] / "host"
-        patch.setenv("RKM04_BUILD", os.environ.get("RKM04_BUILD", str(host)))
-        static.write(folder)
-        yield folder / "index.html"
+    return write_alone(tmp_path_factory.mktemp("alone") / "page")
 
 
 @pytest.fixture(scope="module")
@@ -102,17 +97,6 @@ def answers(page: Page, orders: list[dict[str, Any]]) -> list[Any]:
     told = page.evaluate(WORK, [[{**order, "id": number} for number, order in enumerate(orders)]])
     assert [one["id"] for one in told] == list(range(len(orders)))
     return [one["answer"] for one in told]
-
-
-def write(page: Page, text: str) -> None:
-    page.locator(".cm-content").click()
-    page.keyboard.press("ControlOrMeta+a")
-    page.keyboard.insert_text(text)
-
-
-def steps(page: Page) -> int:
-    """The live position of the first motor."""
-    return int(re.sub(r"\D", "", page.locator("#position-1").inner_text()))
 
 
 def test_it_is_one_file_of_less_than_400_kb_gzipped(written):

@@ -30,13 +30,14 @@ FIRMWARE = ("firmware/**/*.c",)
 HOST = (
     "hal/host/*.c",
     "tools/common/*.c",
+    "tools/master/*.c",
     "tools/simulator/*.c",
     "tools/simulator/wasm/*.c",
     "tools/vboard/*.c",
 )
 ARM = ("hal/stm32/*.c",)
 STAGES = ("firmware/*/", "firmware/*/*/")
-FOLDERS = (*STAGES, "hal/include", "hal/host", "tools/common", "tools/simulator")
+FOLDERS = (*STAGES, "hal/include", "hal/host", "tools/common", "tools/master", "tools/simulator")
 ARM_FOLDERS = (*STAGES, "hal/include", "hal/stm32", f"hal/stm32/boards/{BOARD}")
 ARM_TARGET = ("--target=arm-none-eabi", "-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=soft")
 NEWLIB = "/usr/include/newlib"

@@ -4,6 +4,7 @@ import { language, numberText, t } from "./i18n";
 import type { Link } from "./link";
 import type { Presence } from "./presence";
 import { ALL_MOTORS, type Port, type UnitState } from "./protocol";
+import { hasSerial } from "./serial_ports";
 import { troubleText } from "./trouble";
 
 const VIRTUAL = "virtual";
@@ -18,6 +19,7 @@ export class Connection {
     readonly #port = byId("port", HTMLSelectElement);
     readonly #other = byId("port-other", HTMLInputElement);
     readonly #node = byId("node", HTMLSelectElement);
+    readonly #rate = byId("rate", HTMLSelectElement);
     readonly #button = byId("connect", HTMLButtonElement);
     readonly #pill = byId("state", HTMLElement);
     readonly #banner = byId("banner", HTMLElement);
@@ -32,6 +34,7 @@ export class Connection {
         }
         this.#port.addEventListener("change", () => this.#portChosen());
         this.#node.addEventListener("change", () => this.#showSwitches());
+        document.body.dataset.serial = String(hasSerial);
         byId("ports", HTMLButtonElement).addEventListener("click", () => link.send({ type: "ports" }));
         byId("connection-form", HTMLFormElement).addEventListener("submit", (event) => {
             event.preventDefault();
@@ -71,7 +74,8 @@ export class Connection {
             this.#other.focus();
             return;
         }
-        this.#link.send({ type: "connect", port, node: Number(this.#node.value) });
+        const rate = engine === null ? {} : { rate: Number(this.#rate.value) };
+        this.#link.send({ type: "connect", port, node: Number(this.#node.value), ...rate });
     }
 
     #setPorts(ports: Port[]): void {
@@ -106,7 +110,7 @@ export class Connection {
         this.#port.replaceChildren(
             make("option", { value: VIRTUAL }, t("port.virtual")),
             ...this.#ports.map(({ port, label }) => make("option", { value: port }, label || port)),
-            make("option", { value: OTHER }, t("port.other")),
+            ...(engine === null ? [make("option", { value: OTHER }, t("port.other"))] : []),
         );
         this.#choosePort(chosen || this.#other.value);
     }
@@ -139,7 +143,7 @@ export class Connection {
         this.#button.textContent = t(this.#isWanted ? "connection.disconnect" : "connection.connect");
         this.#button.classList.toggle("primary", !this.#isWanted);
         this.#button.disabled = !isOpen;
-        for (const field of [this.#port, this.#node, this.#other]) {
+        for (const field of [this.#port, this.#node, this.#other, this.#rate]) {
             field.disabled = this.#isWanted;
         }
         const trouble = this.#troubleText(isOpen);
@@ -147,13 +151,15 @@ export class Connection {
             this.#banner.textContent = trouble;
         }
         this.#banner.hidden = trouble === "";
+        document.body.dataset.virtual = String(state?.virtual !== false);
         document.body.dataset.connected = String(isOpen && state?.connected === true);
     }
 
     #troubleText(isOpen: boolean): string {
         if (!isOpen) {
             const isExpected = engine === null || (engine.hasUnit && this.#link.client !== null);
-            return isExpected ? t(engine === null ? "state.lost" : "alone.lost") : "";
+            const words = this.#state?.virtual === false ? "alone.lineLost" : "alone.lost";
+            return isExpected ? t(engine === null ? "state.lost" : words) : "";
         }
         const trouble = this.#state?.error ? troubleText(this.#state.error) : "";
         return this.#state?.away ? `${trouble}. ${t("state.comesBack")}` : trouble;
@@ -179,7 +185,8 @@ export class Connection {
         }
         const version = state.unit ? state.unit.version : "";
         const busy = state.busy ? t("state.busy") : "";
-        const place = engine === null ? t("state.connected", { port, node: state.node }) : t("alone.state");
+        const isHere = engine !== null && state.virtual;
+        const place = isHere ? t("alone.state") : t("state.connected", { port, node: state.node });
         return [place, ...[isFresh ? version : seen, busy].filter((part) => part !== "")];
     }
 }

@@ -9,6 +9,7 @@ export const cs: Dictionary = {
     "stop.key": "klávesa Esc",
     "stop.label": "Zastaví všechny motory všech jednotek. Klávesa: Escape, kdekoli na stránce",
     "stop.notConfirmed": "NEPOTVRZENO: použijte nouzové zastavení",
+    "stop.lost": "STAV NEZNÁMÝ: spojení se přerušilo. ZASTAVENÍ NENÍ POTVRZENO: použijte nouzové zastavení",
     "stop.node": "DNode {node}",
     "stop.nodeOf": "DNode {node} na {port}",
     "stop.confirmed": "STOP je potvrzen: {nodes}",
@@ -18,12 +19,26 @@ export const cs: Dictionary = {
     "connection.other": "Adresa portu, například socket://192.168.1.5:5000",
     "connection.refresh": "Hledat porty znovu",
     "connection.node": "DNode",
+    "connection.rate": "Rychlost, Bd",
     "connection.switch": "Přepínač S1",
     "connection.connect": "Připojit",
     "connection.disconnect": "Odpojit",
     "port.virtual": "vestavěná virtuální jednotka",
     "port.virtualShort": "virtuální jednotka",
     "port.other": "jiný …",
+    "port.choose": "sériový port: prohlížeč se zeptá který …",
+    "serial.none":
+        "Tento prohlížeč nedosáhne na sériové porty, proto je zde jen virtuální jednotka. Pro skutečnou jednotku otevřete "
+        + "stránku v Chrome, Edge nebo Opeře na počítači, ze souboru nebo přes https; nebo použijte tools/rkm04 service.",
+    "serial.notChosen": "nebyl vybrán žádný port ({cause})",
+    "serial.notChosenNext": "stiskněte Připojit a vyberte jej",
+    "serial.notOpened": "{port} nelze otevřít ({cause})",
+    "serial.notOpenedNext":
+        "možná jej má otevřený jiný program nebo jiná stránka: ukončete je a připojte se znovu; jinak zkontrolujte kabel "
+        + "a v Linuxu právo k portu (skupina dialout)",
+    "serial.unplugged": "odpojen",
+    "serial.lost": "spojení přes {port} se přerušilo ({cause}); co jednotka teď dělá, není známo",
+    "serial.lostNext": "zkontrolujte kabel a připojte se znovu; co bylo zadáno mezitím, se nestane ani později",
 
     "state.connected": "{port}, DNode {node}",
     "state.disconnected": "nepřipojeno",
@@ -44,10 +59,13 @@ export const cs: Dictionary = {
     "alone.lost":
         "Virtuální jednotka v této stránce neodpovídá. Co teď stisknete, se neodešle a nestane se ani později. "
         + "Pokud se jednotka nevrátí, načtěte stránku znovu.",
+    "alone.lineLost":
+        "Část této stránky, která mluví s jednotkou, neodpovídá: tato stránka nemůže nic zastavit. Použijte nouzové "
+        + "zastavení stroje, pak načtěte stránku znovu.",
     "alone.notSent": "Neodesláno: virtuální jednotka neodpovídá",
     "alone.hint":
         "Jednotka je v této stránce: nehýbe žádným strojem a po novém načtení stránky začíná znovu, bez uložených "
-        + "programů. Když stránka nebo počítač spí, její čas stojí. Pro skutečné jednotky: tools/rkm04 service.",
+        + "programů. Když stránka nebo počítač spí, její čas stojí.",
     "alone.noWebAssembly":
         "Tento prohlížeč nemá WebAssembly, které zde kontroluje a simuluje. Použijte jiný, nebo tools/rkm04 service.",
     "alone.failed": "Simulátor v této stránce selhal; načtěte stránku znovu.",

@@ -7,6 +7,7 @@ export const en = {
     "stop.key": "Esc key",
     "stop.label": "Stops all motors of all units. Key: Escape, anywhere on the page",
     "stop.notConfirmed": "NOT CONFIRMED: use the emergency stop",
+    "stop.lost": "STATE NOT KNOWN: the line was lost. A STOP IS NOT CONFIRMED: use the emergency stop",
     "stop.node": "node {node}",
     "stop.nodeOf": "node {node} of {port}",
     "stop.confirmed": "STOP is confirmed: {nodes}",
@@ -16,12 +17,26 @@ export const en = {
     "connection.other": "Address of the port, such as socket://192.168.1.5:5000",
     "connection.refresh": "Look for ports again",
     "connection.node": "Node (DNode)",
+    "connection.rate": "Rate, Bd",
     "connection.switch": "Switch S1",
     "connection.connect": "Connect",
     "connection.disconnect": "Disconnect",
     "port.virtual": "built-in virtual unit",
     "port.virtualShort": "virtual unit",
     "port.other": "other …",
+    "port.choose": "serial port: the browser asks which …",
+    "serial.none":
+        "This browser does not reach serial ports, so there is only the virtual unit. For a real unit open this page in "
+        + "Chrome, Edge or Opera on a computer, from a file or over https; or take tools/rkm04 service.",
+    "serial.notChosen": "no port was chosen ({cause})",
+    "serial.notChosenNext": "press Connect, and choose one",
+    "serial.notOpened": "{port} cannot be opened ({cause})",
+    "serial.notOpenedNext":
+        "another program, or another page, may have it open: end that and connect again; if not, check the cable, and "
+        + "on Linux whether you may use the port (group dialout)",
+    "serial.unplugged": "unplugged",
+    "serial.lost": "{port} was lost ({cause}); what the unit does now is not known",
+    "serial.lostNext": "check the cable, then connect again; nothing that was asked for meanwhile is done later",
 
     "state.connected": "{port}, node {node}",
     "state.disconnected": "not connected",
@@ -42,10 +57,13 @@ export const en = {
     "alone.lost":
         "The virtual unit in this page does not answer. What is pressed now is not sent, and is not done later. "
         + "If the unit does not come back, load the page again.",
+    "alone.lineLost":
+        "The part of this page that speaks to the unit does not answer: this page cannot stop anything. Use the "
+        + "emergency stop of the machine, then load the page again.",
     "alone.notSent": "Not sent: the virtual unit does not answer",
     "alone.hint":
         "The unit is in this page: it moves no machine, and begins anew, without stored programs, when the page is "
-        + "loaded again. While the page or the computer sleeps its time stands. For real units: tools/rkm04 service.",
+        + "loaded again. While the page or the computer sleeps its time stands.",
     "alone.noWebAssembly":
         "This browser has no WebAssembly, which checks and simulates here. Take one that has it, or tools/rkm04 service.",
     "alone.failed": "The simulator in this page has failed; load the page again.",

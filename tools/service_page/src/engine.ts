@@ -3,7 +3,8 @@ import { t } from "./i18n";
 import type { Bytes } from "./program_host";
 import type { Line } from "./link";
 import type { Curve, CurveRequest, Example, Verdict } from "./protocol";
-import { UnitLine } from "./unit_line";
+import type { SerialPorts } from "./serial_ports";
+import { UnitLine, portsOf } from "./unit_line";
 import type { StatusNames } from "./unit_messages";
 
 /** What a page brings along that no service serves; tools/rkm04 service --static puts it in. */
@@ -35,7 +36,7 @@ export class Engine {
     readonly #brought: Brought;
     readonly #worker: Worker | null;
     /** The worker of the unit, which must not wait for checks and curves. */
-    #unit: Worker | null = null;
+    #unit: { worker: Worker; ports: SerialPorts } | null = null;
     readonly #waiting = new Map<number, Waiting>();
     #last_id = 0;
 
@@ -61,10 +62,11 @@ export class Engine {
     line(): Line {
         if (this.#unit === null) {
             const { unit, names } = this.#brought;
-            this.#unit = begun(this.#brought);
-            this.#unit.postMessage({ kind: "unit", bytes: decoded(unit), names } satisfies Order);
+            const worker = begun(this.#brought);
+            worker.postMessage({ kind: "unit", bytes: decoded(unit), names } satisfies Order);
+            this.#unit = { worker, ports: portsOf(worker) };
         }
-        return new UnitLine(this.#unit);
+        return new UnitLine(this.#unit.worker, this.#unit.ports);
     }
 
     #ask<T>(order: (id: number) => Order): Promise<T> {

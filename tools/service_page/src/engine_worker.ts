@@ -2,17 +2,18 @@ import { ProgramHost, type Bytes } from "./program_host";
 import type { CurveRequest } from "./protocol";
 import { Simulator } from "./simulator";
 import type { StatusNames } from "./unit_messages";
-import { UnitRunner } from "./unit_runner";
+import { UnitRunner, type PortNews } from "./unit_runner";
 
 /**
  * What the page asks a worker for: first the program, then checks and curves, each answered under its number. Another
- * worker gets the program and the unit; from then on what they say to each other is text.
+ * worker gets the program and the unit; from then on what they say to each other is text, and bytes of a serial port.
  */
 export type Order =
     | { kind: "program"; bytes: Bytes }
     | { kind: "check"; id: number; text: string }
     | { kind: "curve"; id: number; request: CurveRequest }
     | { kind: "unit"; bytes: Bytes; names: StatusNames }
+    | PortNews
     | string;
 
 export type Told = { id: number; answer: unknown } | { id: number; trouble: string };
@@ -39,9 +40,11 @@ self.addEventListener("message", ({ data }: MessageEvent<Order>) => {
         unit?.hear(data);
     } else if (data.kind === "program") {
         simulator = new Simulator(new ProgramHost(data.bytes));
-    } else if (data.kind !== "unit") {
+    } else if (data.kind === "check" || data.kind === "curve") {
         self.postMessage(obey(data));
+    } else if (data.kind !== "unit") {
+        unit?.hearOfPort(data);
     } else if (simulator !== null) {
-        unit = new UnitRunner(data.bytes, simulator, data.names, (text) => self.postMessage(text));
+        unit = new UnitRunner(data.bytes, simulator, data.names, (said) => self.postMessage(said));
     }
 });

@@ -2,6 +2,8 @@
 
 export const MOTORS = [1, 2, 3, 4] as const;
 export const ALL_MOTORS = 0;
+/** What a page says to its worker when it comes or comes back; all else is an object. */
+export const GREETING = "";
 
 export type MessageName =
     | "version" | "send" | "store" | "position" | "program" | "table" | "progress"
@@ -18,7 +20,7 @@ export interface Trouble {
 }
 
 export type ToService =
-    | { type: "connect"; port: string; node: number }
+    | { type: "connect"; port: string; node: number; rate?: number }
     | { type: "disconnect" }
     | { type: "ports" }
     | ({ type: "request"; id: number; message: MessageName; motor: number } & RequestParts)
@@ -57,6 +59,8 @@ export interface UnitState {
     nodes: Node[];
     /** Those that have not confirmed the last stop; null: all have, or there was none. */
     stop: Node[] | null;
+    /** The port was lost while units of it may have moved, and they were not seen since. */
+    lost?: boolean;
     /** Seconds since the unit answered last; null: it never has. */
     seen_ago_s: number | null;
 }

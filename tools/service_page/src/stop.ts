@@ -151,6 +151,7 @@ export class Stop {
 
     #show(): void {
         const isOpen = this.#open !== null || (this.#state?.stop ?? null) !== null;
+        this.#alarm.dataset.lost = String(this.#state?.lost === true);
         const isUnderWay = isOpen && (!this.#isOver || this.#state?.busy === "stop");
         const kind = isUnderWay ? "asked" : isOpen ? "failed" : this.#confirmed.length > 0 ? "done" : "none";
         const words = kind === "none" ? "" : kind === "done" ? this.#doneText() : this.#openText();
@@ -170,7 +171,8 @@ export class Stop {
 
     #openText(): string {
         const nodes = this.#names(this.#outside());
-        return nodes === "" ? t("stop.notConfirmed") : `${t("stop.notConfirmed")} (${nodes})`;
+        const words = t(this.#state?.lost === true ? "stop.lost" : "stop.notConfirmed");
+        return nodes === "" ? words : `${words} (${nodes})`;
     }
 
     #doneText(): string {

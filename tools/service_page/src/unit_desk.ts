@@ -1,130 +1,157 @@
 import type { Bytes } from "./program_host";
-import type { Live, MotorLive, Node, ToService, Trouble, UnitState } from "./protocol";
-import type { Answer, AnswerValues, FromService } from "./protocol";
+import type { Answer, FromService, Node, ToService, Trouble, UnitState } from "./protocol";
 import { ALL_MOTORS } from "./protocol";
+import type { Simulator } from "./simulator";
+import { Beats } from "./unit_beats";
 import * as messages from "./unit_messages";
-import { Refusal, UnitOrders } from "./unit_orders";
-import { Speeds } from "./unit_speeds";
+import { UnitOrders, type Exchange, type Got } from "./unit_orders";
+import { LineTrouble, OPENING, Refusal, USUAL, type Place, type Wait } from "./unit_place";
+import { RESET } from "./unit_plan";
+import { STOP, stopAll } from "./unit_stop";
+import { UnitView } from "./unit_view";
 
-const PORT = "virtual";
-const HERE: Node = { port: PORT, node: 1 };
 const LOOK_MS = 100;
-const BEAT_MS = 500;
-/** What the page asks for with an older sign of life is refused: nobody expects it any more. */
-const LATE_MS = 2000;
-const BEATS_MAX = 64;
-/** From one K to the next, and how long a unit is told to stop that does not. */
-const STOP_AGAIN_MS = 20;
-const STOPPING_MS = 12_000;
+/** From one look to the next while the unit does not answer. */
+const LOOK_AGAIN_MS = 1000;
+/** What has waited longer for its turn is refused. */
+const TURN_MS = 10_000;
 const LOAD_MS = 1000;
 
-const LATE: Trouble = {
-    kind: "Late",
-    cause: "this came too late and was not sent",
-    next: "look at the unit, then ask again",
-};
-const NOT_CONFIRMED: Trouble = {
-    kind: "NotConfirmed",
-    cause: "the stop is not confirmed by node 1",
-    next: "use the emergency stop",
-};
+const LATE = new Refusal("this came too late and was not sent", "look at the unit, then ask again", { kind: "Late" });
+const STOPPED = new Refusal("a stop went ahead of this", "send it again if it is still wanted", { kind: "Stopped" });
+const NOT_CONNECTED = new Refusal("no port is open", "connect first", { kind: "NotConnected" });
+const UNSENT = new Refusal(
+    "the unit was not reached at that time, so this was not sent", "look at the unit, then send it again",
+    { kind: "Unsent" },
+);
 
-/** What runs the unit: the module rkm04-unit. */
-export interface RunningUnit {
-    follow(now_ms: number): boolean;
-    ask(request: Bytes): Bytes;
-    setInput(input: number, level: 0 | 1): void;
-    readonly now_s: number;
-    readonly stood_s: number;
-}
+export type Asked = ToService & { beat?: number; failed?: Trouble };
+type Order = Extract<Asked, { type: "request" | "speed" | "resume" | "reset" | "connect" | "disconnect" }>;
+type StopOrder = Extract<Asked, { type: "stop" }>;
 
-type Asked = ToService & { beat?: number };
-
-interface Stopping {
-    ids: number[];
-    again_ms: number;
-    end_ms: number;
-    request: Bytes;
-    answer: Bytes;
-}
+const keyOf = ({ port, node }: Node): string => `${node} ${port}`;
+const merged = (...nodes: Node[]): Node[] => [...new Map(nodes.map((node) => [keyOf(node), node])).values()];
 
 /**
- * Answers the page as the service does, for the one unit in it. It is called with the time that it is, at least every
- * few milliseconds, and does nothing between two calls.
+ * Answers the page as the service does, for the unit in it or for those on a line. It is called with the time that it
+ * is, at least every few milliseconds. One thing is done at a time, a stop ahead of all others; what cannot be done now
+ * is refused now, so that nothing happens later.
  */
 export class UnitDesk {
-    readonly #unit: RunningUnit;
+    readonly #virtual: Place;
     readonly #orders: UnitOrders;
+    readonly #view: UnitView;
     readonly #tell: (told: FromService) => void;
-    readonly #speeds = new Speeds();
-    readonly #version: { version: string; date: string };
-    readonly #beats = new Map<number, number>();
-    #beat = 0;
-    #beat_due_ms = 0;
+    readonly #close: () => void;
+    readonly #fail: (error: unknown) => void;
+    readonly #beats = new Beats();
+    readonly #heard = new Map<string, { node: Node; at_ms: number }>();
+    #place: Place | null;
+    /** A port that the page has opened. */
+    #offered: Place | null = null;
+    #state: UnitState;
+    /** Units that may have moved when their port was lost, and were not seen since. */
+    #lost: Node[] = [];
+    #queue: { order: Order; since_ms: number }[] = [];
+    #stops: StopOrder[] = [];
+    /** Whether all motors stood or braked at the last look, and nothing was asked for since. */
+    #isStill = false;
+    #isBusy = false;
+    #isStopping = false;
     #look_due_ms = 0;
-    #stopping: Stopping | null = null;
-    #open: Node[] | null = null;
     #busy_ms = 0;
     #load = { since_ms: 0, share: 0 };
+    #asked = 0;
 
-    constructor(unit: RunningUnit, orders: UnitOrders, tell: (told: FromService) => void) {
-        this.#unit = unit;
-        this.#orders = orders;
-        this.#tell = tell;
-        this.#version = messages.version(unit.ask(Uint8Array.of(messages.VERSION)));
+    /** `close` closes the port of the page; `fail` is told of a fault of the desk. */
+    constructor(
+        virtual: Place, simulator: Simulator, names: messages.StatusNames,
+        told: { tell: (told: FromService) => void; close: () => void; fail: (error: unknown) => void },
+    ) {
+        this.#virtual = this.#place = virtual;
+        this.#view = new UnitView(names);
+        this.#tell = told.tell;
+        this.#close = told.close;
+        this.#fail = told.fail;
+        const desk = this;
+        const talk = {
+            ask: (request: Bytes, wait?: Wait, node?: number) => this.#ask(request, wait, node),
+            get session() {
+                return desk.#place?.sessions(desk.#state.node) ?? 0;
+            },
+            get text_bytes_max() {
+                return (desk.#place ?? virtual).text_bytes_max;
+            },
+            forget: (node: number) => this.#place?.forget(node),
+            tell: (done: number, total: number) =>
+                total > 1 && this.#tell({ type: "progress", id: this.#asked, from: 1, value: done / total }),
+        };
+        this.#orders = new UnitOrders(talk, simulator, names);
+        this.#state = {
+            connected: true, port: virtual.port, virtual: true, node: 1, busy: null, error: null, unit: null, away: false,
+            nodes: [], stop: null, seen_ago_s: null,
+        };
     }
 
     /** A page has come, or has come back: it is told what there is to know. */
     greet(now_ms: number): void {
-        this.#newBeat(now_ms);
-        this.#tell({ type: "hello", version: "1", language_default: "en", client: 1, beat: this.#beat });
+        this.#tell({
+            type: "hello", version: "1", language_default: "en", client: 1, beat: this.#beats.next(now_ms),
+        });
         this.#tellState();
         this.#look_due_ms = now_ms;
+        this.#go();
     }
 
-    /** To be called again and again; `spent_ms` is what the unit has needed since the last call. */
+    /** To be called again and again; `spent_ms` is what the unit in the page has needed since the last call. */
     tick(now_ms: number, spent_ms: number): void {
         this.#weigh(now_ms, spent_ms);
-        if (now_ms >= this.#beat_due_ms) {
-            this.#newBeat(now_ms);
-            this.#tell({ type: "beat", beat: this.#beat });
+        if (this.#beats.isDue(now_ms)) {
+            this.#tell({ type: "beat", beat: this.#beats.next(now_ms) });
         }
-        if (this.#stopping !== null && now_ms >= this.#stopping.again_ms) {
-            this.#goOnStopping(this.#stopping, now_ms);
-        }
-        if (now_ms >= this.#look_due_ms) {
-            this.#look_due_ms = now_ms + LOOK_MS;
-            this.#look();
-        }
+        this.#go();
     }
 
-    /** Does what the page asks for; a stop is never too late. */
+    /** Does what the page asks for, now or not at all; a stop is never too late. */
     obey(asked: Asked, now_ms: number): void {
-        const isLate = asked.beat !== undefined && now_ms - (this.#beats.get(asked.beat) ?? -Infinity) > LATE_MS;
         if (asked.type === "stop") {
-            this.#stop(asked.id, now_ms);
+            this.#stops.push(asked);
+            this.#place?.hurry();
+            this.#giveUp(STOPPED);
         } else if (asked.type === "input") {
+            this.#setInput(asked, now_ms);
+        } else if (asked.type !== "ports") {
+            const isLate = asked.type !== "connect" && asked.type !== "disconnect" && this.#beats.isLate(asked.beat, now_ms);
             if (isLate) {
-                this.#tell({ type: "error", error: LATE });
+                this.#refuse(asked, LATE);
             } else {
-                this.#unit.setInput(asked.input, asked.level);
+                this.#queue.push({ order: asked, since_ms: now_ms });
             }
-        } else if (asked.type === "request") {
-            this.#answer(asked.id, asked.message, asked.motor, isLate, () => this.#orders.ask(asked.message, asked));
-        } else if (asked.type === "speed") {
-            this.#answer(asked.id, "speed", asked.motor, isLate, () => this.#orders.speed(asked.motor, asked.value));
-        } else if (asked.type === "resume" || asked.type === "reset") {
-            const text = asked.type === "resume" ? "C75" : "\\";
-            this.#answer(asked.id, asked.type, ALL_MOTORS, isLate, () => this.#orders.act(text));
         }
-        this.#look_due_ms = now_ms;
+        this.#go();
     }
 
-    #newBeat(now_ms: number): void {
-        this.#beat += 1;
-        this.#beats.set(this.#beat, now_ms);
-        this.#beats.delete(this.#beat - BEATS_MAX);
-        this.#beat_due_ms = now_ms + BEAT_MS;
+    /** The page has opened a port, to which it will connect. */
+    offer(place: Place): void {
+        this.#offered = place;
+    }
+
+    /** The port was lost. What its units do now is not known, and where one may move a stop is not confirmed. */
+    lose(place: Place, why: LineTrouble): void {
+        if (this.#place !== place) {
+            return;
+        }
+        const { port, node, nodes } = this.#state;
+        const known = nodes.length > 0 ? merged({ port: port ?? "", node }, ...nodes) : [];
+        this.#lost = this.#isStill && nodes.length === 1 ? this.#lost : merged(...this.#lost, ...known);
+        this.#leave({ error: why.trouble, port });
+        this.#giveUp(UNSENT);
+    }
+
+    #leave(more: Partial<UnitState>): void {
+        this.#place = null;
+        this.#view.begin();
+        this.#change({ connected: false, virtual: false, unit: null, nodes: [], ...more });
     }
 
     #weigh(now_ms: number, spent_ms: number): void {
@@ -136,109 +163,298 @@ export class UnitDesk {
         }
     }
 
-    #tellState(): void {
-        const state: UnitState = {
-            connected: true,
-            port: PORT,
-            virtual: true,
-            node: HERE.node,
-            busy: this.#stopping === null ? null : "stop",
-            error: null,
-            unit: this.#version,
-            away: false,
-            nodes: [HERE],
-            stop: this.#open,
-            seen_ago_s: 0,
-        };
-        this.#tell({ type: "state", ...state });
+    #go(): void {
+        if (!this.#isBusy) {
+            this.#isBusy = true;
+            this.#work().then(() => (this.#isBusy = false), this.#fail);
+        }
     }
 
-    #look(): MotorLive[] {
-        const { inputs, outputs, motors, unit } = this.#orders.status();
-        const now_s = this.#unit.now_s;
-        const speeds = this.#speeds.of(now_s, motors.map(({ position }) => position));
-        const told = motors.map((motor, index) => ({ ...motor, speed: motor.moving ? (speeds[index] ?? null) : 0 }));
-        const clock = { stood_s: this.#unit.stood_s, load: this.#load.share };
-        const live: Live = { node: HERE.node, time_s: now_s, motors: told, inputs, outputs, unit: { ...unit, clock } };
-        this.#tell({ type: "live", ...live });
-        return told;
+    /** Does all that waits, one after the other. */
+    async #work(): Promise<void> {
+        for (;;) {
+            const next = this.#stops.length > 0 ? undefined : this.#queue.shift();
+            if (this.#stops.length > 0) {
+                await this.#stop(this.#stops.splice(0));
+            } else if (next) {
+                await this.#do(next.order, next.since_ms);
+            } else if (this.#place !== null && performance.now() >= this.#look_due_ms) {
+                await this.#look(this.#place);
+            } else {
+                return;
+            }
+        }
     }
 
-    /** K to all motors; it is believed when each of them brakes to stay or has nothing to run. */
-    #stop(id: number, now_ms: number): void {
-        const request = messages.request(messages.SET_COMMAND, ALL_MOTORS, "K");
-        const ids = [...(this.#stopping?.ids ?? []), id];
-        const answer = this.#unit.ask(request);
-        const [again_ms, end_ms] = [now_ms + STOP_AGAIN_MS, now_ms + STOPPING_MS];
-        this.#stopping = { ids, again_ms, end_ms, request, answer };
-        this.#open = [HERE];
-        this.#tellState();
+    async #ask(request: Bytes, wait = USUAL, node = this.#state.node): Promise<Bytes> {
+        const place = this.#place;
+        if (place === null) {
+            throw NOT_CONNECTED;
+        }
+        const isGivenUp = (): boolean => this.#stops.length > 0 && !this.#isStopping;
+        if (isGivenUp()) {
+            throw STOPPED;
+        }
+        try {
+            const answer = await place.ask(node, request, wait);
+            this.#hear(place, node);
+            return answer;
+        } catch (error) {
+            throw error instanceof LineTrouble && error.trouble.kind !== "PortLost" && isGivenUp() ? STOPPED : error;
+        }
     }
 
-    /** A motor that slows down because of `\` does not take K: it is sent again until it does. */
-    #goOnStopping(stopping: Stopping, now_ms: number): void {
-        const isConfirmed = this.#look().every(isStopped);
-        if (!isConfirmed && now_ms < stopping.end_ms) {
-            stopping.answer = this.#unit.ask(stopping.request);
-            stopping.again_ms = now_ms + STOP_AGAIN_MS;
+    #hear(place: Place, number: number): void {
+        const node = { port: place.port, node: number };
+        if (number === 0) {
             return;
         }
-        this.#stopping = null;
-        this.#open = isConfirmed ? null : [HERE];
-        this.#tellState();
-        const got = isConfirmed ? { text: "all motors stop", values: { confirmed: [HERE] } } : NOT_CONFIRMED;
-        for (const id of stopping.ids) {
-            this.#tellAnswer(id, "stop", ALL_MOTORS, got, stopping.request, stopping.answer);
+        this.#heard.set(keyOf(node), { node, at_ms: performance.now() });
+        if (!this.#state.nodes.some((each) => keyOf(each) === keyOf(node))) {
+            this.#change({ nodes: this.#nodesOf(place.port) });
         }
     }
 
-    #answer(id: number, name: string, motor: number, isLate: boolean, work: () => Got): void {
-        this.#orders.forget();
-        const got = isLate ? LATE : tried(work);
-        const { request, answer } = this.#orders.last;
-        this.#tellAnswer(id, name, motor, got, request, answer);
+    /** Those that have answered on a port, the last first. */
+    #nodesOf(port: string): Node[] {
+        const found = [...this.#heard.values()].filter(({ node }) => node.port === port);
+        return found.sort((one, other) => other.at_ms - one.at_ms).map(({ node }) => node);
     }
 
-    #tellAnswer(
-        id: number, message: string, motor: number, got: Got | Trouble, request: Uint8Array, answer: Uint8Array,
-    ): void {
-        const isGood = "text" in got;
+    #change(part: Partial<UnitState>): void {
+        this.#state = { ...this.#state, ...part };
+        this.#tellState();
+    }
+
+    #tellState(): void {
+        const { port, node, stop } = this.#state;
+        const heard = this.#heard.get(keyOf({ port: port ?? "", node }));
+        const seen_ago_s = heard === undefined ? null : (performance.now() - heard.at_ms) / 1000;
+        const lost = this.#lost.length > 0;
+        const open = lost ? merged(...(stop ?? []), ...this.#lost) : stop;
+        this.#tell({ type: "state", ...this.#state, stop: open, lost, seen_ago_s });
+    }
+
+    /** Refuses what waits for the line; whether there is one is another matter. */
+    #giveUp(why: Refusal): void {
+        const isForUnit = ({ order }: { order: Order }): boolean => !("port" in order) && order.type !== "disconnect";
+        const refused = this.#queue.filter(isForUnit);
+        this.#queue = this.#queue.filter((each) => !isForUnit(each));
+        refused.forEach(({ order }) => this.#refuse(order, why));
+    }
+
+    #refuse(order: Order, why: Refusal): void {
+        this.#orders.forget();
+        this.#tellAnswer(order, why, this.#orders.last);
+    }
+
+    async #do(order: Order, since_ms: number): Promise<void> {
+        if (performance.now() - since_ms > TURN_MS) {
+            this.#refuse(order, LATE);
+            return;
+        }
+        this.#orders.forget();
+        this.#asked = "id" in order ? order.id : 0;
+        this.#isStill = false;
+        this.#change({ busy: nameOf(order) });
+        const got = await tried(() => this.#obeyed(order));
+        this.#note(got);
+        if (got instanceof LineTrouble) {
+            this.#giveUp(UNSENT);
+        }
+        this.#change({ busy: null });
+        this.#tellAnswer(order, got, this.#orders.last);
+        this.#look_due_ms = performance.now();
+    }
+
+    async #obeyed(order: Order): Promise<Got> {
+        switch (order.type) {
+            case "request":
+                return this.#orders.ask(order.message, order);
+            case "speed":
+                return this.#orders.speed(order.motor, order.value);
+            case "resume":
+                return this.#orders.act("C75");
+            case "reset":
+                return this.#orders.act(RESET);
+            case "connect":
+                return this.#connect(order);
+            case "disconnect":
+                this.#close();
+                this.#offered = null;
+                this.#leave({ port: null, error: null });
+                return { text: "the port is closed", values: {} };
+        }
+    }
+
+    /** Speaks to the unit of a node, and asks for its version: nothing moves. */
+    async #connect({ port, node, failed }: Extract<Order, { type: "connect" }>): Promise<Got> {
+        const place = [this.#virtual, this.#offered].find((each) => each?.port === port) ?? null;
+        if (failed !== undefined || place === null) {
+            const trouble = failed ?? { kind: "PortMissing", cause: `${port} is not open`, next: "choose a port" };
+            this.#leave({ port, node, error: trouble });
+            throw new Refusal(trouble.cause, trouble.next, trouble);
+        }
+        this.#place = place;
+        this.#view.begin();
+        const stop = this.#state.stop?.length === 0 ? null : this.#state.stop;
+        const nodes = this.#nodesOf(port);
+        this.#change({ connected: true, port, node, virtual: place.isVirtual, unit: null, error: null, nodes, stop });
+        const { text, values } = await this.#orders.version();
+        this.#change({ unit: values });
+        return { text, values };
+    }
+
+    async #look(place: Place): Promise<void> {
+        const started_ms = performance.now();
+        const got = await tried(() => this.#looked(place));
+        const now_ms = performance.now();
+        if (!(got instanceof Refusal)) {
+            this.#look_due_ms = Math.max(started_ms + LOOK_MS, 2 * now_ms - started_ms);
+        } else if (got !== STOPPED && this.#place === place) {
+            this.#look_due_ms = now_ms + LOOK_AGAIN_MS;
+            this.#change({ error: got.trouble });
+        }
+    }
+
+    /** Only asks, whoever has come back. */
+    async #looked(place: Place): Promise<void> {
+        const wasAway = this.#state.unit === null || this.#state.error !== null;
+        if (wasAway) {
+            this.#view.begin();
+            const { version, date } = messages.version(await this.#ask(Uint8Array.of(messages.VERSION), OPENING));
+            this.#change({ unit: { version, date } });
+        }
+        const { node } = this.#state;
+        const ask = (request: Bytes, wait: Wait): Promise<Bytes> => this.#ask(request, wait);
+        const live = await this.#view.look(place, node, this.#load.share, ask);
+        this.#tell({ type: "live", ...live });
+        this.#see({ port: place.port, node });
+        this.#isStill = live.motors.every(messages.isStopped);
+        if (wasAway) {
+            this.#change({ error: null });
+            this.#giveUp(UNSENT);
+        }
+    }
+
+    /** What a node does is known again. */
+    #see(node: Node): void {
+        if (this.#lost.some((each) => keyOf(each) === keyOf(node))) {
+            this.#lost = this.#lost.filter((each) => keyOf(each) !== keyOf(node));
+            this.#tellState();
+        }
+    }
+
+    #note(got: Refusal | unknown): void {
+        if (got instanceof LineTrouble && this.#place !== null) {
+            this.#change({ error: got.trouble });
+        } else if (!(got instanceof Refusal) && this.#state.error !== null && this.#place !== null) {
+            this.#change({ error: null });
+        }
+    }
+
+    /** K to all motors of all units that are known; a stop that is asked for meanwhile is another one. */
+    async #stop(asked: StopOrder[]): Promise<void> {
+        const last: Exchange = { request: STOP, answer: new Uint8Array() };
+        this.#isStopping = true;
+        const got = await tried(() => this.#sendStop(asked.flatMap(({ nodes }) => nodes), last));
+        this.#isStopping = false;
+        this.#note(got);
+        this.#change({ busy: null });
+        asked.forEach((order) => this.#tellAnswer(order, got, last));
+        this.#look_due_ms = performance.now();
+    }
+
+    async #sendStop(named: Node[], last: Exchange): Promise<Got> {
+        const place = this.#place;
+        const { node, nodes, stop } = this.#state;
+        const known = merged(...nodes, ...named, ...(stop ?? []), ...this.#lost);
+        const outside = known.filter(({ port }) => port !== this.#virtual.port && port !== place?.port);
+        if (place === null) {
+            this.#change({ busy: "stop", stop: outside });
+            throw NOT_CONNECTED;
+        }
+        const there = merged(...known.filter(({ port }) => port === place.port), { port: place.port, node });
+        const leave = (left: number[]): void =>
+            this.#change({ stop: [...there.filter((each) => left.includes(each.node)), ...outside] });
+        this.#change({ busy: "stop", stop: [...there, ...outside] });
+        const talk = {
+            ask: (request: Bytes, wait: Wait, to: number) => this.#ask(request, wait, to),
+            isStopped: (from: number, status: Bytes) => this.#isStopped(place, from, status),
+            left: leave,
+        };
+        const { left, answer } = await stopAll(talk, there.map((each) => each.node));
+        last.answer = answer;
+        if (left.length > 0 || outside.length > 0) {
+            const names = left.map((each) => `node ${each}`);
+            names.push(...outside.map((each) => `node ${each.node} of ${each.port}`));
+            throw new Refusal(`the stop is not confirmed by ${names.join(", ")}`, "use the emergency stop", {
+                kind: "NotConfirmed",
+            });
+        }
+        this.#change({ stop: null });
+        return { text: "all motors stop", values: { confirmed: there } };
+    }
+
+    #isStopped(place: Place, node: number, status: Bytes): boolean {
+        const isShown = node === this.#state.node;
+        const view = isShown ? this.#view : new UnitView(this.#view.names);
+        const live = view.show(place, node, status, this.#load.share);
+        if (isShown) {
+            this.#tell({ type: "live", ...live });
+        }
+        this.#see({ port: place.port, node });
+        return live.motors.every(messages.isStopped);
+    }
+
+    #setInput({ input, level, beat }: Extract<Asked, { type: "input" }>, now_ms: number): void {
+        const refusal = this.#beats.isLate(beat, now_ms) ? LATE : this.#place === null ? NOT_CONNECTED : null;
+        try {
+            if (refusal !== null) {
+                throw refusal;
+            }
+            this.#place?.setInput(input, level);
+            this.#look_due_ms = now_ms;
+        } catch (error) {
+            if (!(error instanceof Refusal)) {
+                throw error;
+            }
+            this.#tell({ type: "error", error: error.trouble });
+        }
+    }
+
+    #tellAnswer(order: Order | StopOrder, got: Got | Refusal, { request, answer }: Exchange): void {
+        const isGood = !(got instanceof Refusal);
         const told: Answer = {
-            id,
+            id: "id" in order ? order.id : null,
             from: 1,
-            message,
-            node: HERE.node,
-            motor,
+            message: nameOf(order),
+            node: this.#state.node,
+            motor: "motor" in order ? order.motor : order.type === "connect" || order.type === "disconnect" ? null : ALL_MOTORS,
             request_bytes: null,
             answer_bytes: null,
             request_message: messages.hex(request),
             answer_message: messages.hex(answer),
             text: isGood ? got.text : null,
             values: isGood ? got.values : null,
-            error: isGood ? null : got,
+            error: isGood ? null : got.trouble,
         };
         this.#tell({ type: "answer", ...told });
     }
 }
 
-/** What came of an order: words, and the same as values. */
-export interface Got {
-    text: string;
-    values: AnswerValues;
+function nameOf(order: Order | StopOrder): string {
+    return order.type === "request" ? order.message : order.type;
 }
 
-function tried(work: () => Got): Got | Trouble {
+/** What came of some work; a refusal is an answer, too. */
+async function tried<T>(work: () => Promise<T>): Promise<T | Refusal> {
     try {
-        return work();
+        return await work();
     } catch (error) {
         if (error instanceof Refusal) {
-            return error.trouble;
+            return error;
         }
         throw error;
     }
-}
-
-/** Whether a motor brakes to stay, or stands and has nothing to run. */
-function isStopped({ stopped, failed, ended, moving, running }: MotorLive): boolean {
-    return Boolean(stopped || failed || ended) || !(moving || running);
 }

@@ -1,66 +1,55 @@
 import type { Bytes } from "./program_host";
-import type { AnswerValues, MessageName, RequestParts, Trouble } from "./protocol";
+import type { AnswerValues, FoundUnit, MessageName, RequestParts } from "./protocol";
 import { ALL_MOTORS, MOTORS } from "./protocol";
-import { TEXT_MAX, type Checked, type Simulator } from "./simulator";
+import type { Simulator } from "./simulator";
 import * as messages from "./unit_messages";
+import { LineTrouble, NODES_MAX, Refusal, SCANNING, STORING, type Wait } from "./unit_place";
+import { COMMANDS_MAX, HOLD, RELEASE, RESET, heldBack, planned, type Plan } from "./unit_plan";
 
-const COMMANDS_MAX = 700;
-const RESET = "\\";
-/** What acts only alone in a message. */
-const ALONE = ["K", "C75"];
 const FLAG_OVERFLOW = 3;
 const FLAGS: Record<number, string> = { 1: "the value after", 2: "the command" };
 const STORE_ERRORS: Record<number, string> = {
     1: "the memory reports an error; the old program stays",
     2: "the program is too long for the memory",
 };
+const STAND_MS = 30_000;
+const POLL_MS = 50;
 
-/** It was not done; the trouble is why, and what to do. */
-export class Refusal extends Error {
-    readonly trouble: Trouble;
-
-    constructor(cause: string, next: string, place: Partial<Trouble> = {}) {
-        super(cause);
-        this.trouble = { kind: "Failure", cause, next, ...place };
-    }
-}
-
-interface Got {
+/** What came of an order: words, and the same as values. */
+export interface Got {
     text: string;
     values: AnswerValues;
 }
 
-/** A program without errors as it goes to the unit. */
-interface Plan {
-    text: string;
-    commands: number;
-    resets: boolean;
-    /** The one command that acts only alone in a message, if it is that. */
-    alone: string | null;
-}
-
-interface Exchange {
+export interface Exchange {
     request: Bytes;
     answer: Bytes;
 }
 
 const NOTHING: Exchange = { request: new Uint8Array(), answer: new Uint8Array() };
 
-type Asks = (request: Bytes) => Bytes;
+/** What orders speak through: the unit that the desk is connected to. */
+export interface Talk {
+    ask(request: Bytes, wait?: Wait, node?: number): Promise<Bytes>;
+    /** A unit of another session may be another one. */
+    readonly session: number;
+    readonly text_bytes_max: number;
+    forget(node: number): void;
+    tell(done: number, total: number): void;
+}
 
-/**
- * The orders of a page as messages to its unit. There is no line between them, so a program goes in one message, and
- * the unit's time stands while an order is obeyed.
- */
+export const pause = (ms: number): Promise<void> => new Promise((take) => self.setTimeout(take, ms));
+
+/** The orders of a page as messages to its unit. */
 export class UnitOrders {
     /** The last exchange that was made for an order. */
     last: Exchange = NOTHING;
-    readonly #ask: Asks;
+    readonly #talk: Talk;
     readonly #simulator: Simulator;
     readonly #names: messages.StatusNames;
 
-    constructor(ask: Asks, simulator: Simulator, names: messages.StatusNames) {
-        this.#ask = ask;
+    constructor(talk: Talk, simulator: Simulator, names: messages.StatusNames) {
+        this.#talk = talk;
         this.#simulator = simulator;
         this.#names = names;
     }
@@ -70,10 +59,10 @@ export class UnitOrders {
         this.last = NOTHING;
     }
 
-    ask(message: MessageName, { motor, text, texts, together }: { motor: number } & RequestParts): Got {
+    async ask(message: MessageName, { motor, text, texts, together }: { motor: number } & RequestParts): Promise<Got> {
         switch (message) {
             case "version":
-                return this.#version();
+                return this.version();
             case "send":
                 return this.#send(motor, text ?? "");
             case "send_all":
@@ -83,25 +72,25 @@ export class UnitOrders {
             case "position":
                 return this.#positions(motor);
             case "program":
-                return this.#read(messages.GET_COMMAND, motor, (answer) => ({ text: messages.content(answer), values: {} }));
+                return this.#read(messages.GET_COMMAND, motor, programOf);
             case "table":
                 return this.#read(messages.GET_TABLE, motor, tableOf);
             case "progress":
                 return this.#read(messages.GET_PROGRESS, motor, progressOf);
             case "scan":
-                throw new Refusal("the unit in this page has no line", "there is nobody else to be found");
+                return this.#scan();
         }
     }
 
     /** Resume or reset, all motors. */
-    act(text: string): Got {
-        this.#command(ALL_MOTORS, text);
+    async act(text: string): Promise<Got> {
+        await this.#command(ALL_MOTORS, text);
         return { text: text === RESET ? "reset, the program memory is empty" : "told to go on", values: {} };
     }
 
     /** Changes the speed of those motors that move: to others V would be a command to be stored. */
-    speed(motor: number, value: number): Got {
-        const { motors } = this.status();
+    async speed(motor: number, value: number): Promise<Got> {
+        const { motors } = await this.#status();
         const moving = numbersOf(motor).filter((each) => motors[each - 1]?.moving && motors[each - 1]?.running);
         const words = numbersOf(motor).map((each) =>
             moving.includes(each)
@@ -111,29 +100,32 @@ export class UnitOrders {
         if (moving.length === 0) {
             throw new Refusal(words.join(", "), "a speed is for moves in progress");
         }
-        moving.forEach((each) => this.#command(each, `V${value}`));
+        for (const each of moving) {
+            await this.#command(each, `V${value}`);
+        }
         return { text: words.join(", "), values: { speed: value, motors: moving } };
     }
 
-    /** What the unit is like now; no order, so that it leaves no record. */
-    status(): messages.Status {
-        return messages.status(this.#ask(Uint8Array.of(messages.GET_STATUS)), this.#names);
+    async version(wait?: Wait): Promise<Got & { values: { version: string; date: string } }> {
+        const told = messages.version(await this.#exchange(Uint8Array.of(messages.VERSION), wait));
+        return { text: `version ${told.version} of ${told.date}`, values: told };
     }
 
-    #exchange(request: Bytes): Bytes {
-        const answer = this.#ask(request);
+    async #status(): Promise<messages.Status> {
+        return messages.status(await this.#talk.ask(Uint8Array.of(messages.GET_STATUS)), this.#names);
+    }
+
+    async #exchange(request: Bytes, wait?: Wait): Promise<Bytes> {
+        this.last = { request, answer: NOTHING.answer };
+        const answer = await this.#talk.ask(request, wait);
         this.last = { request, answer };
         return answer;
     }
 
-    #version(): Got {
-        const told = messages.version(this.#exchange(Uint8Array.of(messages.VERSION)));
-        return { text: `version ${told.version} of ${told.date}`, values: told };
-    }
-
     /** Sends a text as one message; returns whether the program memory has overflowed. */
-    #command(motor: number, text: string): boolean {
-        const [flag = 0, character = 0] = this.#exchange(messages.request(messages.SET_COMMAND, motor, text)).subarray(2);
+    async #command(motor: number, text: string): Promise<boolean> {
+        const answer = await this.#exchange(messages.request(messages.SET_COMMAND, motor, text));
+        const [flag = 0, character = 0] = messages.content(answer, messages.SET_COMMAND, motor);
         const what = FLAGS[flag];
         if (what !== undefined) {
             const shown = String.fromCharCode(character);
@@ -142,28 +134,52 @@ export class UnitOrders {
         return flag === FLAG_OVERFLOW;
     }
 
-    #send(motor: number, text: string): Got {
-        const plan = this.#planned(text);
-        this.#requireRoom(motor, plan);
-        const overflow = this.#command(motor, plan.text);
+    async #send(motor: number, text: string): Promise<Got> {
+        const plan = planned(this.#simulator, text, this.#talk.text_bytes_max);
+        await this.#requireRoom(motor, plan);
+        const overflow = await this.#sendTexts(motor, plan, 0, plan.texts.length);
         if (plan.alone !== null) {
             return { text: `${plan.alone} sent`, values: { alone: plan.alone } };
         }
         const lost = overflow ? "; the program memory was full, commands were lost" : "";
-        const values = { commands: plan.commands, messages: 1, overflow, notes: [] };
-        return { text: `${plan.commands} commands in 1 message sent${lost}`, values };
+        const count = plan.texts.length;
+        const values = { commands: plan.commands, messages: count, overflow, notes: [] };
+        return { text: `${plan.commands} commands in ${count} message${count > 1 ? "s" : ""} sent${lost}`, values };
+    }
+
+    /** Sends all texts to one and the same unit; returns whether the program memory has overflowed. */
+    async #sendTexts(motor: number, { texts }: Plan, done: number, total: number): Promise<boolean> {
+        let overflow = false;
+        for (const [index, text] of texts.entries()) {
+            const { session } = this.#talk;
+            this.#talk.tell(done + index, total);
+            overflow = (await this.#command(motor, text)) || overflow;
+            if (index > 0 && session !== this.#talk.session) {
+                throw new LineTrouble("UnitRestarted", "the unit has restarted", "look at it before you send again");
+            }
+        }
+        return overflow;
     }
 
     /** Sends each motor its own program, or nothing if one of them is wrong. */
-    #sendAll(texts: Record<string, string>, together: boolean): Got {
-        const plans = Object.entries(texts).map(([motor, text]) => [Number(motor), this.#plannedOf(motor, text)] as const);
-        plans.forEach(([motor, plan]) => this.#requireRoom(motor, plan));
-        if (together) {
-            this.#requireRest(plans);
-        }
-        let overflow = false;
+    async #sendAll(texts: Record<string, string>, together: boolean): Promise<Got> {
+        const plans = Object.entries(texts).map(
+            ([motor, text]) => [Number(motor), this.#plannedOf(motor, text, together)] as const,
+        );
         for (const [motor, plan] of plans) {
-            overflow = this.#command(motor, plan.text) || overflow;
+            await this.#requireRoom(motor, plan);
+        }
+        if (together) {
+            await this.#requireNoOtherWaits(plans.map(([motor]) => motor));
+        }
+        const total = plans.reduce((sum, [, plan]) => sum + plan.texts.length, 0);
+        let [overflow, done] = [false, 0];
+        for (const [motor, plan] of plans) {
+            overflow = (await this.#sendTexts(motor, plan, done, total)) || overflow;
+            done += plan.texts.length;
+        }
+        if (together) {
+            await this.#start(plans.map(([motor]) => motor));
         }
         const sent = Object.fromEntries(plans.map(([motor, plan]) => [String(motor), plan.commands]));
         const words = plans.map(([motor, plan]) => `motor ${motor}: commands ${plan.commands}`).join(", ");
@@ -171,9 +187,14 @@ export class UnitOrders {
         return { text: `${words}; ${start}`, values: { sent, together, overflow, notes: [] } };
     }
 
-    #plannedOf(motor: string, text: string): Plan {
+    #plannedOf(motor: string, text: string, together: boolean): Plan {
         try {
-            return this.#planned(text);
+            const bytes_max = this.#talk.text_bytes_max;
+            const plan = planned(this.#simulator, text, bytes_max);
+            if (together && plan.plain.length === 0 && !plan.resets) {
+                throw new Refusal("there is no program in it", "send it alone");
+            }
+            return together ? heldBack(plan, bytes_max) : plan;
         } catch (error) {
             if (error instanceof Refusal) {
                 const { cause, next, ...place } = error.trouble;
@@ -184,64 +205,46 @@ export class UnitOrders {
         }
     }
 
-    /** They get their programs at the same tick of the unit; those that stand begin at it, too. */
-    #requireRest(plans: (readonly [number, Plan])[]): void {
-        const { motors } = this.status();
-        for (const [number, { resets }] of plans) {
-            const motor = motors[number - 1];
-            if (motor?.moving || (!resets && !isAtRest(motor))) {
+    /** `]` for all motors would let a motor start that waits after `[` of another program. */
+    async #requireNoOtherWaits(motors: number[]): Promise<void> {
+        for (const each of MOTORS.filter((motor) => !motors.includes(motor))) {
+            const brackets = (await this.#held(each)).filter((command) => command === HOLD || command === RELEASE);
+            if (brackets.at(-1) === HOLD) {
                 throw new Refusal(
-                    `motor ${number} has not come to rest, so the programs cannot start together`,
-                    "nothing was sent to any motor; press STOP and wait until it stands, or send without starting together",
+                    `motor ${each} waits at [ in another program and would start too`,
+                    "nothing was sent to any motor; reset it, or send without starting together",
                 );
             }
         }
     }
 
-    #planned(text: string): Plan {
-        const checked = this.#checked(text);
-        const all = checked.commands.map((command) => command.text);
-        const alone = all.length === 1 && ALONE.includes(all[0] ?? "") ? (all[0] ?? null) : null;
-        const last = all.lastIndexOf(RESET);
-        const sent = all.slice(Math.max(last, 0)).join("");
-        if (alone === null && last < 0 && checked.stored === 0) {
-            throw new Refusal("there is nothing in it to be sent", "write a command");
+    /** Lets all motors start, when none of them slows down any more because of `\`. */
+    async #start(motors: number[]): Promise<void> {
+        const end_ms = performance.now() + STAND_MS;
+        for (const motor of motors) {
+            while (messages.table(await this.#talk.ask(messages.request(messages.GET_TABLE, motor)), motor).length > 0) {
+                if (performance.now() > end_ms) {
+                    const cause = `motor ${motor} still moves, so nothing was started`;
+                    throw new Refusal(cause, "the programs wait for ] to all motors");
+                }
+                await pause(POLL_MS);
+            }
         }
-        if (checked.stored > COMMANDS_MAX) {
-            const cause = `the program has ${checked.stored} commands, and the memory holds ${COMMANDS_MAX}`;
-            throw new Refusal(`${cause}; nothing was sent`, "make it shorter");
-        }
-        if (sent.length > messages.TEXT_BYTES_MAX) {
-            const cause = `the program has ${sent.length} bytes, and the unit in this page takes ${messages.TEXT_BYTES_MAX}`;
-            throw new Refusal(`${cause}; nothing was sent`, "make it shorter");
-        }
-        return { text: sent, commands: checked.stored, resets: last >= 0, alone };
-    }
-
-    #checked(text: string): Checked {
-        if (text.length > TEXT_MAX) {
-            throw new Refusal("text is too long", `${TEXT_MAX} characters are the most`, { kind: "TooLarge" });
-        }
-        const checked = this.#simulator.read(text);
-        const first = checked.problems.find(({ severity }) => severity === "error");
-        if (first) {
-            const { line, column } = first;
-            throw new Refusal(first.message, "correct it, then send again", { line, column });
-        }
-        return checked;
+        await this.#command(ALL_MOTORS, RELEASE);
     }
 
     /** Refuses to overwrite what is in the memory and may not have run. */
-    #requireRoom(motor: number, { text, commands, resets, alone }: Plan): void {
-        if (resets || alone !== null || (commands === 1 && text.startsWith("V"))) {
+    async #requireRoom(motor: number, { texts, commands, plain, resets, alone }: Plan): Promise<void> {
+        if (resets || alone !== null || (commands === 1 && plain[0]?.startsWith("V"))) {
             return;
         }
-        const { motors, unit } = this.status();
+        const { motors, unit } = await this.#status();
         for (const each of numbersOf(motor)) {
-            if (isAtRest(motors[each - 1]) && !unit.memory_locked) {
+            if (messages.isAtRest(motors[each - 1]) && !unit.memory_locked) {
                 continue;
             }
-            const room = Math.max(0, COMMANDS_MAX - this.#held(each));
+            const brackets = texts.length > 1 || texts[0]?.startsWith(HOLD) ? 2 : 0;
+            const room = Math.max(0, COMMANDS_MAX - (await this.#held(each)).length - brackets);
             if (commands > room) {
                 throw new Refusal(
                     `the program has ${commands} commands, and the memory of motor ${each} has room for ${room} more`,
@@ -251,15 +254,20 @@ export class UnitOrders {
         }
     }
 
-    /** How many commands the memory of a motor holds. */
-    #held(motor: number): number {
-        const answer = this.#ask(messages.request(messages.GET_COMMAND, motor));
-        return this.#simulator.read(messages.content(answer)).commands.length;
+    /** The commands in the memory of a motor. */
+    async #held(motor: number): Promise<string[]> {
+        const answer = await this.#talk.ask(messages.request(messages.GET_COMMAND, motor));
+        const text = messages.text(answer, messages.GET_COMMAND, motor);
+        return this.#simulator.read(text).commands.map((command) => command.text);
     }
 
-    #store(motor: number): Got {
-        const stored = Object.fromEntries(numbersOf(motor).map((each) => [String(each), this.#held(each)]));
-        const [error = 0] = this.#exchange(messages.request(messages.STORE_FLASH, motor)).subarray(2);
+    async #store(motor: number): Promise<Got> {
+        const stored: Record<string, number> = {};
+        for (const each of numbersOf(motor)) {
+            stored[each] = (await this.#held(each)).length;
+        }
+        const answer = await this.#exchange(messages.request(messages.STORE_FLASH, motor), STORING);
+        const [error = 0] = messages.content(answer, messages.STORE_FLASH, motor);
         if (error !== 0) {
             const why = STORE_ERRORS[error] ?? "an error that this page does not know";
             throw new Refusal(`the unit could not store the program (error ${error}): ${why}`, "");
@@ -268,16 +276,50 @@ export class UnitOrders {
         return { text: words.join(", "), values: { stored } };
     }
 
-    #positions(motor: number): Got {
-        const found = messages.positions(this.#exchange(messages.request(messages.GET_POSITION, motor)), motor);
+    async #positions(motor: number): Promise<Got> {
+        const answer = await this.#exchange(messages.request(messages.GET_POSITION, motor));
+        const found = messages.positions(answer, motor);
         const words = Object.entries(found).map(([each, position]) => `motor ${each}: ${position}`);
         return { text: words.join(", "), values: { positions: found } };
     }
 
     /** Asks for what only one motor can tell; to a question for all of them the unit answers with a complaint. */
-    #read(message: number, motor: number, read: (answer: Uint8Array) => Got): Got {
-        const answer = this.#exchange(messages.request(message, motor));
-        return motor === ALL_MOTORS ? { text: messages.content(answer).trim(), values: {} } : read(answer);
+    async #read(message: number, motor: number, read: (answer: Uint8Array, motor: number) => Got): Promise<Got> {
+        const answer = await this.#exchange(messages.request(message, motor));
+        return motor === ALL_MOTORS
+            ? { text: messages.text(answer, message, motor).trim(), values: {} }
+            : read(answer, motor);
+    }
+
+    /** Asks all addresses who is there; nothing but Version is sent. */
+    async #scan(): Promise<Got> {
+        const found: FoundUnit[] = [];
+        for (let node = 1; node <= NODES_MAX; node += 1) {
+            this.#talk.tell(node - 1, NODES_MAX);
+            this.#talk.forget(node);
+            const unit = await this.#lookFor(node);
+            if (unit !== null) {
+                found.push(unit);
+            }
+        }
+        const nodes = found.map(({ node }) => node).join(", ");
+        return { text: `units that answer: ${nodes || "none"}`, values: { found } };
+    }
+
+    async #lookFor(node: number): Promise<FoundUnit | null> {
+        try {
+            const answer = await this.#talk.ask(Uint8Array.of(messages.VERSION), SCANNING, node);
+            return { node, ...messages.version(answer), remark: "" };
+        } catch (error) {
+            const kind = error instanceof Refusal ? error.trouble.kind : "";
+            if (kind === "NoAnswer") {
+                return null;
+            }
+            if (kind === "GarbledAnswer" || kind === "WrongAnswer") {
+                return { node, version: null, date: null, remark: "damaged answers: two units with this address?" };
+            }
+            throw error;
+        }
     }
 }
 
@@ -285,18 +327,17 @@ function numbersOf(motor: number): number[] {
     return motor === ALL_MOTORS ? [...MOTORS] : [motor];
 }
 
-/** Whether a motor stands, and all that is stored has run. */
-function isAtRest(motor: messages.Status["motors"][number] | undefined): boolean {
-    return motor !== undefined && !(motor.moving || motor.running || motor.stopped || motor.failed || motor.ended);
+function programOf(answer: Uint8Array, motor: number): Got {
+    return { text: messages.text(answer, messages.GET_COMMAND, motor), values: {} };
 }
 
-function tableOf(answer: Uint8Array): Got {
-    const points = messages.table(answer);
+function tableOf(answer: Uint8Array, motor: number): Got {
+    const points = messages.table(answer, motor);
     const words = points.map(([step, speed]) => `(${step}; ${speed})`).join(" ");
     return { text: words || "no move in progress", values: { points } };
 }
 
-function progressOf(answer: Uint8Array): Got {
-    const told = messages.progress(answer);
+function progressOf(answer: Uint8Array, motor: number): Got {
+    const told = messages.progress(answer, motor);
     return { text: `${told.steps} steps made, command ${told.command}`, values: told };
 }

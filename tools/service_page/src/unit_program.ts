@@ -1,7 +1,9 @@
-import { File, OpenFile, WASI } from "@bjorn3/browser_wasi_shim";
 import type { Bytes } from "./program_host";
+import { instantiated, ns } from "./unit_module";
+import type { Place } from "./unit_place";
+import { TEXT_BYTES_MAX } from "./unit_messages";
 
-/** What the module rkm04-unit exports; see tools/simulator/wasm/paced.h. */
+/** What the module rkm04-unit exports of a unit; see tools/simulator/wasm/paced.h. */
 interface Exports {
     memory: WebAssembly.Memory;
     paced_begin: (real_ns: bigint) => number;
@@ -14,21 +16,20 @@ interface Exports {
     paced_stood_ns: (unit: number) => bigint;
 }
 
-const ns = (ms: number): bigint => BigInt(Math.round(ms * 1e6));
+export const VIRTUAL = "virtual";
+
 const seconds = (time_ns: bigint): number => Number(time_ns) / 1e9;
 
 /** The firmware as a unit that runs: it follows the clock that its owner reads, and answers messages. */
-export class UnitProgram {
+export class UnitProgram implements Place {
+    readonly port = VIRTUAL;
+    readonly isVirtual = true;
+    readonly text_bytes_max = TEXT_BYTES_MAX;
     readonly #exports: Exports;
     readonly #unit: number;
 
     constructor(bytes: Bytes, now_ms: number) {
-        const streams = [0, 1, 2].map(() => new OpenFile(new File([])));
-        const wasi = new WASI(["rkm04-unit"], [], streams);
-        const module = new WebAssembly.Module(bytes);
-        const instance = new WebAssembly.Instance(module, { wasi_snapshot_preview1: wasi.wasiImport });
-        wasi.initialize(instance as Parameters<WASI["initialize"]>[0]);
-        this.#exports = instance.exports as unknown as Exports;
+        this.#exports = instantiated<Exports>(bytes);
         this.#unit = this.#exports.paced_begin(ns(now_ms));
         if (this.#unit === 0) {
             throw new Error("there is not memory enough for the virtual unit");
@@ -40,7 +41,8 @@ export class UnitProgram {
         return this.#exports.paced_follow(this.#unit, ns(now_ms)) !== 0;
     }
 
-    ask(request: Bytes): Bytes {
+    /** The unit's time stands from the request on until its asker waits for something else. */
+    async ask(_: number, request: Bytes): Promise<Bytes> {
         const { memory, paced_request, paced_message, paced_answer } = this.#exports;
         new Uint8Array(memory.buffer, paced_request(this.#unit), request.length).set(request);
         const length = paced_message(this.#unit, request.length);
@@ -51,13 +53,20 @@ export class UnitProgram {
         this.#exports.paced_set_input(this.#unit, input, level);
     }
 
-    /** The unit's time. */
     get now_s(): number {
         return seconds(this.#exports.paced_now_ns(this.#unit));
     }
 
-    /** For how long in all its time has stood. */
     get stood_s(): number {
         return seconds(this.#exports.paced_stood_ns(this.#unit));
     }
+
+    /** There is no line to it, and so nothing of what a line needs. */
+    sessions(): number {
+        return 0;
+    }
+
+    forget(): void {}
+
+    hurry(): void {}
 }

@@ -1,0 +1,83 @@
+// A stand-in for navigator.serial: one USB adapter, whose bytes go to a bridge (serial_bridge.py) over a WebSocket.
+// Tests change it by window.fakeSerial: `busy` lets open() fail, pull() pulls the cable, damage() is a character with a
+// framing error, `opened` are the options that it was opened with.
+(() => {
+    const place = "PLACE";
+
+    class FakePort extends EventTarget {
+        readable = null;
+        writable = null;
+        busy = false;
+        opened = [];
+        #reader = null;
+        #socket = null;
+
+        getInfo() {
+            return { usbVendorId: 0x0403, usbProductId: 0x6001 };
+        }
+
+        async open(options) {
+            this.opened.push(options);
+            if (this.busy) {
+                throw new DOMException("Failed to open serial port.", "NetworkError");
+            }
+            if (this.#socket !== null) {
+                throw new DOMException("The port is already open.", "InvalidStateError");
+            }
+            const socket = new WebSocket(place);
+            socket.binaryType = "arraybuffer";
+            await new Promise((take, fail) => Object.assign(socket, { onopen: take, onerror: fail }));
+            socket.onmessage = ({ data }) => this.#reader?.enqueue(new Uint8Array(data));
+            this.#socket = socket;
+            this.#begin();
+            this.writable = new WritableStream({ write: (data) => socket.send(data) });
+        }
+
+        async close() {
+            if (this.readable?.locked || this.writable?.locked) {
+                throw new TypeError("Cannot close while a stream is locked.");
+            }
+            this.#end();
+        }
+
+        pull() {
+            const reader = this.#reader;
+            this.#end();
+            reader.error(new DOMException("The device has been lost.", "NetworkError"));
+            this.dispatchEvent(new Event("disconnect"));
+        }
+
+        damage() {
+            const reader = this.#reader;
+            this.#begin();
+            reader.error(new DOMException("A framing error was detected.", "FramingError"));
+        }
+
+        #begin() {
+            this.readable = new ReadableStream({ start: (reader) => void (this.#reader = reader) });
+        }
+
+        #end() {
+            this.#socket.close();
+            this.#socket = this.#reader = this.readable = this.writable = null;
+        }
+    }
+
+    const port = new FakePort();
+    let isAllowed = false;
+    window.fakeSerial = port;
+    const serial = {
+        getPorts: async () => (isAllowed ? [port] : []),
+        requestPort: async () => {
+            if (!navigator.userActivation.isActive) {
+                throw new DOMException("Must be handling a user gesture.", "SecurityError");
+            }
+            if (port.refused) {
+                throw new DOMException("No port selected by the user.", "NotFoundError");
+            }
+            isAllowed = true;
+            return port;
+        },
+    };
+    Object.defineProperty(Navigator.prototype, "serial", { get: () => serial, configurable: true });
+})();

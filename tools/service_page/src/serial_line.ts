@@ -1,0 +1,177 @@
+import type { Bytes } from "./program_host";
+import { instantiated, ns } from "./unit_module";
+import { LineTrouble, Refusal, type Place, type Wait } from "./unit_place";
+
+/** What the module rkm04-unit exports of a line; see tools/simulator/wasm/wasm_line.h. */
+interface Exports {
+    memory: WebAssembly.Memory;
+    wasm_line_begin: (chance: number, baud: number) => number;
+    wasm_line_request: (line: number) => number;
+    wasm_line_heard: (line: number) => number;
+    wasm_line_ask: (
+        line: number, node: number, session: number, length: number, patience_ms: number, attempts: number, now: bigint,
+    ) => void;
+    wasm_line_take: (line: number, length: number, now: bigint) => void;
+    wasm_line_poll: (line: number, now: bigint) => number;
+    wasm_line_hurry: (line: number, now: bigint) => void;
+    wasm_line_forget: (line: number, node: number) => void;
+    wasm_line_sessions: (line: number, node: number) => number;
+    wasm_line_out: (line: number) => number;
+    wasm_line_take_out: (line: number) => number;
+    wasm_line_answer: (line: number) => number;
+    wasm_line_answer_length: (line: number) => number;
+}
+
+/** WASM_LINE_HEARD_BYTES */
+const HEARD_BYTES = 4096;
+/** A frame of 1024 bytes, less its envelope: short ones are checked better, and lost less. */
+const TEXT_BYTES_MAX = 1013;
+
+/** enum master_end of tools/master/master.h, from MASTER_WAITS on. */
+const WAITS = 0;
+const ANSWERED = 1;
+const CHECK = "check power, wiring (A, B) and address (switch S1); Scan shows who is there";
+const ENDS: Record<number, (where: string) => LineTrouble> = {
+    2: (where) => new LineTrouble("NoAnswer", `${where} does not answer`, CHECK),
+    3: (where) => new LineTrouble("NoAnswer", `${where} does not answer, only the adapter's echo comes back`, CHECK),
+    4: (where) =>
+        new LineTrouble(
+            "GarbledAnswer",
+            `what comes back from ${where} is damaged`,
+            "do two units have this address (switch S1), are A and B swapped, is the line terminated?",
+        ),
+    5: (where) => restarted(where, "not executed"),
+    6: (where) => restarted(where, "executed before that or not at all"),
+    7: (where) => new LineTrouble("NoAnswer", `${where} was not asked`, "ask again"),
+};
+
+function restarted(where: string, what: string): LineTrouble {
+    const next = "look at the unit before you send it again";
+    return new LineTrouble("UnitRestarted", `${where} has restarted, the request was ${what}`, next);
+}
+
+interface Waiting {
+    node: number;
+    take: (answer: Bytes) => void;
+    fail: (why: Refusal) => void;
+}
+
+/** A line with units: the master of tools/master, and the bytes of a serial port of the page. */
+export class SerialLine implements Place {
+    readonly port: string;
+    readonly isVirtual = false;
+    readonly text_bytes_max = TEXT_BYTES_MAX;
+    readonly stood_s = null;
+    readonly #exports: Exports;
+    readonly #line: number;
+    readonly #write: (data: Bytes) => void;
+    #waiting: Waiting | null = null;
+    #lost: LineTrouble | null = null;
+
+    constructor(bytes: Bytes, port: string, baud: number, write: (data: Bytes) => void) {
+        this.port = port;
+        this.#write = write;
+        this.#exports = instantiated<Exports>(bytes);
+        const chance = crypto.getRandomValues(new Uint32Array(1))[0] ?? 0;
+        this.#line = this.#exports.wasm_line_begin(chance || 1, baud);
+        if (this.#line === 0) {
+            throw new Error("there is not memory enough for the line");
+        }
+    }
+
+    get now_s(): number {
+        return performance.now() / 1000;
+    }
+
+    ask(node: number, request: Bytes, { session, patience_ms, attempts }: Wait): Promise<Bytes> {
+        if (this.#lost !== null) {
+            return Promise.reject(this.#lost);
+        }
+        const { memory, wasm_line_request, wasm_line_ask } = this.#exports;
+        new Uint8Array(memory.buffer, wasm_line_request(this.#line), request.length).set(request);
+        return new Promise((take, fail) => {
+            this.#waiting = { node, take, fail };
+            wasm_line_ask(this.#line, node, Number(session), request.length, patience_ms, attempts, this.#now);
+            this.#goOn();
+        });
+    }
+
+    /** Takes what has come on the port. */
+    hear(data: Bytes): void {
+        for (let at = 0; at < data.length; at += HEARD_BYTES) {
+            const part = data.subarray(at, at + HEARD_BYTES);
+            const { memory, wasm_line_heard, wasm_line_take } = this.#exports;
+            new Uint8Array(memory.buffer, wasm_line_heard(this.#line), part.length).set(part);
+            wasm_line_take(this.#line, part.length, this.#now);
+        }
+        this.#goOn();
+    }
+
+    /** To be called again and again. */
+    tick(): void {
+        if (this.#waiting !== null) {
+            this.#goOn();
+        }
+    }
+
+    /** The port has gone: nothing is sent on it any more. */
+    lose(why: LineTrouble): void {
+        this.#lost = why;
+        this.#settled()?.fail(why);
+    }
+
+    sessions(node: number): number {
+        return this.#exports.wasm_line_sessions(this.#line, node);
+    }
+
+    forget(node: number): void {
+        this.#exports.wasm_line_forget(this.#line, node);
+    }
+
+    hurry(): void {
+        this.#exports.wasm_line_hurry(this.#line, this.#now);
+    }
+
+    setInput(): void {
+        throw new Refusal("the inputs of a real unit are its own", "only the virtual unit's can be clicked");
+    }
+
+    get #now(): bigint {
+        return ns(performance.now());
+    }
+
+    #settled(): Waiting | null {
+        const waiting = this.#waiting;
+        this.#waiting = null;
+        return waiting;
+    }
+
+    #goOn(): void {
+        const { wasm_line_poll, wasm_line_out, wasm_line_take_out } = this.#exports;
+        const end = wasm_line_poll(this.#line, this.#now);
+        const length = wasm_line_take_out(this.#line);
+        if (length > 0) {
+            this.#write(this.#copied(wasm_line_out(this.#line), length));
+        }
+        if (end === ANSWERED) {
+            const { wasm_line_answer, wasm_line_answer_length } = this.#exports;
+            const answer = this.#copied(wasm_line_answer(this.#line), wasm_line_answer_length(this.#line));
+            this.#settled()?.take(answer);
+        } else if (end !== WAITS) {
+            const waiting = this.#settled();
+            waiting?.fail(ended(end, `unit ${waiting.node}`));
+        }
+    }
+
+    #copied(place: number, length: number): Bytes {
+        return new Uint8Array(this.#exports.memory.buffer, place, length).slice();
+    }
+}
+
+function ended(end: number, where: string): LineTrouble {
+    const made = ENDS[end];
+    if (made === undefined) {
+        throw new Error(`the line has ended a request by ${end}`);
+    }
+    return made(where);
+}
