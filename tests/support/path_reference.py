@@ -91,11 +91,11 @@ def border_cap(before: Vector, after: Vector, turn_us: int) -> int:
     return min(*caps, after.border**2, *([] if turn is None else [turn]))
 
 
-def at_once(vector: Vector, square: int, start2: int, brakeable: int) -> int:
+def at_once(vector: Vector, square: int, start2: int, most: int) -> int:
     """The square of the speed after a start or a change, which takes speeds up to S at once."""
     if square > vector.speed**2:
         return vector.speed**2 if square <= start2 else square
-    return max(square, min(vector.speed**2, start2, brakeable))
+    return max(square, min(vector.speed**2, start2, most))
 
 
 @dataclass(frozen=True)
@@ -134,16 +134,18 @@ def forward(vectors: Sequence[Vector], borders: list[int], first: int, before: i
 
 
 def look(
-    vectors: Sequence[Vector], place: Fraction, square: int, limits: Limits
+    vectors: Sequence[Vector], place: Fraction, square: int, limits: Limits, cap: int | None
 ) -> tuple[Ends, list[int]]:
     """Look ahead over vectors, of which the first goes on from a place with the square of a speed.
 
-    That may change at once there, as S allows. Returns the borders, too.
+    That may change at once there, as S allows, but to no more than a cap. Returns the borders, too.
     """
     borders = backward(vectors, limits)
     first = vectors[0]
     way = whole(first.gain * (first.length - place))
-    square = at_once(first, square, limits.start2, first.from_border(borders[0]) + way)
+    brakeable = first.from_border(borders[0]) + way
+    most = brakeable if cap is None else min(brakeable, cap)
+    square = at_once(first, square, limits.start2, most)
     borders[0] = min(borders[0], first.to_border(square + way))
     leave = first.from_border(borders[0])
     if leave + max(0, limits.start2 - first.speed**2) < square - way:
@@ -339,11 +341,10 @@ class Path:
         self.begun, self.begin_tick = self.rest, tick
         self._plan(vector, place, 0, tick << ROOT_BITS, stops=False)
 
-    def start_again(self) -> None:
+    def start_again(self, *, stops: bool = False) -> None:
         """Plan anew from where the stand was last left."""
-        self.rest = self.begun
-        self._cut(*self.rest)
-        self.start(self.begin_tick)
+        self._cut(*self.begun)
+        self._plan(*self.begun, 0, self.begin_tick << ROOT_BITS, stops=stops)
 
     def join(self, vector: int) -> None:
         """Plan anew from the border before a vector, for those that have been added."""
@@ -356,6 +357,10 @@ class Path:
 
     def check(self, vector: int, place: Fraction, tick: int) -> None:
         """Refuse a place that comes before a tick, or a whole step that is not the first one."""
+        if (vector, place) == self.begun:
+            if self.begin_tick < tick:
+                raise AssertionError(f"vector {vector}, step {place}: before {tick}")
+            return
         leg = self._leg_at(vector, place)
         nearly = 1 << ROOT_BITS // 2
         if leg.time_at(place) + nearly < tick << ROOT_BITS:
@@ -376,13 +381,26 @@ class Path:
             return self._change_at_border(vector, time, stops=stops)
         square = whole(at.square_at(place))
         self._cut(vector, place)
-        self._plan(vector, place, square, time, stops=stops)
+        cap = self._turn_cap(vector, place)
+        self._plan(vector, place, square, time, stops=stops, cap=cap)
         return None
 
     def _change_at_border(self, vector: int, time: int, *, stops: bool) -> None:
         square = self._enters[vector + 1]
         self._cut(vector, Fraction(self.vectors[vector].length))
-        self._plan(vector + 1, Fraction(0), square, time, stops=stops)
+        cap = self._turn_cap(vector + 1, Fraction(0))
+        self._plan(vector + 1, Fraction(0), square, time, stops=stops, cap=cap)
+
+    def _turn_cap(self, vector: int, place: Fraction) -> int | None:
+        """How fast a change may make it at once if an axis that turned has yet to make a pulse."""
+        if vector in (0, self.begun[0]):
+            return None
+        before, after = self.vectors[vector - 1 : vector + 1]
+        turned = (e for d, e in zip(before.steps, after.steps, strict=True) if d * e < 0)
+        if all(place * abs(e) >= after.length for e in turned):
+            return None
+        turn = turn_cap(before, after, self.limits.turn_us)
+        return after.from_border(min(after.border**2, turn or 0))
 
     def _leg_at(self, vector: int, place: Fraction) -> Leg:
         legs = [
@@ -399,7 +417,16 @@ class Path:
             kept[-1] = replace(last, x1=min(last.x1, last.place(place)))
         self.legs = kept
 
-    def _plan(self, vector: int, place: Fraction, square: int, time: int, *, stops: bool) -> None:
+    def _plan(
+        self,
+        vector: int,
+        place: Fraction,
+        square: int,
+        time: int,
+        *,
+        stops: bool,
+        cap: int | None = None,
+    ) -> None:
         ahead = self.vectors[vector : self.known]
         self._borders = {}
         self.planned_from = vector
@@ -407,7 +434,7 @@ class Path:
         if stops:
             squares, rests = look_for_rest(ahead, place, square, self.limits)
         else:
-            squares, borders = look(ahead, place, square, self.limits)
+            squares, borders = look(ahead, place, square, self.limits, cap)
             self._borders = dict(enumerate(borders, start=vector + 1))
         self._lay(vector, place, time, squares, stops=stops, rests=rests)
 
@@ -427,6 +454,7 @@ class Path:
             if legs:
                 at, time = whole(legs[-1].x1), legs[-1].end_time
         end = 2 * each.gain * each.length
+        self.rest_time = time
         self.rest = (i + 1, Fraction(0)) if at == end else (i, Fraction(at, 2 * each.gain))
 
     def rest_ticks(self) -> set[int]:
@@ -434,7 +462,7 @@ class Path:
 
         As the firmware's times are a little wrong, that is within 2^-NEARLY_BITS tick.
         """
-        time, nearly = self.legs[-1].end_time, 1 << ROOT_BITS - NEARLY_BITS
+        time, nearly = self.rest_time, 1 << ROOT_BITS - NEARLY_BITS
         return {-((nearly - time) >> ROOT_BITS), -((-nearly - time) >> ROOT_BITS)}
 
     def stretches(self, axis: int) -> Iterator[tuple[Leg, int, int, range]]:

@@ -63,6 +63,7 @@ bool path_start(struct path *path, uint64_t start_tick)
     place.entry.time = (struct wide){.high = start_tick};
     path->stopping = false;
     path->chain = path->end;
+    path_section_of(path, place.section)->turning = 0;
     path_lay_begin(path, &place);
     return true;
 }

@@ -91,7 +91,8 @@ void path_init(struct path *path, struct path_section *ring, uint32_t size, uint
  * after path_init. A path with a start speed S
  *   begins with it, or the speed of its first vector if that is less, as far as the end can be braked to; ends with it,
  *   or the speed of its last vector; and goes on with it after a stop,
- *   takes speeds up to S at once where it is changed, and there falls from S to a speed below at once,
+ *   takes speeds up to S at once where it is changed, no higher than the border allowed as long as an axis that turned
+ *   there has not made its first pulse; and falls from S to a speed below at once,
  *   is stopped when it has braked to S; at once, if it is no faster,
  *   is the vectors that were there when it left the stand: later ones wait for the next start, as a border with a turn
  *   or a low border speed may be slower than the end that was planned.
@@ -121,8 +122,9 @@ struct path_wish {
 };
 
 /* The first whole step of the longest axis that is due at or after the wish, or, in a cruise, a place between steps
- * about then. False if the path comes to rest before. Lays sections up to the wish, goes back over those of the ring at
- * most, and looks at five steps at most. */
+ * about then. Where the path left its stand or was changed last counts as a step, so that what comes together acts
+ * together; not between steps for a stop with an acceleration of its own. False if the path comes to rest before. Lays
+ * sections up to the wish, goes back over those of the ring at most, and looks at five steps at most. */
 bool path_find(struct path *path, const struct path_wish *wish, struct path_place *place);
 
 /* Another speed for a section, from the place on at which the path is changed next, or from the next start on. Nothing

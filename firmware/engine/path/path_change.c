@@ -151,6 +151,23 @@ static bool pass_border(const struct path *path, struct path_place *place)
     return true;
 }
 
+/* Where the path has been planned from, if that is yet to come: it is no later than the first step. Not between two
+ * steps with an acceleration whose grains it may not be a whole number of. */
+static bool find_origin(const struct path *path, const struct path_wish *wish, struct path_place *place)
+{
+    uint64_t rest = 0;
+    const struct path_section *section = path_section_of(path, path->origin.section);
+    uint64_t step = wide_divide(path->origin.entry.place, path_section_grains_per_step(section), &rest);
+    if (!is_due(path->origin.entry.time, wish->tick) || (wish->accel != 0 && rest != 0)) {
+        return false;
+    }
+    *place = (struct path_place){.section = path->origin.section, .accel = wish->accel, .entry = path->origin.entry};
+    if (wish->accel != 0) {
+        place->entry.place = wide_multiply(PATH_GRAINS_PER_ACCEL * wish->accel, step);
+    }
+    return true;
+}
+
 bool path_find(struct path *path, const struct path_wish *wish, struct path_place *place)
 {
     if (path_is_laid(path) && path->laid == path->origin.section) {
@@ -161,6 +178,9 @@ bool path_find(struct path *path, const struct path_wish *wish, struct path_plac
     struct look look = {.course = path_lay_course(path, place->section), .tick = wish->tick};
     if (look.course->legs == 0) {
         return false;
+    }
+    if (find_origin(path, wish, place)) {
+        return true;
     }
     look.leg = leg_at(look.course, wish->tick);
     return find_in(&look, wish->patience_ticks, path_lay_grains(path, place), &place->entry) &&

@@ -1,5 +1,7 @@
 #include "path_look.h"
 
+#include "path_fixed.h"
+
 static uint64_t lower(uint64_t a, uint64_t b)
 {
     return a < b ? a : b;
@@ -67,6 +69,19 @@ static uint32_t look_backward(const struct path *path, bool again)
     return count;
 }
 
+/* What the speed may be raised to at once: where an axis that turned has not made its first pulse, no more than at the
+ * border. */
+static uint64_t jump2_of(const struct path *path)
+{
+    const struct path_section *section = path_section_of(path, path->laid);
+    struct wide way = path_wide_times(path->next.place, section->turning);
+    uint64_t start2 = path_look_start2(path);
+    if (section->turning == 0 || wide_is_at_least(way, path_section_end(section))) {
+        return start2;
+    }
+    return lower(start2, path_section_from_border2(section, section->border2));
+}
+
 /* The speed with which the plan begins: up to the start speed at once, as far as the end can be braked to. */
 static uint64_t enter2_of(const struct path *path)
 {
@@ -78,7 +93,7 @@ static uint64_t enter2_of(const struct path *path)
         return speed2 <= start2 ? limit : speed2;
     }
     uint64_t brakeable = path_section_from_border2(section, section->exit2) + path_look_gain(path);
-    return higher(speed2, lower(lower(limit, start2), brakeable));
+    return higher(speed2, lower(lower(limit, jump2_of(path)), brakeable));
 }
 
 /* What the square of the speed may fall at once: in a stop at its end. */

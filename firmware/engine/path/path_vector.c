@@ -89,7 +89,6 @@ void path_section_set_speed(struct path_section *section, uint32_t speed)
 void path_section_set_accel(struct path_section *section, uint32_t accel)
 {
     section->vector.accel = accel;
-    section->border2 = square(section->vector.border_speed);
     section->gain2 = gain_of(section);
 }
 
@@ -112,10 +111,14 @@ static uint32_t turn_speed(const struct path_section *section, unsigned axis, ui
 
 void path_section_mind_turns(struct path_section *section, const struct path_section *before, uint32_t turn_us)
 {
+    section->border2 = square(section->vector.border_speed);
+    section->turning = 0;
     for (unsigned axis = 0; axis < PATH_AXES; axis++) {
         if (turns(before, section, axis)) {
+            uint32_t steps = path_section_steps(section, axis);
             uint64_t speed2 = square(turn_speed(section, axis, turn_us));
             section->border2 = lower(section->border2, path_section_to_border2(section, speed2));
+            section->turning = section->turning == 0 || steps < section->turning ? steps : section->turning;
         }
     }
 }

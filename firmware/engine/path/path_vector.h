@@ -61,6 +61,7 @@ struct path_vector {
 struct path_section {
     struct path_vector vector;
     uint32_t length;     /* L, steps */
+    uint32_t turning;    /* the fewest steps of an axis that turns at its beginning; 0: none, or the path stood in it */
     uint64_t gain2;      /* what the square of the speed can gain in the vector, in terms of border speeds */
     uint64_t speed2;     /* the vector's own speed in these terms */
     uint64_t border2;    /* the most at its beginning, in these terms */
@@ -76,11 +77,11 @@ void path_section_take(struct path_section *section, const struct path_vector *v
 /* Another speed for the vector. */
 void path_section_set_speed(struct path_section *section, uint32_t speed);
 
-/* Another acceleration. border2 is border_speed alone again. */
+/* Another acceleration. border2 is as it was. */
 void path_section_set_accel(struct path_section *section, uint32_t accel);
 
-/* Lowers border2 for the axes that turn where `section` joins `before`: DIR needs turn_us from the last pulse of one to
- * the first of the other. */
+/* border2 as border_speed and the axes that turn want it where `section` joins `before`: DIR needs turn_us from the
+ * last pulse of one to the first of the other. */
 void path_section_mind_turns(struct path_section *section, const struct path_section *before, uint32_t turn_us);
 
 /* Squares of speeds, from the vector's own terms to those of the border and back, rounded down; 2^60 if it is more. */

@@ -60,7 +60,7 @@ void test_a_path_that_stands_has_no_place_to_change(void)
 void test_the_place_of_a_change_is_the_first_step_at_or_after_its_tick(void)
 {
     start();
-    TEST_ASSERT_TRUE(find(0, UINT64_MAX / 2U));
+    TEST_ASSERT_TRUE(find(1001, UINT64_MAX / 2U));
     assert_found(0, 1);
     TEST_ASSERT_TRUE(find(1000 + 840000, UINT64_MAX / 2U));
     assert_found(0, 50);
@@ -140,8 +140,50 @@ void test_before_a_cruise_begins_its_first_step_is_waited_for(void)
     TEST_ASSERT_TRUE(find(1000 + 840000 + 4200, 0));
     all_pulses(2000000);
     TEST_ASSERT_TRUE(path_change(&rig.path, &place, back));
-    TEST_ASSERT_TRUE(find(1000 + 840000, 0));
+    const struct path_wish wish = {.tick = 1000 + 840000, .accel = rig.ring[0].vector.accel};
+    TEST_ASSERT_TRUE(path_find(&rig.path, &wish, &place));
     assert_found(0, 51);
+}
+
+void test_before_a_path_leaves_its_stand_it_is_changed_and_stopped_there(void)
+{
+    start();
+    all_pulses(2000000);
+    TEST_ASSERT_TRUE(find(1000, UINT64_MAX / 2U));
+    assert_found(0, 0);
+    path_set_speed(&rig.path, 0, 256);
+    TEST_ASSERT_TRUE(path_change(&rig.path, &place, back));
+    TEST_ASSERT_TRUE(find(0, UINT64_MAX / 2U));
+    TEST_ASSERT_TRUE(path_stop(&rig.path, &place, back));
+    TEST_ASSERT_EQUAL_UINT(0, pulses(0, UINT64_MAX));
+    TEST_ASSERT_EQUAL_UINT64(1000, rig.path.rest.entry.time.high);
+}
+
+void test_a_second_change_takes_effect_where_the_first_does_if_both_come_before_it(void)
+{
+    start();
+    all_pulses(2000000);
+    const uint64_t tick = 1000 + 840000 + 1;
+    TEST_ASSERT_TRUE(find(tick, UINT64_MAX / 2U));
+    TEST_ASSERT_TRUE(path_change(&rig.path, &place, back));
+    all_pulses(2000000);
+    TEST_ASSERT_TRUE(find(tick, UINT64_MAX / 2U));
+    assert_found(0, 51);
+    TEST_ASSERT_TRUE(path_stop(&rig.path, &place, back));
+    TEST_ASSERT_EQUAL_UINT(50, pulses(0, UINT64_MAX));
+}
+
+void test_a_stop_with_its_own_acceleration_takes_effect_where_another_change_does(void)
+{
+    start();
+    all_pulses(2000000);
+    TEST_ASSERT_TRUE(find(1000 + 840000 + 1, UINT64_MAX / 2U));
+    TEST_ASSERT_TRUE(path_change(&rig.path, &place, back));
+    all_pulses(2000000);
+    const struct path_wish wish = {.tick = 1000 + 840000 + 1, .accel = 2U * rig.ring[0].vector.accel};
+    TEST_ASSERT_TRUE(path_find(&rig.path, &wish, &place));
+    TEST_ASSERT_TRUE(path_stop(&rig.path, &place, back));
+    TEST_ASSERT_EQUAL_UINT(25, pulses(0, UINT64_MAX));
 }
 
 void test_a_stop_rests_where_its_ramp_ends_and_takes_back_what_comes_later(void)

@@ -32,6 +32,7 @@ static void change_at(uint64_t tick, bool stops)
     const struct path_wish wish = {.tick = tick, .patience_ticks = UINT64_MAX / 2U};
     TEST_ASSERT_TRUE(path_find(&rig.path, &wish, &place));
     (void)pulses(place.entry.time.high + 2U);
+    (void)rig_pulses(&rig, 1, place.entry.time.high + 2U, ticks, 0);
     TEST_ASSERT_TRUE(stops ? path_stop(&rig.path, &place, back) : path_change(&rig.path, &place, back));
 }
 
@@ -123,6 +124,60 @@ void test_a_change_takes_speeds_up_to_the_start_speed_at_once(void)
     TEST_ASSERT_EQUAL_UINT(990, pulses(UINT64_MAX));
     TEST_ASSERT_EQUAL_UINT64(8400000 + 84000, ticks[0]);
     TEST_ASSERT_EQUAL_UINT64(8400000 + 84000 * 990, ticks[989]);
+}
+
+/* Both axes turn at the border, y makes its first pulse at step 2 after it. */
+static void start_with_turn(void)
+{
+    struct path_vector there = rig_vector(-1000, -500, 50000, 1000000);
+    struct path_vector back_again = rig_vector(1000, 500, 50000, 1000000);
+    (void)path_add(&rig.path, &there);
+    (void)path_add(&rig.path, &back_again);
+    start(200000);
+    (void)pulses(1);
+    path_set_speed(&rig.path, 1, 200000 * PATH_SPEED_UNITS);
+}
+
+static void change_after_turn(uint64_t steps)
+{
+    change_at((1000 + steps) * 1680 - 10, false);
+    TEST_ASSERT_EQUAL_UINT32(1, place.section);
+    TEST_ASSERT_EQUAL_UINT64(steps * path_section_grains_per_step(&rig.ring[1]), place.entry.place.low);
+}
+
+void test_a_change_where_axes_turn_leaves_dir_its_time(void)
+{
+    start_with_turn();
+    change_after_turn(0);
+    TEST_ASSERT_EQUAL_UINT64(rig.ring[1].border2, rig.path.next.speed2);
+    (void)pulses(UINT64_MAX);
+    TEST_ASSERT_TRUE(ticks[0] >= 1000 * 1680 + RIG_TURN_US * TICKS_PER_US);
+}
+
+void test_a_change_before_the_first_pulse_of_an_axis_that_turned_leaves_dir_its_time(void)
+{
+    start_with_turn();
+    change_after_turn(1);
+    TEST_ASSERT_EQUAL_UINT64(rig.ring[1].border2, rig.path.next.speed2);
+}
+
+void test_a_change_after_the_first_pulses_of_axes_that_turned_takes_the_start_speed_at_once(void)
+{
+    start_with_turn();
+    change_after_turn(2);
+    TEST_ASSERT_EQUAL_UINT64(speed2_of(200000), rig.path.next.speed2);
+}
+
+void test_a_start_where_an_axis_turns_takes_the_start_speed_at_once(void)
+{
+    (void)rig_add(&rig, -10, 0, 1000, 10000);
+    (void)rig_add(&rig, 10, 0, 1000, 10000);
+    start(1000);
+    change_at(84000 * 10 - 10, true);
+    (void)pulses(UINT64_MAX);
+    TEST_ASSERT_EQUAL_UINT32(1, rig.path.rest.section);
+    TEST_ASSERT_TRUE(path_start(&rig.path, 10000000));
+    TEST_ASSERT_EQUAL_UINT64(speed2_of(1000), rig.path.next.speed2);
 }
 
 /* Down to 1000 over 400 steps, then 100 at once. */

@@ -100,6 +100,20 @@ void test_an_axis_that_turns_has_time_for_it_before_its_first_pulse(void)
     TEST_ASSERT_EQUAL_UINT64(UINT64_C(42666664) * 42666664, after.border2);
 }
 
+void test_of_the_axes_that_turn_the_one_with_the_fewest_steps_is_told(void)
+{
+    struct path_section before = section_of(100, 1);
+    struct path_section after = section_of(-50, -7);
+    path_section_mind_turns(&after, &before, 12);
+    TEST_ASSERT_EQUAL_UINT32(7, after.turning);
+    after = section_of(-7, -50);
+    path_section_mind_turns(&after, &before, 12);
+    TEST_ASSERT_EQUAL_UINT32(7, after.turning);
+    after = section_of(7, 50);
+    path_section_mind_turns(&after, &before, 12);
+    TEST_ASSERT_EQUAL_UINT32(0, after.turning);
+}
+
 void test_an_axis_that_goes_on_or_rests_needs_no_time(void)
 {
     const int32_t pairs[][2] = {{1, 1}, {-1, -1}, {0, 1}, {1, 0}, {0, -1}, {-1, 0}};
