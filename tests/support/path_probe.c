@@ -4,13 +4,15 @@
  * Comes in on standard input: cases of whole numbers, one case a line,
  *
  *     epoch  turn_us  start_speed  ring  n {d1 d2 d3 d4 speed accel extent2 border}*n  known
- *     c {kind tick patience value accel}*c  stride
+ *     c {kind tick patience value accel}*c  stride  ahead
  *
  * with the unit's time at the start, n vectors of which `known` are there at the start, and c changes, each at a tick
  * from the start (path_find), in rising order. kind 0: stop, and go on `value` ticks after the rest; 1: `value` is the
  * speed of all vectors from there on; 2: `value` more vectors are added, and the path is changed for them; 3: they are
  * added and join by themselves, while everything up to the tick has been handed over; 4: `value` is the speed of the
- * one vector there.
+ * one vector there; 5: stop; 6: go on `value` ticks after the rest, or not at all if nothing is left, whatever `tick`
+ * is. What is changed while it brakes does not stop any more. A change is planned when pulses up to `ahead` ticks after
+ * its place have been handed over.
  * Goes out, a line a case, times from the start: for each change that took effect its ordinal from 0, its section, step
  * + grains/grains of a step, speed2 and tick, and of a stop when the path went on (0: it did not), as
  * `o:s:k+g/n:q:t:b` | the pulses of each axis in four fields, ticks, negative ones for negative steps; with stride > 1
@@ -36,6 +38,8 @@ enum kind {
     KIND_ADD,
     KIND_JOIN,
     KIND_SECTION,
+    KIND_BRAKE,
+    KIND_GO,
     KINDS
 };
 
@@ -71,6 +75,7 @@ struct probe {
     uint32_t known;
     uint32_t changes;
     uint64_t stride;
+    uint64_t ahead;
 };
 
 static void refuse(const char *what, int status)
@@ -132,6 +137,7 @@ static bool read_case(struct probe *probe)
         probe->change[i].accel = read_number(PATH_ACCEL_MAX);
     }
     probe->stride = read_number(UINT64_MAX);
+    probe->ahead = read_number(UINT64_MAX);
     return true;
 }
 
@@ -284,10 +290,10 @@ static void join(struct probe *probe, unsigned ordinal)
     }
 }
 
-/* What is handed over when a change is planned: up to 30 ms after its place. */
+/* What is handed over when a change is planned. */
 static void hand_over_ahead(struct probe *probe, const struct path_place *place)
 {
-    hand_over_all(probe, place->entry.time.high + 2U + 30U * TICKS_PER_MS);
+    hand_over_all(probe, place->entry.time.high + 2U + probe->ahead);
 }
 
 static void make_change(struct probe *probe, unsigned ordinal)
@@ -311,8 +317,8 @@ static void make_change(struct probe *probe, unsigned ordinal)
     if (change->kind == KIND_SECTION) {
         path_set_speed(&probe->path, place.section, (uint32_t)change->value);
     }
-    bool done =
-        change->kind == KIND_STOP ? path_stop(&probe->path, &place, back) : path_change(&probe->path, &place, back);
+    bool stops = change->kind == KIND_STOP || change->kind == KIND_BRAKE;
+    bool done = stops ? path_stop(&probe->path, &place, back) : path_change(&probe->path, &place, back);
     if (!done) {
         refuse("a change was refused", 3);
     }
@@ -321,6 +327,27 @@ static void make_change(struct probe *probe, unsigned ordinal)
     }
     if (change->kind == KIND_STOP) {
         go_on(probe, change->value);
+    }
+}
+
+static void go(struct probe *probe, unsigned ordinal)
+{
+    (void)printf(" %u:0:0+0/1:0:0", ordinal);
+    go_on(probe, probe->change[ordinal].value);
+}
+
+static void change(struct probe *probe, unsigned ordinal)
+{
+    switch (probe->change[ordinal].kind) {
+    case KIND_JOIN:
+        join(probe, ordinal);
+        break;
+    case KIND_GO:
+        go(probe, ordinal);
+        break;
+    default:
+        make_change(probe, ordinal);
+        break;
     }
 }
 
@@ -340,11 +367,7 @@ static void run_case(struct probe *probe)
         refuse("no vector", 2);
     }
     for (unsigned i = 0; i < probe->changes; i++) {
-        if (probe->change[i].kind == KIND_JOIN) {
-            join(probe, i);
-        } else {
-            make_change(probe, i);
-        }
+        change(probe, i);
     }
     (void)printf("| ");
     for (unsigned axis = 0; axis < PATH_AXES; axis++) {

@@ -18,12 +18,13 @@ import path_reference as reference
 from path_reference import AXES, ROOT_BITS, Leg, Limits, Vector
 
 ROOT = Path(__file__).resolve().parents[2]
-STOP, SPEED, ADD, JOIN, SECTION = range(5)
+STOP, SPEED, ADD, JOIN, SECTION, BRAKE, GO = range(7)
 """Kinds of changes, as the probe numbers them."""
 
 TURN_US = 12
 RING = 128
 NEVER = 2**62
+AHEAD = 30 * 84_000
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,9 @@ class Change:
 
     STOP: a stop, and the path goes on `value` ticks after it has come to rest. SPEED: all vectors
     from there on have this speed. SECTION: the one there has it. ADD: so many more vectors are
-    added. JOIN: likewise, but without planning anew what has been laid.
+    added. JOIN: likewise, but without planning anew what has been laid. BRAKE: a stop; what is
+    changed before it has come to rest does not stop any more. GO: it goes on `value` ticks after
+    the rest, whatever `tick` is.
     """
 
     kind: int
@@ -56,6 +59,8 @@ class Case:
     ring: int = RING
     stride: int = 1
     start_speed: int = 0
+    ahead: int = AHEAD
+    """So far, in ticks, pulses after a change have been handed over when it is planned."""
 
     @property
     def line(self) -> str:
@@ -66,7 +71,7 @@ class Case:
         numbers += [self.known or len(self.vectors), len(self.changes)]
         for change in self.changes:
             numbers += [change.kind, change.tick, change.patience, change.value, change.accel]
-        numbers.append(self.stride)
+        numbers += [self.stride, self.ahead]
         return " ".join(map(str, numbers))
 
 
@@ -120,43 +125,79 @@ def run(cases: Iterable[Case]) -> Iterator[Run]:
     return map(Run.parse, done.stdout.splitlines(), asked)
 
 
+def go_on(path: reference.Path, at: Made, known: int) -> None:
+    """Leave the stand if anything is left of the path, as the probe must have done."""
+    path.known = known
+    if (path.rest[0] == known) != (at.start == 0):
+        raise AssertionError(f"{at}: the path rests at {path.rest} of {known} vectors")
+    if at.start != 0:
+        if at.start - at.change.value not in path.rest_ticks():
+            raise AssertionError(f"{at}: the path rests at {path.rest_ticks()}")
+        path.start(at.start)
+
+
+def limit(vectors: list[Vector], at: Made, known: int) -> None:
+    """Give the vectors from a change on the speed or acceleration that it wants."""
+    last = known if at.change.kind == SPEED else at.section + 1
+    for i in range(at.section, last if at.change.kind in (SPEED, SECTION) else 0):
+        vectors[i] = replace(vectors[i], speed=at.change.value)
+    for i in range(at.section, known if at.change.accel else 0):
+        vectors[i] = replace(vectors[i], accel=at.change.accel)
+
+
+def join(path: reference.Path, at: Made) -> None:
+    """Plan what has not been laid anew."""
+    if (at.section, at.place) == path.begun:
+        path.start_again()
+    elif at.section > path.planned_from:
+        path.join(at.section)
+    else:
+        path.change(*before(path, at), stops=False)
+
+
+def change(path: reference.Path, at: Made) -> None:
+    """Plan the path anew from a place, or from where it left its stand."""
+    stops = at.change.kind in (STOP, BRAKE)
+    if (at.section, at.place) == path.begun:
+        path.start_again(stops=stops)
+    else:
+        path.change(*before(path, at), stops=stops)
+
+
+def before(path: reference.Path, at: Made) -> tuple[int, Fraction]:
+    """Return the place of a change; a border is the end of the vector before."""
+    begins = (at.section, at.place) == path.begun
+    if at.place == 0 and at.section > 0 and path.legs[0].vector < at.section and not begins:
+        return at.section - 1, Fraction(path.vectors[at.section - 1].length)
+    return at.section, at.place
+
+
 def ideal(case: Case, made: Run) -> reference.Path:
     """Return the path as the contract wants it, with the changes where the probe made them."""
     vectors = list(case.vectors)
     known = case.known or len(vectors)
     path = reference.Path(vectors, known, Limits(case.turn_us, case.start_speed))
     path.start(0)
+    stopping = False
     for at in made.changes:
-        wanted, section, place = at.change, at.section, at.place
-        if place == 0 and section > 0 and path.legs[0].vector < section:
-            section, place = section - 1, Fraction(vectors[section - 1].length)
+        wanted = at.change
         if wanted.kind in (ADD, JOIN):
             known = min(len(vectors), known + wanted.value)
+        if wanted.kind == JOIN and (stopping or case.start_speed):
+            continue
         if not case.start_speed:
             path.known = known
+        if wanted.kind == GO:
+            go_on(path, at, known)
         elif wanted.kind == JOIN:
-            continue
-        if wanted.kind == SPEED:
-            for i in range(at.section, known):
-                vectors[i] = replace(vectors[i], speed=wanted.value)
-        if wanted.kind == SECTION:
-            vectors[at.section] = replace(vectors[at.section], speed=wanted.value)
-        if wanted.kind != JOIN:
-            path.check(section, place, wanted.tick)
-        for i in range(at.section, known if wanted.accel else 0):
-            vectors[i] = replace(vectors[i], accel=wanted.accel)
-        if wanted.kind == JOIN and (at.section, at.place) == path.begun:
-            path.start_again()
-            continue
-        if wanted.kind == JOIN and at.section > path.planned_from:
-            path.join(at.section)
-            continue
-        path.change(section, place, stops=wanted.kind == STOP)
-        if wanted.kind == STOP and path.rest[0] != known:
-            path.known = known
-            if at.start - wanted.value not in path.rest_ticks():
-                raise AssertionError(f"{at}: the path rests at {path.rest_ticks()}")
-            path.start(at.start)
+            join(path, at)
+        else:
+            path.check(*before(path, at), wanted.tick)
+            limit(vectors, at, known)
+            change(path, at)
+            if wanted.kind == STOP:
+                go_on(path, at, known)
+        stopping = wanted.kind == BRAKE
     return path
 
 
