@@ -29,7 +29,8 @@ export const cs: Dictionary = {
     "port.choose": "sériový port: prohlížeč se zeptá který …",
     "serial.none":
         "Tento prohlížeč nedosáhne na sériové porty, proto je zde jen virtuální jednotka. Pro skutečnou jednotku otevřete "
-        + "stránku v Chrome, Edge nebo Opeře na počítači, ze souboru nebo přes https; nebo použijte tools/rkm04 service.",
+        + "stránku v Chrome, Edge, Opeře nebo Firefoxu 153 na počítači, ze souboru nebo přes "
+        + "https; nebo použijte tools/rkm04 service.",
     "serial.notChosen": "nebyl vybrán žádný port ({cause})",
     "serial.notChosenNext": "stiskněte Připojit a vyberte jej",
     "serial.notOpened": "{port} nelze otevřít ({cause})",

@@ -27,7 +27,7 @@ export const en = {
     "port.choose": "serial port: the browser asks which …",
     "serial.none":
         "This browser does not reach serial ports, so there is only the virtual unit. For a real unit open this page in "
-        + "Chrome, Edge or Opera on a computer, from a file or over https; or take tools/rkm04 service.",
+        + "Chrome, Edge, Opera or Firefox 153 on a computer, from a file or over https; or take tools/rkm04 service.",
     "serial.notChosen": "no port was chosen ({cause})",
     "serial.notChosenNext": "press Connect, and choose one",
     "serial.notOpened": "{port} cannot be opened ({cause})",

@@ -1,0 +1,87 @@
+"""The page as one file in Firefox: what depends on the browser. All else is tried in Chromium."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from alone_page import write_alone
+from firefox import FIREFOX, Firefox, running
+from serial_bridge import SerialBridge
+from served import Served
+
+NODE = 3
+LONG = "\\ C100 S1000 V1000 A1000 F1000000 R"
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> str:
+    return write_alone(tmp_path_factory.mktemp("firefox") / "page").as_uri()
+
+
+@pytest.fixture(scope="module")
+def firefox(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Firefox]:
+    if not FIREFOX.exists():
+        pytest.skip(f"{FIREFOX} is not there: install Debian's package {FIREFOX.name}")
+    with running(tmp_path_factory.mktemp("profile")) as firefox:
+        yield firefox
+        assert firefox.faults == []
+
+
+def write(firefox: Firefox, text: str) -> None:
+    firefox.click(".cm-content")
+    firefox.press("Control", "a")
+    firefox.type(text)
+
+
+def state(number: int) -> str:
+    return f"#state-{number}"
+
+
+def stop(firefox: Firefox) -> None:
+    """Press Escape while the first motor moves."""
+    firefox.wait_for_text(state(1), "moves")
+    firefox.press("Escape")
+    firefox.wait_for("document.getElementById('alarm').dataset.kind === 'done'")
+    firefox.wait_for_text(state(1), "stopped by K")
+
+
+def test_it_checks_draws_runs_and_stops_and_says_what_to_use_for_a_real_unit(firefox, written):
+    firefox.open(written, "delete Navigator.prototype.serial")
+    write(firefox, "S100 V20000")
+    firefox.wait_for("document.getElementById('verdict').dataset.kind === 'error'")
+    write(firefox, LONG)
+    firefox.wait_for("document.getElementById('verdict').dataset.kind === 'good'")
+    firefox.wait_for("document.getElementById('plan').dataset.pulses === '59999'")
+
+    firefox.click("#send")
+    stop(firefox)
+
+    assert "tools/rkm04 service" in firefox.text("#serial-hint")
+    assert firefox.evaluate("document.getElementById('serial-hint').checkVisibility()")
+    assert not firefox.evaluate("document.getElementById('connection-form').checkVisibility()")
+
+
+def test_it_speaks_to_a_unit_on_a_serial_port_where_the_browser_has_them(
+    firefox, written, tmp_path
+):
+    unit = Served("--tcp", "0", "--node", str(NODE), cwd=tmp_path)
+    bridge = SerialBridge(unit.place)
+    try:
+        firefox.open(written, bridge.script)
+        firefox.wait_for("document.body.dataset.connected === 'true'")
+        firefox.click("#connect")
+        firefox.wait_for("!document.getElementById('port').disabled")
+        firefox.evaluate(f"port.value = 'serial', node.value = '{NODE}'")
+        firefox.click("#connect")
+        firefox.wait_for_text("#state", f"node {NODE}")
+
+        write(firefox, LONG)
+        firefox.click("#send")
+        stop(firefox)
+        firefox.evaluate("void fakeSerial.pull()")
+
+        firefox.wait_for_text("#banner", "was lost (unplugged)")
+    finally:
+        bridge.close()
+        unit.end()
