@@ -112,6 +112,9 @@ export function positions(answer: Uint8Array, motor: number): Record<string, num
         found[each] = Number(digits);
         at += 1 + length;
     }
+    if (at !== rest.length) {
+        throw wrong(answer);
+    }
     return found;
 }
 

@@ -1,0 +1,29 @@
+// What the page's own code (tools/service_page/src/unit_messages.ts) makes of answers.
+//
+//   node page_parser.mjs ESBUILD SOURCE < QUESTIONS       QUESTIONS: {"names", "asked": [[function, arguments ...], ...]}
+//
+// Bytes among the arguments are {"hex"}. Prints the list of results; {"refused": kind} is one that was thrown.
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+
+const [esbuild, source] = process.argv.slice(2);
+const { build } = createRequire(import.meta.url)(esbuild);
+const made = await build({ entryPoints: [source], bundle: true, format: "esm", write: false });
+const code = Buffer.from(made.outputFiles[0].contents).toString("base64");
+const messages = await import(`data:text/javascript;base64,${code}`);
+
+const { names, asked } = JSON.parse(readFileSync(0, "utf8"));
+const valueOf = (one) => (one?.hex === undefined ? one : Uint8Array.from(Buffer.from(one.hex, "hex")));
+
+function answer([name, ...given]) {
+    try {
+        return messages[name](...given.map(valueOf), names);
+    } catch (error) {
+        if (error.trouble === undefined) {
+            throw error;
+        }
+        return { refused: error.trouble.kind };
+    }
+}
+
+console.log(JSON.stringify(asked.map(answer)));
