@@ -151,14 +151,14 @@ static bool pass_border(const struct path *path, struct path_place *place)
     return true;
 }
 
-/* Where the path has been planned from, if that is yet to come: it is no later than the first step. Not between two
- * steps with an acceleration whose grains it may not be a whole number of. */
+/* Where the path has been planned from, which is yet to come: it is no later than the first step. Not between two steps
+ * with an acceleration whose grains it may not be a whole number of. */
 static bool find_origin(const struct path *path, const struct path_wish *wish, struct path_place *place)
 {
     uint64_t rest = 0;
     const struct path_section *section = path_section_of(path, path->origin.section);
     uint64_t step = wide_divide(path->origin.entry.place, path_section_grains_per_step(section), &rest);
-    if (!is_due(path->origin.entry.time, wish->tick) || (wish->accel != 0 && rest != 0)) {
+    if (wish->accel != 0 && rest != 0) {
         return false;
     }
     *place = (struct path_place){.section = path->origin.section, .accel = wish->accel, .entry = path->origin.entry};
@@ -179,7 +179,7 @@ bool path_find(struct path *path, const struct path_wish *wish, struct path_plac
     if (look.course->legs == 0) {
         return false;
     }
-    if (find_origin(path, wish, place)) {
+    if (is_due(path->origin.entry.time, wish->tick) && find_origin(path, wish, place)) {
         return true;
     }
     look.leg = leg_at(look.course, wish->tick);
