@@ -6,6 +6,7 @@
 enum {
     DIGITS_MAX = 20,                /* of 2^64 - 1 */
     DECIMAL_BYTES = 1 + DIGITS_MAX, /* with a minus */
+    HEX_BITS = 4,
 };
 
 static const uint64_t powers_of_ten[DIGITS_MAX - 1] = {
@@ -87,4 +88,12 @@ void text_put_signed(struct text *text, int64_t value, uint32_t width)
 {
     uint64_t bits = (uint64_t)value;
     text_put_decimal(text, value < 0, value < 0 ? 0U - bits : bits, width);
+}
+
+void text_put_hex(struct text *text, uint32_t value, uint32_t digits)
+{
+    static const uint8_t hex[] = {'0', '1', '2', '3', '4', '5', '6', '7', '8', '9', 'A', 'B', 'C', 'D', 'E', 'F'};
+    for (uint32_t place = digits; place-- > 0;) {
+        text_put_byte(text, hex[(value >> (HEX_BITS * place)) & (sizeof hex - 1U)]);
+    }
 }

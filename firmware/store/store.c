@@ -135,7 +135,13 @@ bool store_is_damaged(const struct store *store, unsigned slot)
     return store->damaged[slot];
 }
 
-uint32_t store_load(const struct store *store, unsigned slot, uint8_t text[STORE_TEXT_BYTES_MAX])
+uint32_t store_length(const struct store *store, unsigned slot)
+{
+    struct store_record record;
+    return find_image(store, slot, &record) ? record.length : 0;
+}
+
+uint32_t store_load(const struct store *store, unsigned slot, uint8_t *text)
 {
     struct store_record record;
     if (!find_image(store, slot, &record)) {

@@ -55,8 +55,11 @@ void store_init(struct store *store);
 /* Whether something was stored in slot 0 to 3 and cannot be read. */
 bool store_is_damaged(const struct store *store, unsigned slot);
 
-/* Copies the text kept in slot 0 to 3, once more checked. Returns its length; 0 if there is none or it is empty. */
-uint32_t store_load(const struct store *store, unsigned slot, uint8_t text[STORE_TEXT_BYTES_MAX]);
+/* Bytes of the text kept in slot 0 to 3, once more checked; 0 if there is none or it is empty. */
+uint32_t store_length(const struct store *store, unsigned slot);
+
+/* Copies the text kept in slot 0 to 3 to where there is room for it. Returns its length, as store_length tells it. */
+uint32_t store_load(const struct store *store, unsigned slot, uint8_t *text);
 
 /* Keeps a text in slot 0 to 3 in place of the one before; an empty text is kept as such. */
 enum store_error store_save(struct store *store, unsigned slot, const uint8_t *text, uint32_t length);

@@ -128,6 +128,15 @@ void test_a_number_longer_than_its_width_is_not_cut(void)
     assert_signed("-1234567890", -1234567890, 10);
 }
 
+void test_a_hexadecimal_has_as_many_of_its_lowest_digits_as_are_wanted(void)
+{
+    begin(CAPACITY);
+    text_put_hex(&text, 0x89ABCDEF, 8);
+    text_put_hex(&text, 0x4F2, 2);
+    text_put_hex(&text, 0, 1);
+    assert_text("89ABCDEFF20");
+}
+
 void test_what_does_not_fit_is_left_out(void)
 {
     begin(3);

@@ -34,6 +34,7 @@ static void assert_text(unsigned slot, const char *text)
 {
     memset(loaded, 0, sizeof loaded);
     uint32_t length = store_load(&store, slot, loaded);
+    TEST_ASSERT_EQUAL_UINT32(length, store_length(&store, slot));
     TEST_ASSERT_EQUAL_UINT32(strlen(text), length);
     TEST_ASSERT_EQUAL_STRING(text, loaded);
     TEST_ASSERT_FALSE(store_is_damaged(&store, slot));
