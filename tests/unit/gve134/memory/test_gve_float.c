@@ -167,7 +167,7 @@ void test_texts_of_all_forms_are_read(void)
 void test_what_is_no_number_is_refused(void)
 {
     static const char *const texts[] = {
-        "",  "-",   "+1", "--1", ".5",   "1.",  "1.E5",   "E5",  "1E",  "1E-",  "1E+-5", "1E5.0",
+        "",  "-",    "+1", "--1", ".5",   "1.",  "1.E5",  "E5",  "1E",   "1E-", "1E+-5", "1E5.0",
         "x", "1.5 ", " 1", "1,5", "0x10", "INF", "1.5.5", "NAN", "1E5E", "-.5", "1-",    "1e+",
     };
     for (unsigned i = 0; i < sizeof texts / sizeof texts[0]; i++) {

@@ -1,0 +1,268 @@
+#include "gve_command.h"
+
+#include <assert.h>
+#include <stdbool.h>
+
+#include "gve_float.h"
+
+enum {
+    HEX_DIGITS = 2,
+    HEX_WORD_DIGITS = 8,
+    HEX_BITS = 4,
+    NO_DIGIT = 16,
+};
+
+#define NUMBER_TOO_LONG INT64_C(10000000000) /* what no number of the table reaches */
+
+static_assert((int)GVE_TEXT_BYTES_MAX <= (int)GVE_FLOAT_READ_BYTES_MAX, "all of a command can be read as a single");
+
+#define P(name, form, min, max)                                                                                        \
+    static_assert((min) <= (max) && (max) < NUMBER_TOO_LONG, #name " has numbers that can be read");
+#include "gve_commands.def"
+#undef P
+
+/* One parameter in the text: from its first character to the comma after it, or the end. */
+struct token {
+    const uint8_t *text;
+    uint32_t length;
+};
+
+struct parser {
+    const uint8_t *text;
+    uint32_t length;
+    uint32_t next;
+};
+
+static uint8_t upper(uint8_t character)
+{
+    return character >= 'a' && character <= 'z' ? (uint8_t)(character - 'a' + 'A') : character;
+}
+
+/* The length of a row's text if the command begins with it, else 0. */
+static uint32_t match_length(const struct gve_row *row, const struct parser *parser)
+{
+    uint32_t length = 0;
+    while (row->text[length] != '\0') {
+        if (length == parser->length || upper(parser->text[length]) != (uint8_t)row->text[length]) {
+            return 0;
+        }
+        length++;
+    }
+    return length;
+}
+
+static uint32_t find_name_length(const struct parser *parser)
+{
+    uint32_t longest = 0;
+    for (unsigned opcode = 0; opcode < (unsigned)GVE_OPCODES; opcode++) {
+        uint32_t length = match_length(gve_row(opcode), parser);
+        longest = length > longest ? length : longest;
+    }
+    return longest;
+}
+
+/* The command of a name: the row that takes what follows it, else any of that name at the address. The name is found
+ * among all commands first, so that a longer one that the address does not know is not taken for a shorter one. */
+static unsigned find_opcode(const struct parser *parser, uint32_t name_length, enum gve_address address)
+{
+    unsigned found = GVE_OPCODES;
+    for (unsigned opcode = 0; opcode < (unsigned)GVE_OPCODES && name_length != 0; opcode++) {
+        const struct gve_row *row = gve_row(opcode);
+        bool known = match_length(row, parser) == name_length && ((unsigned)row->address & (unsigned)address) != 0;
+        if (known && (found == (unsigned)GVE_OPCODES || (row->most != 0) == (parser->length > name_length))) {
+            found = opcode;
+        }
+    }
+    return found;
+}
+
+static enum gve_fault read_decimal(struct token token, int64_t *value)
+{
+    bool negative = token.length != 0 && token.text[0] == '-';
+    uint32_t first = negative ? 1 : 0;
+    int64_t number = 0;
+    for (uint32_t i = first; i < token.length; i++) {
+        if (token.text[i] < '0' || token.text[i] > '9') {
+            return GVE_FAULT_NO_DECIMAL;
+        }
+        number = number * 10 + (token.text[i] - '0');
+        number = number > NUMBER_TOO_LONG ? NUMBER_TOO_LONG : number;
+    }
+    *value = negative ? -number : number;
+    return token.length > first ? GVE_FAULT_NONE : GVE_FAULT_NO_DECIMAL;
+}
+
+static uint32_t hex_digit(uint8_t character)
+{
+    uint8_t letter = upper(character);
+    if (letter >= '0' && letter <= '9') {
+        return (uint32_t)letter - '0';
+    }
+    return letter >= 'A' && letter <= 'F' ? (uint32_t)letter - 'A' + 10U : (uint32_t)NO_DIGIT;
+}
+
+static enum gve_fault read_hex(struct token token, uint32_t digits_max, int64_t *value)
+{
+    uint32_t number = 0;
+    for (uint32_t i = 0; i < token.length; i++) {
+        uint32_t digit = hex_digit(token.text[i]);
+        if (digit == (uint32_t)NO_DIGIT) {
+            return GVE_FAULT_NO_HEX;
+        }
+        number = (number << HEX_BITS) | digit;
+    }
+    *value = number;
+    if (token.length == 0) {
+        return GVE_FAULT_NO_HEX;
+    }
+    return token.length > digits_max ? GVE_FAULT_BOUNDS : GVE_FAULT_NONE;
+}
+
+static enum gve_fault read_axis(struct token token, int64_t *value)
+{
+    static const uint8_t letters[] = {'X', 'Y', 'Z', 'A'};
+    for (uint32_t i = 0; i < sizeof letters && token.length == 1; i++) {
+        if (upper(token.text[0]) == letters[i]) {
+            *value = i;
+            return GVE_FAULT_NONE;
+        }
+    }
+    return GVE_FAULT_NO_AXIS;
+}
+
+static enum gve_fault read_single(struct token token, int64_t *value)
+{
+    uint32_t bits = 0;
+    enum gve_float_status status = gve_float_read(token.text, token.length, &bits);
+    *value = bits;
+    if (status == GVE_FLOAT_NO_NUMBER) {
+        return GVE_FAULT_NO_SINGLE;
+    }
+    return status == GVE_FLOAT_OK ? GVE_FAULT_NONE : GVE_FAULT_BOUNDS;
+}
+
+static enum gve_fault read_form(struct token token, enum gve_form form, int64_t *value)
+{
+    switch (form) {
+    case GVE_FORM_AXIS:
+        return read_axis(token, value);
+    case GVE_FORM_HEX:
+        return read_hex(token, HEX_DIGITS, value);
+    case GVE_FORM_HEX_WORD:
+        return read_hex(token, HEX_WORD_DIGITS, value);
+    case GVE_FORM_SINGLE:
+        return read_single(token, value);
+    case GVE_FORM_NONE:
+    case GVE_FORM_DECIMAL:
+    case GVE_FORM_NONZERO:
+    default:
+        return read_decimal(token, value);
+    }
+}
+
+static enum gve_fault read_value(struct token token, const struct gve_kind *kind, int32_t *number)
+{
+    int64_t value = 0;
+    enum gve_fault fault = read_form(token, (enum gve_form)kind->form, &value);
+    if (fault != GVE_FAULT_NONE) {
+        return fault;
+    }
+    if (value < kind->min || value > kind->max || (kind->form == (uint8_t)GVE_FORM_NONZERO && value == 0)) {
+        return GVE_FAULT_BOUNDS;
+    }
+    *number = (int32_t)value;
+    return GVE_FAULT_NONE;
+}
+
+/* The parameter that begins here. After the letter of an axis the next one may begin at once. */
+static struct token parser_take_token(struct parser *parser, enum gve_form form)
+{
+    uint32_t begin = parser->next;
+    uint32_t longest = form == GVE_FORM_AXIS ? 1 : GVE_TEXT_BYTES_MAX;
+    while (parser->next < parser->length && parser->next - begin < longest && parser->text[parser->next] != ',') {
+        parser->next++;
+    }
+    return (struct token){.text = &parser->text[begin], .length = parser->next - begin};
+}
+
+/* Goes past the comma after a parameter; after an axis there need not be one. */
+static bool parser_goes_on(struct parser *parser, enum gve_form form)
+{
+    if (parser->next == parser->length) {
+        return false;
+    }
+    if (form != GVE_FORM_AXIS || parser->text[parser->next] == ',') {
+        parser->next++;
+    }
+    return true;
+}
+
+/* Wrong syntax is told even where a parameter before it is out of bounds. */
+static void reading_note(struct gve_reading *reading, enum gve_fault fault, uint32_t place, uint32_t parameter)
+{
+    bool worse = reading->fault == GVE_FAULT_NONE ||
+                 (reading->fault == GVE_FAULT_BOUNDS && gve_fault_code(fault) == GVE_WRONG_SYNTAX);
+    if (fault != GVE_FAULT_NONE && worse) {
+        reading->fault = fault;
+        reading->place = place;
+        reading->parameter = parameter;
+    }
+}
+
+static void read_parameters(struct parser *parser, const struct gve_row *row, struct gve_reading *reading)
+{
+    struct gve_command *command = &reading->command;
+    bool more = parser->next < parser->length;
+    uint32_t count = 0;
+    for (; count < row->most && more; count++) {
+        const struct gve_kind *kind = gve_kind(row->parameters[count]);
+        uint32_t place = parser->next;
+        struct token token = parser_take_token(parser, (enum gve_form)kind->form);
+        reading_note(reading, read_value(token, kind, &command->numbers[count]), place, count);
+        more = parser_goes_on(parser, (enum gve_form)kind->form);
+    }
+    if (count < row->least) {
+        reading_note(reading, GVE_FAULT_MISSING, parser->length, count);
+    }
+    if (more) {
+        reading_note(reading, GVE_FAULT_SURPLUS, parser->next, count);
+    }
+    command->count = (uint8_t)count;
+}
+
+struct gve_reading gve_command_read(const uint8_t *text, uint32_t length, enum gve_address address)
+{
+    assert(length <= (uint32_t)GVE_TEXT_BYTES_MAX);
+    struct gve_reading reading = {.fault = GVE_FAULT_NONE};
+    struct parser parser = {.text = text, .length = length};
+    parser.next = find_name_length(&parser);
+    unsigned opcode = find_opcode(&parser, parser.next, address);
+    reading.command.opcode = (uint8_t)opcode;
+    if (opcode == (unsigned)GVE_OPCODES) {
+        reading_note(&reading, GVE_FAULT_UNKNOWN, 0, 0);
+    } else {
+        read_parameters(&parser, gve_row(opcode), &reading);
+    }
+    return reading;
+}
+
+struct fault_row {
+    const char *text;
+    enum gve_code code;
+};
+
+static const struct fault_row fault_rows[GVE_FAULTS_TOTAL] = {
+#define X(name_, code_, text_) [GVE_FAULT_##name_] = {.text = (text_), .code = GVE_##code_},
+    GVE_FAULTS(X)
+#undef X
+};
+
+enum gve_code gve_fault_code(enum gve_fault fault)
+{
+    return fault_rows[fault].code;
+}
+
+const char *gve_fault_text(enum gve_fault fault)
+{
+    return fault_rows[fault].text;
+}

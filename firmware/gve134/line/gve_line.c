@@ -1,0 +1,237 @@
+#include "gve_line.h"
+
+#include <assert.h>
+#include <stddef.h>
+
+#include "base_text.h"
+
+enum {
+    INDEX_BYTES_MAX = 3,
+};
+
+/* A request with room spared for it comes at the least of this many bytes. */
+static_assert((GVE_LINE_KEPT - GVE_LINE_SPARED) * 3 >= 256, "256 bytes are kept");
+
+void gve_line_init(struct gve_line *line, unsigned interpolator, unsigned spindle)
+{
+    gve_receiver_init(&line->receiver, interpolator, spindle);
+    gve_answer_init(&line->answer);
+    line->first = 0;
+    line->count = 0;
+    line->bad_packet = false;
+    line->sums = false;
+    line->apart = false;
+    line->index = 0;
+}
+
+/* ---- what is kept ---------------------------------------------------------------------------------------------- */
+
+static const struct gve_request *kept_at(const struct gve_line *line, uint32_t place)
+{
+    return &line->kept[(line->first + place) % GVE_LINE_KEPT];
+}
+
+/* False: there is no room. */
+static bool keep(struct gve_line *line, const struct gve_request *request, bool spared)
+{
+    uint32_t room = spared ? GVE_LINE_KEPT : GVE_LINE_KEPT - GVE_LINE_SPARED;
+    if (line->count >= room) {
+        return false;
+    }
+    line->kept[(line->first + line->count) % GVE_LINE_KEPT] = *request;
+    line->count++;
+    return true;
+}
+
+static bool is_command(const struct gve_request *request, enum gve_opcode opcode)
+{
+    return request->kind == (uint8_t)GVE_REQUEST_COMMAND && request->fault == (uint8_t)GVE_FAULT_NONE &&
+           request->command.opcode == (uint8_t)opcode;
+}
+
+bool gve_line_keeps(const struct gve_line *line, enum gve_opcode opcode)
+{
+    for (uint32_t place = 0; place < line->count; place++) {
+        if (is_command(kept_at(line, place), opcode)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- what comes ------------------------------------------------------------------------------------------------ */
+
+/* A wrong parameter makes the end of a packet wrong, but it stays its end; H and J are others with parameters. */
+static bool is_packet_end(const struct gve_request *request)
+{
+    return request->command.opcode == (uint8_t)GVE_PACKET_END || is_command(request, GVE_HALT) ||
+           is_command(request, GVE_RESET);
+}
+
+/* What counts from the next byte on. */
+static void follow_command(struct gve_line *line, const struct gve_request *request)
+{
+    struct gve_receiver *receiver = &line->receiver;
+    if (is_command(request, GVE_PACKET_BEGIN)) {
+        receiver->packet = true;
+        line->bad_packet = false;
+    } else if (is_packet_end(request)) {
+        receiver->packet = false;
+    } else if (!receiver->packet && is_command(request, GVE_SUMS_ON)) {
+        receiver->sums = true;
+    } else if (!receiver->packet && is_command(request, GVE_SUMS_OFF)) {
+        receiver->sums = false;
+    } else {
+        /* changes nothing here */
+    }
+}
+
+/* Of a packet damage is told once: what was wrong first counts. */
+static void keep_bad_line(struct gve_line *line)
+{
+    struct gve_request request = {.kind = GVE_REQUEST_BAD_LINE, .packet = true};
+    if (!line->bad_packet) {
+        line->bad_packet = keep(line, &request, true);
+    }
+}
+
+/* Without room it is tried again after each further silence. */
+static void keep_damage(struct gve_line *line)
+{
+    struct gve_request request = {.kind = GVE_REQUEST_DAMAGE};
+    if (!keep(line, &request, true)) {
+        gve_receiver_refuse(&line->receiver);
+    }
+}
+
+/* What does not fit is damage; a packet whose end does not fit ends with it. J leaves nothing of what waits before it,
+ * so there is always room for it. */
+static void refuse_command(struct gve_line *line, const struct gve_request *request)
+{
+    if (is_command(request, GVE_RESET)) {
+        line->count = 0;
+        (void)keep(line, request, true);
+    } else if (line->receiver.packet && !is_packet_end(request)) {
+        keep_bad_line(line);
+    } else {
+        line->receiver.packet = false;
+        gve_receiver_refuse(&line->receiver);
+    }
+}
+
+static void keep_command(struct gve_line *line)
+{
+    const struct gve_receiver *receiver = &line->receiver;
+    struct gve_reading reading =
+        gve_command_read(gve_receiver_text(receiver), receiver->length, (enum gve_address)receiver->address);
+    bool cut = receiver->too_long && reading.fault != GVE_FAULT_UNKNOWN;
+    struct gve_request request = {
+        .command = reading.command,
+        .kind = GVE_REQUEST_COMMAND,
+        .fault = (uint8_t)(cut ? GVE_FAULT_TOO_LONG : reading.fault),
+        .packet = receiver->packet,
+    };
+    if (keep(line, &request, is_packet_end(&request))) {
+        follow_command(line, &request);
+    } else {
+        refuse_command(line, &request);
+    }
+}
+
+static void keep_received(struct gve_line *line, enum gve_received received)
+{
+    switch (received) {
+    case GVE_RECEIVED_LINE:
+        keep_command(line);
+        break;
+    case GVE_RECEIVED_DAMAGE:
+        keep_damage(line);
+        break;
+    case GVE_RECEIVED_BAD_LINE:
+        keep_bad_line(line);
+        break;
+    case GVE_RECEIVED_NOTHING:
+    default:
+        break;
+    }
+}
+
+void gve_line_take(struct gve_line *line, const struct hal_line_byte *byte)
+{
+    keep_received(line, gve_receiver_poll(&line->receiver, byte->tick));
+    keep_received(line, gve_receiver_take(&line->receiver, byte));
+}
+
+uint64_t gve_line_poll(struct gve_line *line, uint64_t now_ticks)
+{
+    keep_received(line, gve_receiver_poll(&line->receiver, now_ticks));
+    return gve_receiver_wake(&line->receiver);
+}
+
+/* ---- what goes out --------------------------------------------------------------------------------------------- */
+
+/* The answer that tells of the switch has a checksum already, or none any more. */
+static void follow_sums(struct gve_line *line, const struct gve_request *request)
+{
+    if (!request->packet && is_command(request, GVE_SUMS_ON)) {
+        line->sums = true;
+    }
+    if (!request->packet && is_command(request, GVE_SUMS_OFF)) {
+        line->sums = false;
+    }
+}
+
+bool gve_line_next(struct gve_line *line, struct gve_request *request)
+{
+    if (line->count == 0) {
+        return false;
+    }
+    *request = *kept_at(line, 0);
+    line->first = (line->first + 1U) % GVE_LINE_KEPT;
+    line->count--;
+    bool command = request->kind == (uint8_t)GVE_REQUEST_COMMAND;
+    uint8_t opcode = request->command.opcode;
+    line->apart = command && (opcode == (uint8_t)GVE_INDEX || opcode == (uint8_t)GVE_REPEAT);
+    if (command && !line->apart) {
+        line->index++;
+    }
+    follow_sums(line, request);
+    return true;
+}
+
+void gve_line_answer(struct gve_line *line, enum gve_code code, bool inta, const uint8_t *values, uint32_t length)
+{
+    unsigned digit = (unsigned)code + (inta ? (unsigned)GVE_INTA : 0U);
+    gve_answer_make(&line->answer, digit, values, length, line->sums, line->apart);
+}
+
+void gve_line_answer_index(struct gve_line *line, bool inta)
+{
+    uint8_t bytes[INDEX_BYTES_MAX];
+    struct text text;
+    text_init(&text, bytes, sizeof bytes);
+    text_put_unsigned(&text, line->index, 0);
+    gve_line_answer(line, GVE_DONE, inta, bytes, text.length);
+}
+
+void gve_line_answer_again(struct gve_line *line, bool inta)
+{
+    if (!gve_answer_again(&line->answer)) {
+        gve_line_answer(line, GVE_DONE, inta, NULL, 0);
+    }
+}
+
+bool gve_line_is_sending(const struct gve_line *line)
+{
+    return gve_answer_is_sending(&line->answer);
+}
+
+uint8_t gve_line_byte(const struct gve_line *line)
+{
+    return gve_answer_byte(&line->answer);
+}
+
+void gve_line_advance(struct gve_line *line)
+{
+    gve_answer_advance(&line->answer);
+}
