@@ -14,7 +14,8 @@ enum {
 
 #define NUMBER_TOO_LONG INT64_C(10000000000) /* what no number of the table reaches */
 
-static_assert((int)GVE_TEXT_BYTES_MAX <= (int)GVE_FLOAT_READ_BYTES_MAX, "all of a command can be read as a single");
+static_assert((uint32_t)GVE_TEXT_BYTES_MAX <= (uint32_t)GVE_FLOAT_READ_BYTES_MAX,
+              "all of a command can be read as a single");
 
 #define P(name, form, min, max)                                                                                        \
     static_assert((min) <= (max) && (max) < NUMBER_TOO_LONG, #name " has numbers that can be read");
@@ -246,23 +247,22 @@ struct gve_reading gve_command_read(const uint8_t *text, uint32_t length, enum g
     return reading;
 }
 
-struct fault_row {
-    const char *text;
-    enum gve_code code;
-};
-
-static const struct fault_row fault_rows[GVE_FAULTS_TOTAL] = {
-#define X(name_, code_, text_) [GVE_FAULT_##name_] = {.text = (text_), .code = GVE_##code_},
-    GVE_FAULTS(X)
-#undef X
-};
-
 enum gve_code gve_fault_code(enum gve_fault fault)
 {
-    return fault_rows[fault].code;
+    static const uint8_t codes[GVE_FAULTS_TOTAL] = {
+#define X(name, code, text) [GVE_FAULT_##name] = (uint8_t)GVE_##code,
+        GVE_FAULTS(X)
+#undef X
+    };
+    return (enum gve_code)codes[fault];
 }
 
 const char *gve_fault_text(enum gve_fault fault)
 {
-    return fault_rows[fault].text;
+    static const char *const texts[GVE_FAULTS_TOTAL] = {
+#define X(name, code, text) [GVE_FAULT_##name] = (text),
+        GVE_FAULTS(X)
+#undef X
+    };
+    return texts[fault];
 }

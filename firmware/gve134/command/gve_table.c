@@ -7,11 +7,8 @@
 static const struct gve_row rows[GVE_OPCODES] = {
 #define X(name_, text_, address_, packet_, states_, least_, p1, p2, p3, p4, p5, example_, answer_)                     \
     {                                                                                                                  \
-        .name = #name_,                                                                                                \
         .text = (text_),                                                                                               \
         .states = (states_),                                                                                           \
-        .example = (example_),                                                                                         \
-        .answer = (answer_),                                                                                           \
         .parameters = {GVE_PARAMETER_##p1, GVE_PARAMETER_##p2, GVE_PARAMETER_##p3, GVE_PARAMETER_##p4,                 \
                        GVE_PARAMETER_##p5},                                                                            \
         .least = (least_),                                                                                             \
@@ -24,8 +21,8 @@ static const struct gve_row rows[GVE_OPCODES] = {
 };
 
 static const struct gve_kind kinds[GVE_PARAMETERS] = {
-    {.name = "NONE"},
-#define P(name_, form_, min_, max_) {.name = #name_, .min = (min_), .max = (max_), .form = GVE_FORM_##form_},
+    {.form = GVE_FORM_NONE},
+#define P(name_, form_, min_, max_) {.min = (min_), .max = (max_), .form = GVE_FORM_##form_},
 #include "gve_commands.def"
 #undef P
 };

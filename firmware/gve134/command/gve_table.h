@@ -78,18 +78,14 @@ enum {
 };
 
 struct gve_kind {
-    const char *name;
     int64_t min;
     int64_t max;
     uint8_t form; /* enum gve_form */
 };
 
 struct gve_row {
-    const char *name;
     const char *text;                    /* what the command begins with, in upper case */
     const char *states;                  /* a code for each enum gve_state */
-    const char *example;                 /* without ! and address */
-    const char *answer;                  /* to it; empty: none */
     uint8_t parameters[GVE_NUMBERS_MAX]; /* enum gve_parameter; after the last one NONE */
     uint8_t least;                       /* parameters that it must have */
     uint8_t most;                        /* and may have */
@@ -100,6 +96,17 @@ struct gve_row {
 /* The row of an opcode below GVE_OPCODES; the kind of a parameter below GVE_PARAMETERS. */
 const struct gve_row *gve_row(unsigned opcode);
 const struct gve_kind *gve_kind(unsigned parameter);
+
+/* What the table has for people and tools; an image that does not ask for it does not hold it. */
+struct gve_words {
+    const char *name;
+    const char *example; /* without ! and address */
+    const char *answer;  /* to it; empty: none */
+};
+
+/* Of an opcode below GVE_OPCODES; and the name of a parameter below GVE_PARAMETERS. */
+const struct gve_words *gve_words(unsigned opcode);
+const char *gve_kind_name(unsigned parameter);
 
 /* The code with which a state refuses a command; GVE_DONE: it does not. */
 enum gve_code gve_refusal(unsigned opcode, enum gve_state state);

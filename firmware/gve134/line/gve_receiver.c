@@ -4,7 +4,7 @@
 
 #include "base_tick.h"
 
-enum state {
+enum receiver_state {
     STATE_OUTSIDE,  /* between CR and ! */
     STATE_INSIDE,   /* after ! */
     STATE_SKIPPING, /* the rest of a damaged line of a packet, up to CR or ! */
@@ -22,7 +22,7 @@ enum {
     ADDRESS_DIGIT_MAX = 7,
 };
 
-static_assert((int)GVE_LINE_CHARACTERS_MAX - (int)ADDRESS_CHARACTERS == (int)GVE_TEXT_BYTES_MAX,
+static_assert((uint32_t)GVE_LINE_CHARACTERS_MAX - (uint32_t)ADDRESS_CHARACTERS == (uint32_t)GVE_TEXT_BYTES_MAX,
               "the parser takes what a line can hold");
 
 /* How long nothing comes before what was damaged is over, and before a command or packet under way is damaged. */
@@ -212,7 +212,7 @@ enum gve_received gve_receiver_take(struct gve_receiver *receiver, const struct 
     if (byte->value == CHARACTER_IGNORED) {
         return GVE_RECEIVED_NOTHING;
     }
-    switch ((enum state)receiver->state) {
+    switch ((enum receiver_state)receiver->state) {
     case STATE_OUTSIDE:
         return take_outside(receiver, byte->value);
     case STATE_INSIDE:

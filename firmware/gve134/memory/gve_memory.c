@@ -13,8 +13,8 @@ enum {
     DELIVERED_BRAKE = 0x0A,
 };
 
-static_assert((int)TEXT_BYTES <= (int)STORE_TEXT_BYTES_MAX, "all bytes are one text");
-static_assert((int)GVE_MEMORY_SLOT < (int)STORE_SLOTS, "there is such a slot");
+static_assert((uint32_t)TEXT_BYTES <= (uint32_t)STORE_TEXT_BYTES_MAX, "all bytes are one text");
+static_assert((uint32_t)GVE_MEMORY_SLOT < (uint32_t)STORE_SLOTS, "there is such a slot");
 
 static const uint8_t mark[MARK_BYTES] = {'G', 'V', 'E', 1};
 

@@ -1,0 +1,158 @@
+#include "unity.h"
+
+#include "gve_line_rig.h"
+
+void setUp(void)
+{
+    rig_set_up();
+}
+
+void tearDown(void)
+{
+    TEST_ASSERT_FALSE(gve_line_is_sending(&line));
+}
+
+void test_256_bytes_are_kept_and_come_in_order(void)
+{
+    char text[OUT_ROOM];
+    unsigned bytes = 0;
+    unsigned count = 0;
+    for (; bytes < 256; bytes += 3U) {
+        take("!0\r");
+        count++;
+    }
+    for (unsigned i = 0; i < count; i++) {
+        assert_next_fault(GVE_FAULT_UNKNOWN);
+    }
+    assert_nothing();
+    for (int i = 0; i < 50; i++) {
+        (void)snprintf(text, sizeof text, "!0L%d\r", i);
+        take(text);
+    }
+    for (int i = 0; i < 50; i++) {
+        assert_next(GVE_LINE);
+        TEST_ASSERT_EQUAL_INT32(i, request.command.numbers[0]);
+    }
+    assert_nothing();
+}
+
+static void fill(void)
+{
+    for (unsigned i = 0; i < GVE_LINE_KEPT - GVE_LINE_SPARED; i++) {
+        take("!0F\r");
+    }
+}
+
+static void empty(void)
+{
+    for (unsigned i = 0; i < GVE_LINE_KEPT - GVE_LINE_SPARED; i++) {
+        assert_next(GVE_FLAGS);
+    }
+}
+
+void test_what_does_not_fit_is_damage_and_halt_still_does(void)
+{
+    fill();
+    take("!0H\r");
+    TEST_ASSERT_TRUE(gve_line_keeps(&line, GVE_HALT));
+    take("!0L1\r");
+    take("!0L2\r");
+    wait(SILENCE_TICKS);
+    empty();
+    assert_next(GVE_HALT);
+    TEST_ASSERT_FALSE(gve_line_keeps(&line, GVE_HALT));
+    assert_next_kind(GVE_REQUEST_DAMAGE);
+    assert_nothing();
+}
+
+void test_damage_that_finds_no_room_is_told_when_there_is_some_and_nothing_is_taken_before(void)
+{
+    fill();
+    for (unsigned i = 0; i < GVE_LINE_SPARED; i++) {
+        take("!0H\r");
+    }
+    take("!0H\r");
+    wait(SILENCE_TICKS);
+    wait(SILENCE_TICKS);
+    empty();
+    for (unsigned i = 0; i < GVE_LINE_SPARED; i++) {
+        assert_next(GVE_HALT);
+    }
+    assert_nothing();
+    wait(SILENCE_TICKS);
+    assert_next_kind(GVE_REQUEST_DAMAGE);
+    assert_nothing();
+    take("!0F\r");
+    assert_next(GVE_FLAGS);
+}
+
+void test_a_reset_finds_room_where_there_is_none(void)
+{
+    fill();
+    for (unsigned i = 0; i < GVE_LINE_SPARED; i++) {
+        take("!0H\r");
+    }
+    take("!0J\r");
+    TEST_ASSERT_TRUE(gve_line_keeps(&line, GVE_RESET));
+    assert_next(GVE_RESET);
+    assert_nothing();
+}
+
+void test_a_packet_that_does_not_fit_is_bad_and_none_of_it_comes_as_single_vectors(void)
+{
+    take("!0*S\r");
+    for (unsigned i = 0; i < GVE_LINE_KEPT; i++) {
+        take("!0C1\r");
+    }
+    wait(SILENCE_TICKS);
+    take("!0C1\r!0*E91\r");
+    assert_next(GVE_PACKET_BEGIN);
+    for (unsigned i = 0; i < GVE_LINE_KEPT - GVE_LINE_SPARED - 1; i++) {
+        assert_next(GVE_CONTINUE);
+        TEST_ASSERT_TRUE(request.packet);
+    }
+    assert_next_kind(GVE_REQUEST_BAD_LINE);
+    assert_next(GVE_PACKET_END);
+    assert_nothing();
+}
+
+void test_a_packet_whose_end_does_not_fit_is_over_with_the_damage(void)
+{
+    fill();
+    for (unsigned i = 0; i < GVE_LINE_SPARED - 2; i++) {
+        take("!0H\r");
+    }
+    take("!0F\r");
+    wait(SILENCE_TICKS);
+    (void)gve_line_next(&line, &request);
+    (void)gve_line_next(&line, &request);
+    (void)gve_line_next(&line, &request);
+    (void)gve_line_next(&line, &request);
+    take("!0*S\r!0C1\r!0H\r!0*S\r!0C1\r!0C1\r");
+    for (unsigned i = 0; i < GVE_LINE_KEPT + 1; i++) {
+        take("!0*S\r!0C1\r!0*E1\r");
+    }
+    take("!0C1\r");
+    wait(SILENCE_TICKS);
+    unsigned damage = 0;
+    bool packet = false;
+    while (gve_line_next(&line, &request)) {
+        bool vector = request.kind == GVE_REQUEST_COMMAND && request.command.opcode == GVE_CONTINUE;
+        TEST_ASSERT_TRUE(!vector || packet);
+        packet = request.kind == GVE_REQUEST_COMMAND && request.command.opcode == GVE_PACKET_BEGIN ? true : packet;
+        damage += request.kind == GVE_REQUEST_DAMAGE ? 1U : 0U;
+        wait(SILENCE_TICKS);
+    }
+    TEST_ASSERT_GREATER_THAN_UINT(0, damage);
+    take("!0F\r");
+    assert_next(GVE_FLAGS);
+    TEST_ASSERT_FALSE(request.packet);
+}
+
+void test_only_a_command_without_a_fault_is_kept_as_that_command(void)
+{
+    take("!0H1\r!0L!");
+    wait(SILENCE_TICKS);
+    TEST_ASSERT_FALSE(gve_line_keeps(&line, GVE_HALT));
+    TEST_ASSERT_FALSE(gve_line_keeps(&line, GVE_VERSION));
+}
