@@ -16,6 +16,8 @@ EXAMPLE = "tests/system/example"
 # A header, and a stage that may include it: so that what is not found below is there at all.
 FOUND = {
     "axis.h": "rkm04/interpreter",
+    "gve_command.h": "gve134/line",
+    "gve_float.h": "gve134/command",
     "interpreter.h": "rkm04/messages",
     "interpreter_shared.h": "rkm04",
     "io.h": "rkm04/interpreter",
@@ -72,6 +74,11 @@ def test_a_stage_finds_the_headers_of_the_stage_below(
         ("engine/step", "rkm04.h"),  # a unit, from what all units share
         ("engine/axis", "interpreter.h"),
         ("engine/axis", "io.h"),
+        ("gve134/command", "gve_line.h"),
+        ("gve134/line", "gve_float.h"),
+        ("gve134/command", "store.h"),
+        ("gve134/line", "link_receiver.h"),
+        ("rkm04", "gve_line.h"),
         ("io", "interpreter_shared.h"),
         ("store", "program_memory.h"),
     ],

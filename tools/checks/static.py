@@ -33,11 +33,20 @@ HOST = (
     "tools/master/*.c",
     "tools/simulator/*.c",
     "tools/simulator/wasm/*.c",
+    "tools/gve134_host/*.c",
     "tools/vboard/*.c",
 )
 ARM = ("hal/stm32/*.c",)
 STAGES = ("firmware/*/", "firmware/*/*/")
-FOLDERS = (*STAGES, "hal/include", "hal/host", "tools/common", "tools/master", "tools/simulator")
+FOLDERS = (
+    *STAGES,
+    "hal/include",
+    "hal/host",
+    "tools/common",
+    "tools/master",
+    "tools/simulator",
+    "tools/gve134_host",
+)
 ARM_FOLDERS = (*STAGES, "hal/include", "hal/stm32", f"hal/stm32/boards/{BOARD}")
 ARM_TARGET = ("--target=arm-none-eabi", "-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=soft")
 NEWLIB = "/usr/include/newlib"

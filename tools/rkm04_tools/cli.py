@@ -92,20 +92,25 @@ Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
 
 def main(arguments: Sequence[str]) -> int:
     """Run a command and return its exit status."""
+    return run_tool(make_parser(), arguments)
+
+
+def run_tool(parser: Parser, arguments: Sequence[str]) -> int:
+    """Run a command of one of the tools and return its exit status."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
     try:
         if list(arguments[:2]) == ["completion", completion.WORDS]:
-            print("\n".join(completion.offered(make_parser(), arguments[2:])))
+            print("\n".join(completion.offered(parser, arguments[2:])))
             return DONE
-        options = read(make_parser(), arguments)
+        options = read(parser, arguments)
         run: Run = options.run
         status = run(options)
         sys.stdout.flush()
         return status
     except Failure as failure:
-        print(f"rkm04: {failure}", file=sys.stderr)
+        print(f"{parser.prog}: {failure}", file=sys.stderr)
         return failure.status
     except KeyboardInterrupt:
         return INTERRUPTED
@@ -184,7 +189,7 @@ def make_parser() -> Parser:
     return parser
 
 
-def _add(
+def add_command(
     commands: Commands,
     name: str,
     run: Run,
@@ -206,6 +211,9 @@ def _add(
         command.add_argument("--json", action="store_true", help="print one JSON object")
     command.set_defaults(run=run)
     return command
+
+
+_add = add_command
 
 
 def _add_check(commands: Commands) -> None:

@@ -1,0 +1,123 @@
+#include "gve_file.h"
+
+#include <stddef.h>
+
+enum {
+    INTERPOLATOR = '0',
+    SPINDLE = '7',
+};
+
+struct gve_file gve_file_of(const struct infile *file)
+{
+    return (struct gve_file){.file = file};
+}
+
+static bool is_blank(uint8_t byte)
+{
+    return byte == ' ' || byte == '\t';
+}
+
+static bool is_digit(uint8_t byte)
+{
+    return byte >= '0' && byte <= '9';
+}
+
+static bool is_line_end(uint8_t byte)
+{
+    return byte == '\n' || byte == '\r';
+}
+
+/* Up to the line's end: LF, CR or both; moves on to the next line. */
+static uint32_t take_line(struct gve_file *file)
+{
+    const uint8_t *bytes = file->file->bytes;
+    uint32_t end = file->next;
+    while (end < file->file->length && !is_line_end(bytes[end])) {
+        end++;
+    }
+    file->next = end + (bytes[end] == '\r' && bytes[end + 1] == '\n' ? 2 : 1);
+    return end;
+}
+
+/* The first byte that does not belong to what is meant, without comment and blanks at the end. */
+static uint32_t find_end(const uint8_t *bytes, uint32_t begin, uint32_t end)
+{
+    uint32_t last = begin;
+    for (uint32_t i = begin; i < end && bytes[i] != ';'; i++) {
+        last = is_blank(bytes[i]) ? last : i + 1;
+    }
+    return last;
+}
+
+static uint32_t skip_blanks(const uint8_t *bytes, uint32_t begin, uint32_t end)
+{
+    while (begin < end && is_blank(bytes[begin])) {
+        begin++;
+    }
+    return begin;
+}
+
+static uint32_t skip_digits(const uint8_t *bytes, uint32_t begin, uint32_t end)
+{
+    while (begin < end && is_digit(bytes[begin])) {
+        begin++;
+    }
+    return begin;
+}
+
+/* Goes past @ and a time in ms. */
+static uint32_t take_time(const uint8_t *bytes, uint32_t begin, uint32_t end, struct gve_file_line *line)
+{
+    uint32_t next = begin + 1;
+    if (bytes[begin] != '@' || next == end || !is_digit(bytes[next])) {
+        return begin;
+    }
+    line->timed = true;
+    next = skip_digits(bytes, next, end);
+    if (next < end && bytes[next] == '.') {
+        next = skip_digits(bytes, next + 1, end);
+    }
+    uint32_t command = skip_blanks(bytes, next, end);
+    if (command == next || command == end) {
+        line->wrong = "after @ and a time in ms come a blank and a command";
+        return begin;
+    }
+    return command;
+}
+
+/* Goes past ! and an address. */
+static uint32_t take_address(const uint8_t *bytes, uint32_t begin, uint32_t end, struct gve_file_line *line)
+{
+    if (begin == end || bytes[begin] != '!' || line->wrong != NULL) {
+        return begin;
+    }
+    uint8_t address = begin + 1 < end ? bytes[begin + 1] : 0;
+    if (address == INTERPOLATOR || address == SPINDLE) {
+        line->address = address == SPINDLE ? GVE_ADDRESS_SPINDLE : GVE_ADDRESS_INTERPOLATOR;
+        return begin + 2;
+    }
+    line->wrong = "after ! comes the address of the interpolator, 0, or of the spindle, 7";
+    return begin;
+}
+
+bool gve_file_next(struct gve_file *file, struct gve_file_line *line)
+{
+    const uint8_t *bytes = file->file->bytes;
+    while (file->next < file->file->length) {
+        uint32_t begin = file->next;
+        uint32_t stop = take_line(file);
+        uint32_t end = find_end(bytes, begin, stop);
+        uint32_t first = skip_blanks(bytes, begin, end);
+        uint32_t number = line->number + 1;
+        *line = (struct gve_file_line){.offset = begin, .number = number, .address = GVE_ADDRESS_INTERPOLATOR};
+        if (first < end) {
+            first = take_time(bytes, first, end, line);
+            first = take_address(bytes, first, end, line);
+            line->place = first - begin;
+            line->length = end - first;
+            line->text = &bytes[first];
+            return true;
+        }
+    }
+    return false;
+}

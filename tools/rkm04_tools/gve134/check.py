@@ -1,0 +1,70 @@
+"""`check`: what the unit would refuse of vector files, with the places."""
+
+from __future__ import annotations
+
+import json
+import sys
+from argparse import Namespace
+from dataclasses import asdict, dataclass
+
+from rkm04_tools.failure import DONE, NOT_SO, Failure
+from rkm04_tools.gve134 import host
+from rkm04_tools.gve134.source import read_source
+from rkm04_tools.source import Place, Source
+
+SHOWN_MAX = 50
+
+
+@dataclass(frozen=True)
+class Checked:
+    """A file and what the unit would refuse of it."""
+
+    source: Source
+    parsed: host.Parsed
+
+    def report(self) -> None:
+        """Print the errors, each with its line and a caret, and the verdict."""
+        name, errors = self.source.name, self.parsed.errors
+        for error in errors[:SHOWN_MAX]:
+            print(f"{name}:{error.line}:{error.column}: error: {error.message}")
+            print(self.source.excerpt(Place(error.line, error.column)))
+        total = len(errors) + self.parsed.more
+        if (more := total - SHOWN_MAX) > 0:
+            print(f"{name}: and {_count(more, 'more error')}")
+        verdict = _count(total, "error") if total else _count(self.parsed.commands, "command")
+        print(f"{name}: {verdict}")
+
+    def as_json(self) -> dict[str, object]:
+        """For scripts."""
+        return {
+            "file": self.source.name,
+            "ok": not self.parsed.errors,
+            "commands": self.parsed.commands,
+            "errors": [asdict(error) for error in self.parsed.errors],
+            "more_errors": self.parsed.more,
+        }
+
+
+def run(options: Namespace) -> int:
+    """Check all files; the status is that of the worst one."""
+    host.program_path()
+    status, answers = DONE, []
+    for path in options.files:
+        try:
+            source = read_source(path)
+            checked = Checked(source, host.check(source.text))
+        except Failure as failure:
+            print(f"gve134: {failure}", file=sys.stderr)
+            status = max(status, failure.status)
+            continue
+        status = max(status, NOT_SO if checked.parsed.errors else DONE)
+        answers.append(checked.as_json())
+        if not options.json:
+            checked.report()
+    if options.json:
+        print(json.dumps({"files": answers}, indent=2))
+    return status
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number or 'no'} {what}{'' if number == 1 else 's'}"

@@ -1,0 +1,87 @@
+"""The C program `gve134-host`: the parser of the firmware, asked by command line."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from rkm04_tools import child, host
+from rkm04_tools.failure import Failure
+
+PROGRAM = "gve134-host"
+
+
+@dataclass(frozen=True)
+class Error:
+    """What the unit would refuse, or a host should not send, and the code that it would answer.
+
+    Line and column count from 1.
+    """
+
+    line: int
+    column: int
+    code: int
+    message: str
+
+
+@dataclass(frozen=True)
+class Parsed:
+    """How many commands a text has, and what is wrong with them; `more` errors are not listed."""
+
+    commands: int
+    errors: list[Error]
+    more: int
+
+
+@dataclass(frozen=True)
+class Command:
+    """A row of gve_commands.def. `address`: 1 interpolator, 2 spindle, 3 both."""
+
+    name: str
+    text: str
+    address: int
+    packet: int
+    states: str
+    least: int
+    example: str
+    answer: str
+    parameters: list[dict[str, Any]]
+
+
+def program_path() -> Path:
+    """Where the program was built."""
+    path = host.program_path().with_name(PROGRAM)
+    if not path.is_file():
+        raise Failure(f"{path}: not built; start the command as tools/gve134, which builds it")
+    return path
+
+
+def check(text: str) -> Parsed:
+    """Parse a text as the unit does."""
+    answer = _answer("check", "-", given=text.encode("utf-8", "surrogatepass"))
+    errors = [Error(**each) for each in answer["errors"]]
+    return Parsed(answer["commands"], errors, answer["more"])
+
+
+@cache
+def commands() -> list[Command]:
+    """The table of all commands."""
+    return [Command(**row) for row in _answer("commands")["commands"]]
+
+
+def _answer(*arguments: str, given: bytes = b"") -> dict[str, Any]:
+    """Run the program to its end and return what it answers."""
+    done = subprocess.run(
+        [str(program_path()), *arguments], input=given, capture_output=True, env=child.bound()
+    )
+    complaint = done.stderr.decode(errors="replace").strip().removeprefix(f"{PROGRAM}: ")
+    if done.returncode:
+        raise Failure(complaint or f"{PROGRAM} ended with status {done.returncode}")
+    answer = json.loads(done.stdout)
+    if not isinstance(answer, dict):
+        raise Failure(f"{PROGRAM} {arguments[0]} did not answer with an object; build it again")
+    return answer
