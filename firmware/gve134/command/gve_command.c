@@ -153,12 +153,11 @@ static enum gve_fault read_form(struct token token, enum gve_form form, int64_t 
         return read_hex(token, HEX_WORD_DIGITS, value);
     case GVE_FORM_SINGLE:
         return read_single(token, value);
-    case GVE_FORM_NONE:
     case GVE_FORM_DECIMAL:
     case GVE_FORM_NONZERO:
-    default:
-        return read_decimal(token, value);
+        break;
     }
+    return read_decimal(token, value);
 }
 
 static enum gve_fault read_value(struct token token, const struct gve_kind *kind, int32_t *number)

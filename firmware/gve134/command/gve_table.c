@@ -21,7 +21,7 @@ static const struct gve_row rows[GVE_OPCODES] = {
 };
 
 static const struct gve_kind kinds[GVE_PARAMETERS] = {
-    {.form = GVE_FORM_NONE},
+    {.form = GVE_FORM_DECIMAL},
 #define P(name_, form_, min_, max_) {.min = (min_), .max = (max_), .form = GVE_FORM_##form_},
 #include "gve_commands.def"
 #undef P

@@ -25,7 +25,6 @@ enum gve_parameter {
 
 /* How a parameter is written; gve_commands.def says what each is. */
 enum gve_form {
-    GVE_FORM_NONE,
     GVE_FORM_DECIMAL,
     GVE_FORM_NONZERO,
     GVE_FORM_AXIS,

@@ -104,17 +104,17 @@ static void keep_damage(struct gve_line *line)
     }
 }
 
-/* What does not fit is damage; a packet whose end does not fit ends with it. J leaves nothing of what waits before it,
- * so there is always room for it. */
+/* What does not fit is damage. The end of a packet always fits: nothing else of it takes room that is spared, but the
+ * news of damage, once. J leaves nothing of what waits before it. */
 static void refuse_command(struct gve_line *line, const struct gve_request *request)
 {
     if (is_command(request, GVE_RESET)) {
         line->count = 0;
         (void)keep(line, request, true);
-    } else if (line->receiver.packet && !is_packet_end(request)) {
+        follow_command(line, request);
+    } else if (line->receiver.packet) {
         keep_bad_line(line);
     } else {
-        line->receiver.packet = false;
         gve_receiver_refuse(&line->receiver);
     }
 }
@@ -151,7 +151,6 @@ static void keep_received(struct gve_line *line, enum gve_received received)
         keep_bad_line(line);
         break;
     case GVE_RECEIVED_NOTHING:
-    default:
         break;
     }
 }

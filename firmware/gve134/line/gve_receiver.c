@@ -71,9 +71,8 @@ static bool is_of_us(const struct gve_receiver *receiver)
 
 void gve_receiver_refuse(struct gve_receiver *receiver)
 {
-    if (!receiver->packet) {
-        (void)damage(receiver, true);
-    }
+    receiver->state = STATE_THROWING;
+    receiver->owes = true;
 }
 
 static enum gve_received end_silence(struct gve_receiver *receiver)
@@ -220,9 +219,9 @@ enum gve_received gve_receiver_take(struct gve_receiver *receiver, const struct 
     case STATE_SKIPPING:
         return take_skipping(receiver, byte->value);
     case STATE_THROWING:
-    default:
-        return GVE_RECEIVED_NOTHING;
+        break;
     }
+    return GVE_RECEIVED_NOTHING;
 }
 
 const uint8_t *gve_receiver_text(const struct gve_receiver *receiver)

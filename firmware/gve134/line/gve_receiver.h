@@ -55,7 +55,7 @@ enum gve_received gve_receiver_take(struct gve_receiver *receiver, const struct 
 /* The text of a line: the command without its address and its checksum. */
 const uint8_t *gve_receiver_text(const struct gve_receiver *receiver);
 
-/* The owner has no room for what came: outside a packet all is thrown away up to a silence, and then answered once. */
+/* The owner has no room for what came outside a packet: all is thrown away up to a silence, and then answered once. */
 void gve_receiver_refuse(struct gve_receiver *receiver);
 
 #endif

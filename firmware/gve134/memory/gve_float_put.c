@@ -84,7 +84,7 @@ static void put_exponent(struct text *text, int32_t exponent)
     text_put_byte(text, (uint8_t)('0' + size % 10U));
 }
 
-static void put_number(struct text *text, uint32_t significand, int32_t low)
+static void put_finite(struct text *text, uint32_t significand, int32_t low)
 {
     struct scientific number = make_scientific(significand, low);
     bool fixed = number.exponent >= FIXED_EXPONENT_MIN && number.exponent < DIGITS;
@@ -112,6 +112,6 @@ void gve_float_put(struct text *text, uint32_t bits)
         uint32_t exponent = size >> FLOAT_FRACTION_BITS;
         uint32_t hidden = exponent != 0 ? FLOAT_FRACTION + 1U : 0U;
         int32_t low = (int32_t)(exponent != 0 ? exponent - 1U : 0U) + FLOAT_EXPONENT_MIN;
-        put_number(text, (size & FLOAT_FRACTION) | hidden, low);
+        put_finite(text, (size & FLOAT_FRACTION) | hidden, low);
     }
 }

@@ -88,7 +88,7 @@ static bool read_exponent(struct reader *reader, struct decimal *decimal)
     return reader->next > begin;
 }
 
-static bool read_decimal(struct reader *reader, struct decimal *decimal)
+static bool read_text(struct reader *reader, struct decimal *decimal)
 {
     *decimal = (struct decimal){.negative = reader_take(reader, '-')};
     bool good = read_digits(reader, decimal, 0);
@@ -144,7 +144,7 @@ enum gve_float_status gve_float_read(const uint8_t *text, uint32_t length, uint3
     assert(length <= GVE_FLOAT_READ_BYTES_MAX);
     struct reader reader = {.text = text, .length = length};
     struct decimal decimal;
-    if (!read_decimal(&reader, &decimal)) {
+    if (!read_text(&reader, &decimal)) {
         return GVE_FLOAT_NO_NUMBER;
     }
     uint32_t made = 0;

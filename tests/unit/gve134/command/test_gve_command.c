@@ -224,11 +224,14 @@ void test_what_is_past_the_limits_of_the_contract_is_out_of_bounds(void)
 void test_wrong_syntax_is_told_whatever_else_is_out_of_bounds(void)
 {
     static const char *const texts[] = {
-        "V",         "V,",     "V10,",           "V10,10",      "V1 0", "V+10",   "V1.0",       "V--10", "V-",
-        "L1,,2",     "L1,2,",  "L99999999999,x", "C1,2,3,4,5C", "NX",   "NQ5",    "N5",         "NX1,2", "NXY",
-        "NX,",       "W",      "WX1,2,3",        "WX1,2,3,4,5", "ER",   "ERG0",   "ER0G",       "EW01",  "EW01,",
-        "EW01,09,1", "EFW10,", "EFW10,1.",       "EFW10,x",     "SW,1", "?1",     "PF0",        "H5",    "*S1",
-        "*E",        "*Ex",    "%+,5C",          "@1",          "J0",   "SW9,G1", "EFW1000,.5",
+        "V",           "V,",        "V10,",    "V10,10",      "V1 0",       "V+10",
+        "V1.0",        "V--10",     "V-",      "L1,,2",       "L1,2,",      "L99999999999,x",
+        "C1,2,3,4,5C", "NX",        "NQ5",     "N5",          "NX1,2",      "NXY",
+        "NX,",         "W",         "WX1,2,3", "WX1,2,3,4,5", "ER",         "ERG0",
+        "ER/0",        "ER:0",      "ER@0",    "N,5",         "ER0G",       "EW01",
+        "EW01,",       "EW01,09,1", "EFW10,",  "EFW10,1.",    "EFW10,x",    "SW,1",
+        "?1",          "PF0",       "H5",      "*S1",         "*E",         "*Ex",
+        "%+,5C",       "@1",        "J0",      "SW9,G1",      "EFW1000,.5",
     };
     for (unsigned i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         assert_code(GVE_WRONG_SYNTAX, texts[i]);

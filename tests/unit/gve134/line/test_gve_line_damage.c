@@ -78,6 +78,7 @@ void test_a_byte_with_an_error_in_a_command_is_damage(void)
 void test_a_new_line_before_the_end_of_a_command_is_damage(void)
 {
     take("!0L10!0F\r");
+    take_byte('x', true);
     assert_damage_is_answered();
     take("!!0F\r");
     assert_damage_is_not_answered();

@@ -116,37 +116,20 @@ void test_a_packet_that_does_not_fit_is_bad_and_none_of_it_comes_as_single_vecto
     assert_nothing();
 }
 
-void test_a_packet_whose_end_does_not_fit_is_over_with_the_damage(void)
+void test_the_end_of_a_packet_fits_where_the_packet_fits_no_more(void)
 {
     fill();
-    for (unsigned i = 0; i < GVE_LINE_SPARED - 2; i++) {
-        take("!0H\r");
-    }
-    take("!0F\r");
+    (void)gve_line_next(&line, &request);
+    take("!0*S\r!0C1\r!0C!0*S\r!0C1\r!0*E3\r!0*S\r!0C1\r!0*E1\r");
     wait(SILENCE_TICKS);
-    (void)gve_line_next(&line, &request);
-    (void)gve_line_next(&line, &request);
-    (void)gve_line_next(&line, &request);
-    (void)gve_line_next(&line, &request);
-    take("!0*S\r!0C1\r!0H\r!0*S\r!0C1\r!0C1\r");
-    for (unsigned i = 0; i < GVE_LINE_KEPT + 1; i++) {
-        take("!0*S\r!0C1\r!0*E1\r");
+    for (unsigned i = 0; i < GVE_LINE_KEPT - GVE_LINE_SPARED - 1; i++) {
+        assert_next(GVE_FLAGS);
     }
-    take("!0C1\r");
-    wait(SILENCE_TICKS);
-    unsigned damage = 0;
-    bool packet = false;
-    while (gve_line_next(&line, &request)) {
-        bool vector = request.kind == GVE_REQUEST_COMMAND && request.command.opcode == GVE_CONTINUE;
-        TEST_ASSERT_TRUE(!vector || packet);
-        packet = request.kind == GVE_REQUEST_COMMAND && request.command.opcode == GVE_PACKET_BEGIN ? true : packet;
-        damage += request.kind == GVE_REQUEST_DAMAGE ? 1U : 0U;
-        wait(SILENCE_TICKS);
-    }
-    TEST_ASSERT_GREATER_THAN_UINT(0, damage);
-    take("!0F\r");
-    assert_next(GVE_FLAGS);
-    TEST_ASSERT_FALSE(request.packet);
+    assert_next(GVE_PACKET_BEGIN);
+    assert_next_kind(GVE_REQUEST_BAD_LINE);
+    assert_next(GVE_PACKET_END);
+    assert_next_kind(GVE_REQUEST_DAMAGE);
+    assert_nothing();
 }
 
 void test_only_a_command_without_a_fault_is_kept_as_that_command(void)
