@@ -23,7 +23,14 @@ WORKERS = min(os.cpu_count() or 1, 2)
 RUN_SECONDS_MAX = 5
 RUNS = re.compile(r"^stat::number_of_executed_units:\s*(\d+)", re.MULTILINE)
 
-INPUT_BYTES_MAX = {"frames": 100, "interpreter": 80, "message": 250, "program": 96, "unit": 250}
+INPUT_BYTES_MAX = {
+    "frames": 100,
+    "gve": 250,
+    "interpreter": 80,
+    "message": 250,
+    "program": 96,
+    "unit": 250,
+}
 """The fuzzers, and how long an input may get: short ones find as much and run more often."""
 
 
