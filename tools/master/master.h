@@ -15,7 +15,8 @@
 #include "master_ear.h"
 
 enum {
-    MASTER_PATIENCE_MS = 200, /* for an answer to begin: 20 ms are the unit's, the rest is for adapters and computers */
+    MASTER_PATIENCE_MS =
+        400, /* for an answer to begin: 20 ms are the unit's, the rest is for adapters and busy pages */
     MASTER_ATTEMPTS = 4,
     MASTER_OUT_BYTES = 2 * (LINK_HEAD_BYTES + LINK_REQUEST_BYTES_MAX + LINK_FCS_BYTES) + 2
 };

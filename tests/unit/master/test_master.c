@@ -286,7 +286,7 @@ void test_an_answer_in_pieces_is_waited_for_beyond_the_first_patience(void)
     give_to_unit();
     master.out_length = 0;
     for (uint32_t i = 0; i < bytes_length; i++) {
-        now_ns += 40 * MS;
+        now_ns += 65 * MS;
         TEST_ASSERT_EQUAL(MASTER_WAITS, master_poll(&master, now_ns));
         master_take(&master, bytes + i, 1, now_ns);
     }
@@ -303,7 +303,7 @@ void test_noise_without_end_ends_a_request_all_the_same(void)
         now_ns += MS;
     }
     TEST_ASSERT_EQUAL(MASTER_DAMAGED, master.end);
-    TEST_ASSERT_LESS_THAN_UINT64(MASTER_ATTEMPTS * 400 * MS, now_ns);
+    TEST_ASSERT_LESS_THAN_UINT64(MASTER_ATTEMPTS * (MASTER_PATIENCE_MS + 250) * MS, now_ns);
 }
 
 void test_who_is_in_a_hurry_repeats_nothing_and_waits_no_longer_than_usual(void)

@@ -1,12 +1,13 @@
 import type { Bytes } from "./program_host";
-import type { Answer, FromService, Node, ToService, Trouble, UnitState } from "./protocol";
-import { ALL_MOTORS } from "./protocol";
+import type { FromService, Node, UnitState } from "./protocol";
 import type { Simulator } from "./simulator";
+import { answerOf, nameOf, type Asked, type Order, type StopOrder } from "./unit_answer";
 import { Beats } from "./unit_beats";
 import * as messages from "./unit_messages";
 import { UnitOrders, type Exchange, type Got } from "./unit_orders";
-import { LineTrouble, OPENING, Refusal, USUAL, type Place, type Wait } from "./unit_place";
+import { BROADCAST, LineTrouble, OPENING, Refusal, USUAL, type Place, type Wait } from "./unit_place";
 import { RESET } from "./unit_plan";
+import { DeskState, merged } from "./unit_state";
 import { STOP, stopAll } from "./unit_stop";
 import { UnitView } from "./unit_view";
 
@@ -25,13 +26,6 @@ const UNSENT = new Refusal(
     { kind: "Unsent" },
 );
 
-export type Asked = ToService & { beat?: number; failed?: Trouble };
-type Order = Extract<Asked, { type: "request" | "speed" | "resume" | "reset" | "connect" | "disconnect" }>;
-type StopOrder = Extract<Asked, { type: "stop" }>;
-
-const keyOf = ({ port, node }: Node): string => `${node} ${port}`;
-const merged = (...nodes: Node[]): Node[] => [...new Map(nodes.map((node) => [keyOf(node), node])).values()];
-
 /**
  * Answers the page as the service does, for the unit in it or for those on a line. It is called with the time that it
  * is, at least every few milliseconds. One thing is done at a time, a stop ahead of all others; what cannot be done now
@@ -45,13 +39,12 @@ export class UnitDesk {
     readonly #close: () => void;
     readonly #fail: (error: unknown) => void;
     readonly #beats = new Beats();
-    readonly #heard = new Map<string, { node: Node; at_ms: number }>();
     #place: Place | null;
+    /** Why there is none. */
+    #why: Refusal = NOT_CONNECTED;
     /** A port that the page has opened. */
     #offered: Place | null = null;
-    #state: UnitState;
-    /** Units that may have moved when their port was lost, and were not seen since. */
-    #lost: Node[] = [];
+    readonly #state: DeskState;
     #queue: { order: Order; since_ms: number }[] = [];
     #stops: StopOrder[] = [];
     /** Whether all motors stood or braked at the last look, and nothing was asked for since. */
@@ -77,7 +70,7 @@ export class UnitDesk {
         const talk = {
             ask: (request: Bytes, wait?: Wait, node?: number) => this.#ask(request, wait, node),
             get session() {
-                return desk.#place?.sessions(desk.#state.node) ?? 0;
+                return desk.#place?.sessions(desk.#state.now.node) ?? 0;
             },
             get text_bytes_max() {
                 return (desk.#place ?? virtual).text_bytes_max;
@@ -87,10 +80,7 @@ export class UnitDesk {
                 total > 1 && this.#tell({ type: "progress", id: this.#asked, from: 1, value: done / total }),
         };
         this.#orders = new UnitOrders(talk, simulator, names);
-        this.#state = {
-            connected: true, port: virtual.port, virtual: true, node: 1, busy: null, error: null, unit: null, away: false,
-            nodes: [], stop: null, seen_ago_s: null,
-        };
+        this.#state = new DeskState(virtual.port, told.tell);
     }
 
     /** A page has come, or has come back: it is told what there is to know. */
@@ -98,7 +88,7 @@ export class UnitDesk {
         this.#tell({
             type: "hello", version: "1", language_default: "en", client: 1, beat: this.#beats.next(now_ms),
         });
-        this.#tellState();
+        this.#state.tell();
         this.#look_due_ms = now_ms;
         this.#go();
     }
@@ -141,17 +131,18 @@ export class UnitDesk {
         if (this.#place !== place) {
             return;
         }
-        const { port, node, nodes } = this.#state;
-        const known = nodes.length > 0 ? merged({ port: port ?? "", node }, ...nodes) : [];
-        this.#lost = this.#isStill && nodes.length === 1 ? this.#lost : merged(...this.#lost, ...known);
-        this.#leave({ error: why.trouble, port });
+        if (!this.#isStill || this.#state.now.nodes.length > 1) {
+            this.#state.lose();
+        }
+        this.#leave({ error: why.trouble }, why);
         this.#giveUp(UNSENT);
     }
 
-    #leave(more: Partial<UnitState>): void {
+    #leave(more: Partial<UnitState>, why = NOT_CONNECTED): void {
         this.#place = null;
+        this.#why = why;
         this.#view.begin();
-        this.#change({ connected: false, virtual: false, unit: null, nodes: [], ...more });
+        this.#state.change({ connected: false, virtual: false, unit: null, nodes: [], ...more });
     }
 
     #weigh(now_ms: number, spent_ms: number): void {
@@ -186,10 +177,10 @@ export class UnitDesk {
         }
     }
 
-    async #ask(request: Bytes, wait = USUAL, node = this.#state.node): Promise<Bytes> {
+    async #ask(request: Bytes, wait = USUAL, node = this.#state.now.node): Promise<Bytes> {
         const place = this.#place;
         if (place === null) {
-            throw NOT_CONNECTED;
+            throw this.#why;
         }
         const isGivenUp = (): boolean => this.#stops.length > 0 && !this.#isStopping;
         if (isGivenUp()) {
@@ -197,42 +188,13 @@ export class UnitDesk {
         }
         try {
             const answer = await place.ask(node, request, wait);
-            this.#hear(place, node);
+            if (node !== BROADCAST) {
+                this.#state.hear({ port: place.port, node });
+            }
             return answer;
         } catch (error) {
             throw error instanceof LineTrouble && error.trouble.kind !== "PortLost" && isGivenUp() ? STOPPED : error;
         }
-    }
-
-    #hear(place: Place, number: number): void {
-        const node = { port: place.port, node: number };
-        if (number === 0) {
-            return;
-        }
-        this.#heard.set(keyOf(node), { node, at_ms: performance.now() });
-        if (!this.#state.nodes.some((each) => keyOf(each) === keyOf(node))) {
-            this.#change({ nodes: this.#nodesOf(place.port) });
-        }
-    }
-
-    /** Those that have answered on a port, the last first. */
-    #nodesOf(port: string): Node[] {
-        const found = [...this.#heard.values()].filter(({ node }) => node.port === port);
-        return found.sort((one, other) => other.at_ms - one.at_ms).map(({ node }) => node);
-    }
-
-    #change(part: Partial<UnitState>): void {
-        this.#state = { ...this.#state, ...part };
-        this.#tellState();
-    }
-
-    #tellState(): void {
-        const { port, node, stop } = this.#state;
-        const heard = this.#heard.get(keyOf({ port: port ?? "", node }));
-        const seen_ago_s = heard === undefined ? null : (performance.now() - heard.at_ms) / 1000;
-        const lost = this.#lost.length > 0;
-        const open = lost ? merged(...(stop ?? []), ...this.#lost) : stop;
-        this.#tell({ type: "state", ...this.#state, stop: open, lost, seen_ago_s });
     }
 
     /** Refuses what waits for the line; whether there is one is another matter. */
@@ -245,7 +207,7 @@ export class UnitDesk {
 
     #refuse(order: Order, why: Refusal): void {
         this.#orders.forget();
-        this.#tellAnswer(order, why, this.#orders.last);
+        this.#answer(order, why, this.#orders.last);
     }
 
     async #do(order: Order, since_ms: number): Promise<void> {
@@ -256,14 +218,14 @@ export class UnitDesk {
         this.#orders.forget();
         this.#asked = "id" in order ? order.id : 0;
         this.#isStill = false;
-        this.#change({ busy: nameOf(order) });
+        this.#state.change({ busy: nameOf(order) });
         const got = await tried(() => this.#obeyed(order));
         this.#note(got);
         if (got instanceof LineTrouble) {
             this.#giveUp(UNSENT);
         }
-        this.#change({ busy: null });
-        this.#tellAnswer(order, got, this.#orders.last);
+        this.#state.change({ busy: null });
+        this.#answer(order, got, this.#orders.last);
         this.#look_due_ms = performance.now();
     }
 
@@ -297,11 +259,11 @@ export class UnitDesk {
         }
         this.#place = place;
         this.#view.begin();
-        const stop = this.#state.stop?.length === 0 ? null : this.#state.stop;
-        const nodes = this.#nodesOf(port);
-        this.#change({ connected: true, port, node, virtual: place.isVirtual, unit: null, error: null, nodes, stop });
+        const stop = this.#state.now.stop?.length === 0 ? null : this.#state.now.stop;
+        const nodes = this.#state.nodesOf(port);
+        this.#state.change({ connected: true, port, node, virtual: place.isVirtual, unit: null, error: null, nodes, stop });
         const { text, values } = await this.#orders.version();
-        this.#change({ unit: values });
+        this.#state.change({ unit: values });
         return { text, values };
     }
 
@@ -313,43 +275,35 @@ export class UnitDesk {
             this.#look_due_ms = Math.max(started_ms + LOOK_MS, 2 * now_ms - started_ms);
         } else if (got !== STOPPED && this.#place === place) {
             this.#look_due_ms = now_ms + LOOK_AGAIN_MS;
-            this.#change({ error: got.trouble });
+            this.#state.change({ error: got.trouble });
         }
     }
 
     /** Only asks, whoever has come back. */
     async #looked(place: Place): Promise<void> {
-        const wasAway = this.#state.unit === null || this.#state.error !== null;
+        const wasAway = this.#state.now.unit === null || this.#state.now.error !== null;
         if (wasAway) {
             this.#view.begin();
             const { version, date } = messages.version(await this.#ask(Uint8Array.of(messages.VERSION), OPENING));
-            this.#change({ unit: { version, date } });
+            this.#state.change({ unit: { version, date } });
         }
-        const { node } = this.#state;
+        const { node } = this.#state.now;
         const ask = (request: Bytes, wait: Wait): Promise<Bytes> => this.#ask(request, wait);
         const live = await this.#view.look(place, node, this.#load.share, ask);
         this.#tell({ type: "live", ...live });
-        this.#see({ port: place.port, node });
+        this.#state.see({ port: place.port, node });
         this.#isStill = live.motors.every(messages.isStopped);
         if (wasAway) {
-            this.#change({ error: null });
+            this.#state.change({ error: null });
             this.#giveUp(UNSENT);
-        }
-    }
-
-    /** What a node does is known again. */
-    #see(node: Node): void {
-        if (this.#lost.some((each) => keyOf(each) === keyOf(node))) {
-            this.#lost = this.#lost.filter((each) => keyOf(each) !== keyOf(node));
-            this.#tellState();
         }
     }
 
     #note(got: Refusal | unknown): void {
         if (got instanceof LineTrouble && this.#place !== null) {
-            this.#change({ error: got.trouble });
-        } else if (!(got instanceof Refusal) && this.#state.error !== null && this.#place !== null) {
-            this.#change({ error: null });
+            this.#state.change({ error: got.trouble });
+        } else if (!(got instanceof Refusal) && this.#state.now.error !== null && this.#place !== null) {
+            this.#state.change({ error: null });
         }
     }
 
@@ -360,24 +314,23 @@ export class UnitDesk {
         const got = await tried(() => this.#sendStop(asked.flatMap(({ nodes }) => nodes), last));
         this.#isStopping = false;
         this.#note(got);
-        this.#change({ busy: null });
-        asked.forEach((order) => this.#tellAnswer(order, got, last));
+        this.#state.change({ busy: null });
+        asked.forEach((order) => this.#answer(order, got, last));
         this.#look_due_ms = performance.now();
     }
 
     async #sendStop(named: Node[], last: Exchange): Promise<Got> {
         const place = this.#place;
-        const { node, nodes, stop } = this.#state;
-        const known = merged(...nodes, ...named, ...(stop ?? []), ...this.#lost);
+        const known = merged(...this.#state.known, ...named);
         const outside = known.filter(({ port }) => port !== this.#virtual.port && port !== place?.port);
         if (place === null) {
-            this.#change({ busy: "stop", stop: outside });
-            throw NOT_CONNECTED;
+            this.#state.change({ busy: "stop", stop: outside });
+            throw this.#why;
         }
-        const there = merged(...known.filter(({ port }) => port === place.port), { port: place.port, node });
+        const there = merged(...known.filter(({ port }) => port === place.port), this.#state.here);
         const leave = (left: number[]): void =>
-            this.#change({ stop: [...there.filter((each) => left.includes(each.node)), ...outside] });
-        this.#change({ busy: "stop", stop: [...there, ...outside] });
+            this.#state.change({ stop: [...there.filter((each) => left.includes(each.node)), ...outside] });
+        this.#state.change({ busy: "stop", stop: [...there, ...outside] });
         const talk = {
             ask: (request: Bytes, wait: Wait, to: number) => this.#ask(request, wait, to),
             isStopped: (from: number, status: Bytes) => this.#isStopped(place, from, status),
@@ -392,23 +345,27 @@ export class UnitDesk {
                 kind: "NotConfirmed",
             });
         }
-        this.#change({ stop: null });
+        this.#state.change({ stop: null });
         return { text: "all motors stop", values: { confirmed: there } };
     }
 
     #isStopped(place: Place, node: number, status: Bytes): boolean {
-        const isShown = node === this.#state.node;
+        const isShown = node === this.#state.now.node;
         const view = isShown ? this.#view : new UnitView(this.#view.names);
         const live = view.show(place, node, status, this.#load.share);
         if (isShown) {
             this.#tell({ type: "live", ...live });
         }
-        this.#see({ port: place.port, node });
+        this.#state.see({ port: place.port, node });
         return live.motors.every(messages.isStopped);
     }
 
+    #answer(order: Order | StopOrder, got: Got | Refusal, last: Exchange): void {
+        this.#tell({ type: "answer", ...answerOf(order, this.#state.now.node, got, last) });
+    }
+
     #setInput({ input, level, beat }: Extract<Asked, { type: "input" }>, now_ms: number): void {
-        const refusal = this.#beats.isLate(beat, now_ms) ? LATE : this.#place === null ? NOT_CONNECTED : null;
+        const refusal = this.#beats.isLate(beat, now_ms) ? LATE : this.#place === null ? this.#why : null;
         try {
             if (refusal !== null) {
                 throw refusal;
@@ -423,28 +380,6 @@ export class UnitDesk {
         }
     }
 
-    #tellAnswer(order: Order | StopOrder, got: Got | Refusal, { request, answer }: Exchange): void {
-        const isGood = !(got instanceof Refusal);
-        const told: Answer = {
-            id: "id" in order ? order.id : null,
-            from: 1,
-            message: nameOf(order),
-            node: this.#state.node,
-            motor: "motor" in order ? order.motor : order.type === "connect" || order.type === "disconnect" ? null : ALL_MOTORS,
-            request_bytes: null,
-            answer_bytes: null,
-            request_message: messages.hex(request),
-            answer_message: messages.hex(answer),
-            text: isGood ? got.text : null,
-            values: isGood ? got.values : null,
-            error: isGood ? null : got.trouble,
-        };
-        this.#tell({ type: "answer", ...told });
-    }
-}
-
-function nameOf(order: Order | StopOrder): string {
-    return order.type === "request" ? order.message : order.type;
 }
 
 /** What came of some work; a refusal is an answer, too. */

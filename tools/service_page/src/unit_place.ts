@@ -1,7 +1,7 @@
 import type { Bytes } from "./program_host";
 import type { Trouble } from "./protocol";
 
-/** How an answer is waited for; the times are those of tools/rkm04. */
+/** How an answer is waited for: longer than by tools/rkm04, as a page and its worker may be busy. */
 export interface Wait {
     /** For the answer to begin. */
     patience_ms: number;
@@ -10,13 +10,13 @@ export interface Wait {
     session: boolean;
 }
 
-export const USUAL: Wait = { patience_ms: 200, attempts: 4, session: true };
+export const USUAL: Wait = { patience_ms: 400, attempts: 4, session: true };
 export const STORING: Wait = { patience_ms: 2500, attempts: 3, session: true };
-export const SCANNING: Wait = { patience_ms: 45, attempts: 2, session: true };
-export const OPENING: Wait = { patience_ms: 200, attempts: 2, session: true };
+export const SCANNING: Wait = { patience_ms: 100, attempts: 2, session: true };
+export const OPENING: Wait = { patience_ms: 400, attempts: 2, session: true };
 /** For what may be executed twice: questions, and K. */
-export const LOOKING: Wait = { patience_ms: 200, attempts: 2, session: false };
-export const ONCE: Wait = { patience_ms: 200, attempts: 1, session: false };
+export const LOOKING: Wait = { patience_ms: 400, attempts: 2, session: false };
+export const ONCE: Wait = { patience_ms: 400, attempts: 1, session: false };
 
 export const BROADCAST = 0;
 export const NODES_MAX = 16;
