@@ -28,6 +28,7 @@ INPUT_BYTES_MAX = {
     "gve": 250,
     "interpreter": 80,
     "message": 250,
+    "path": 200,
     "program": 96,
     "unit": 250,
 }
