@@ -14,14 +14,9 @@ static_assert((GVE_LINE_KEPT - GVE_LINE_SPARED) * 3 >= 256, "256 bytes are kept"
 
 void gve_line_init(struct gve_line *line, unsigned interpolator, unsigned spindle)
 {
+    *line = (struct gve_line){.index = 0};
     gve_receiver_init(&line->receiver, interpolator, spindle);
     gve_answer_init(&line->answer);
-    line->first = 0;
-    line->count = 0;
-    line->bad_packet = false;
-    line->sums = false;
-    line->apart = false;
-    line->index = 0;
 }
 
 /* ---- what is kept ---------------------------------------------------------------------------------------------- */
@@ -111,7 +106,6 @@ static void refuse_command(struct gve_line *line, const struct gve_request *requ
     if (is_command(request, GVE_RESET)) {
         line->count = 0;
         (void)keep(line, request, true);
-        follow_command(line, request);
     } else if (line->receiver.packet) {
         keep_bad_line(line);
     } else {

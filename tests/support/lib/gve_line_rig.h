@@ -106,6 +106,7 @@ static inline void switch_sums_on(void)
 static inline void rig_set_up(void)
 {
     tick = UINT64_C(0xFFFFFF00);
+    memset(&line, 0xA5, sizeof line);
     gve_line_init(&line, INTERPOLATOR, SPINDLE);
 }
 

@@ -97,6 +97,15 @@ void test_what_is_for_another_address_has_no_effect(void)
     assert_nothing();
 }
 
+void test_a_unit_may_have_other_addresses(void)
+{
+    gve_line_init(&line, 3, 5);
+    take("!0F\r!7V1\r!3F\r!5V1\r");
+    assert_next(GVE_FLAGS);
+    assert_next(GVE_SPINDLE);
+    assert_nothing();
+}
+
 void test_without_checksums_what_stands_outside_of_lines_is_ignored(void)
 {
     take("0PF\r\x80noise\xFF\n");
@@ -153,7 +162,12 @@ void test_the_index_counts_every_whole_command_but_index_and_repeat(void)
     wait(SILENCE_TICKS);
     assert_next_kind(GVE_REQUEST_DAMAGE);
     assert_index("0,7\r");
-    for (unsigned i = 7; i < 259; i++) {
+    for (unsigned i = 7; i < 255; i++) {
+        take("!0F\r");
+        assert_next(GVE_FLAGS);
+    }
+    assert_index("0,255\r");
+    for (unsigned i = 255; i < 259; i++) {
         take("!0F\r");
         assert_next(GVE_FLAGS);
     }

@@ -86,8 +86,8 @@ void test_a_new_line_before_the_end_of_a_command_is_damage(void)
 
 void test_a_missing_or_wrong_checksum_is_damage(void)
 {
-    static const char *const lines[] = {"!0F\r",    "!0\r",     "!0F,C\r", "!0F,C5\r",
-                                        "!0F,CG\r", "!0F,G3\r", "!0FC3\r", "!0F.C3\r"};
+    static const char *const lines[] = {"!0F\r",    "!0\r",    "!0F,C\r",  "!0F,C5\r", "!0F,CG\r",
+                                        "!0F,G3\r", "!0FC3\r", "!0F.C3\r", "!0PF,1J\r"};
     switch_sums_on();
     for (unsigned i = 0; i < sizeof lines / sizeof lines[0]; i++) {
         take(lines[i]);
@@ -109,6 +109,16 @@ void test_with_checksums_a_line_that_is_too_long_is_damage(void)
                    (unsigned)('!' + '0' + 'L' + '0' * (GVE_LINE_CHARACTERS_MAX - 5) + ',') & 0xFFU);
     take(text);
     assert_next(GVE_LINE);
+}
+
+void test_a_right_checksum_before_the_81st_character_does_not_count(void)
+{
+    char text[OUT_ROOM];
+    switch_sums_on();
+    (void)snprintf(text, sizeof text, "!0L%0*d,%02XX\r", GVE_LINE_CHARACTERS_MAX - 5, 0,
+                   (unsigned)('!' + '0' + 'L' + '0' * (GVE_LINE_CHARACTERS_MAX - 5) + ',') & 0xFFU);
+    take(text);
+    assert_damage_is_answered();
 }
 
 void test_with_checksums_the_commands_for_others_are_checked_and_never_answered(void)

@@ -139,3 +139,23 @@ void test_only_a_command_without_a_fault_is_kept_as_that_command(void)
     TEST_ASSERT_FALSE(gve_line_keeps(&line, GVE_HALT));
     TEST_ASSERT_FALSE(gve_line_keeps(&line, GVE_VERSION));
 }
+
+void test_a_command_that_has_been_taken_is_kept_no_more_wherever_it_stood(void)
+{
+    take("!0F\r!0H\r!0F\r");
+    assert_next(GVE_FLAGS);
+    TEST_ASSERT_TRUE(gve_line_keeps(&line, GVE_HALT));
+    assert_next(GVE_HALT);
+    assert_next(GVE_FLAGS);
+    take("!0F\r!0V10\r!0H\r");
+    TEST_ASSERT_TRUE(gve_line_keeps(&line, GVE_HALT));
+    for (unsigned i = 0; i < 3; i++) {
+        TEST_ASSERT_TRUE(gve_line_next(&line, &request));
+    }
+    for (unsigned i = 6; i < GVE_LINE_KEPT; i++) {
+        take("!0F\r");
+        assert_next(GVE_FLAGS);
+    }
+    take("!0F\r");
+    TEST_ASSERT_FALSE(gve_line_keeps(&line, GVE_HALT));
+}

@@ -152,3 +152,14 @@ void test_in_a_packet_the_switch_of_checksums_has_no_effect(void)
     assert_next(GVE_PACKET_END);
     assert_answer("4,0,BC\r", 4, "0");
 }
+
+void test_the_rest_of_a_damaged_line_is_no_line(void)
+{
+    take("!0*S\r!0C2");
+    take_byte('2', true);
+    take("x0F\r0F\r!0*E1\r");
+    assert_next(GVE_PACKET_BEGIN);
+    assert_next_kind(GVE_REQUEST_BAD_LINE);
+    assert_next(GVE_PACKET_END);
+    assert_nothing();
+}
