@@ -171,6 +171,7 @@ void test_what_is_past_the_limits_of_the_contract_is_out_of_bounds(void)
 {
     static const char *const bad[] = {
         "L2147483648",
+        "T18446744073709551617",
         "L-2147483648",
         "L0,99999999999999999999999999",
         "T0",
@@ -265,6 +266,7 @@ void test_a_comma_after_an_axis_may_be_left_out(void)
     assert_number(3, 0, "NA,7");
     assert_number(7, 1, "NA7");
     assert_command(GVE_SET_POSITION, "NX0");
+    assert_command(GVE_SET_POSITION, "nz0");
     assert_command(GVE_ZERO, "N");
 }
 
