@@ -11,9 +11,9 @@
  * speed of all vectors from there on; 2: `value` more vectors are added, and the path is changed for them; 3: they are
  * added and join by themselves, while everything up to the tick has been handed over; 4: `value` is the speed of the
  * one vector there; 5: stop; 6: go on `value` ticks after the rest, or not at all if nothing is left, whatever `tick`
- * is. What is changed while it brakes does not stop any more. A change is planned when pulses up to `ahead` ticks after
- * its place have been handed over.
- * Goes out, a line a case, times from the start: for each change that took effect its ordinal from 0, its section, step
+ * is; 7: `value` is the speed of all vectors after the one there. What is changed while it brakes does not stop any
+ * more. A change is planned when pulses up to `ahead` ticks after its place have been handed over. Goes out, a line a
+ * case, times from the start: for each change that took effect its ordinal from 0, its section, step
  * + grains/grains of a step, speed2 and tick, and of a stop when the path went on (0: it did not), as
  * `o:s:k+g/n:q:t:b` | the pulses of each axis in four fields, ticks, negative ones for negative steps; with stride > 1
  * only every stride-th pulse, the first two of a segment and its last one, as `count:tick` | segments of each axis.
@@ -40,6 +40,7 @@ enum kind {
     KIND_SECTION,
     KIND_BRAKE,
     KIND_GO,
+    KIND_LATER,
     KINDS
 };
 
@@ -296,6 +297,16 @@ static void hand_over_ahead(struct probe *probe, const struct path_place *place)
     hand_over_all(probe, place->entry.time.high + 2U + probe->ahead);
 }
 
+static void set_speeds(struct probe *probe, const struct change *change, uint32_t section)
+{
+    for (uint32_t i = section; i != probe->path.end; i++) {
+        bool there = i == section;
+        if (change->kind == KIND_SPEED || change->kind == (there ? KIND_SECTION : KIND_LATER)) {
+            path_set_speed(&probe->path, i, (uint32_t)change->value);
+        }
+    }
+}
+
 static void make_change(struct probe *probe, unsigned ordinal)
 {
     const struct change *change = &probe->change[ordinal];
@@ -311,12 +322,7 @@ static void make_change(struct probe *probe, unsigned ordinal)
     if (change->kind == KIND_ADD) {
         add(probe, change->value);
     }
-    for (uint32_t i = place.section; change->kind == KIND_SPEED && i != probe->path.end; i++) {
-        path_set_speed(&probe->path, i, (uint32_t)change->value);
-    }
-    if (change->kind == KIND_SECTION) {
-        path_set_speed(&probe->path, place.section, (uint32_t)change->value);
-    }
+    set_speeds(probe, change, place.section);
     bool stops = change->kind == KIND_STOP || change->kind == KIND_BRAKE;
     bool done = stops ? path_stop(&probe->path, &place, back) : path_change(&probe->path, &place, back);
     if (!done) {

@@ -18,7 +18,7 @@ import path_reference as reference
 from path_reference import AXES, ROOT_BITS, Leg, Limits, Vector
 
 ROOT = Path(__file__).resolve().parents[2]
-STOP, SPEED, ADD, JOIN, SECTION, BRAKE, GO = range(7)
+STOP, SPEED, ADD, JOIN, SECTION, BRAKE, GO, LATER = range(8)
 """Kinds of changes, as the probe numbers them."""
 
 TURN_US = 12
@@ -32,10 +32,10 @@ class Change:
     """What happens at a tick after the start.
 
     STOP: a stop, and the path goes on `value` ticks after it has come to rest. SPEED: all vectors
-    from there on have this speed. SECTION: the one there has it. ADD: so many more vectors are
-    added. JOIN: likewise, but without planning anew what has been laid. BRAKE: a stop; what is
-    changed before it has come to rest does not stop any more. GO: it goes on `value` ticks after
-    the rest, whatever `tick` is.
+    from there on have this speed. SECTION: the one there has it. LATER: those after it. ADD: so
+    many more vectors are added. JOIN: likewise, but without planning anew what has been laid.
+    BRAKE: a stop; what is changed before it has come to rest does not stop any more. GO: it goes on
+    `value` ticks after the rest, whatever `tick` is.
     """
 
     kind: int
@@ -138,8 +138,9 @@ def go_on(path: reference.Path, at: Made, known: int) -> None:
 
 def limit(vectors: list[Vector], at: Made, known: int) -> None:
     """Give the vectors from a change on the speed or acceleration that it wants."""
-    last = known if at.change.kind == SPEED else at.section + 1
-    for i in range(at.section, last if at.change.kind in (SPEED, SECTION) else 0):
+    there, later = at.section, range(at.section + 1, known)
+    wanted = {SPEED: (there, *later), SECTION: (there,), LATER: tuple(later)}
+    for i in wanted.get(at.change.kind, ()):
         vectors[i] = replace(vectors[i], speed=at.change.value)
     for i in range(at.section, known if at.change.accel else 0):
         vectors[i] = replace(vectors[i], accel=at.change.accel)

@@ -148,7 +148,8 @@ def look(
     square = at_once(first, square, limits.start2, most)
     borders[0] = min(borders[0], first.to_border(square + way))
     leave = first.from_border(borders[0])
-    if leave + max(0, limits.start2 - first.speed**2) < square - way:
+    fall = max(0, limits.start2 - first.speed**2) if square > first.speed**2 else 0
+    if leave + fall < square - way:
         leave = square - way
         borders[0] = first.to_border_up(leave)
     forward(vectors, borders, 1, borders[0])

@@ -96,7 +96,8 @@ static uint64_t enter2_of(const struct path *path)
     return higher(speed2, lower(lower(limit, jump2_of(path)), brakeable));
 }
 
-/* What the square of the speed may fall at once: in a stop at its end. */
+/* What the square of the speed may fall at once: in a stop at its end; else from the start speed to the vector's, if it
+ * is faster now. */
 static uint64_t fall_of(const struct path *path)
 {
     const struct path_section *section = path_section_of(path, path->laid);
@@ -105,7 +106,7 @@ static uint64_t fall_of(const struct path *path)
     if (path->stopping) {
         return start2;
     }
-    return start2 > limit ? start2 - limit : 0;
+    return path->next.speed2 > limit && start2 > limit ? start2 - limit : 0;
 }
 
 /* Out of the section in which the plan begins, with the speed and the way that are left. */

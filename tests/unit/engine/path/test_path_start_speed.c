@@ -206,6 +206,20 @@ void test_a_change_below_the_start_speed_falls_at_once_when_it_is_slow_already(v
     TEST_ASSERT_EQUAL_UINT64(84000000 + 840000, ticks[0]);
 }
 
+/* The second vector is slower than the start speed: nothing falls to it before it begins, and 500 steps/s are too fast
+ * to be braked away over 50 steps. */
+void test_what_is_too_fast_for_a_slower_vector_to_come_brakes_into_it(void)
+{
+    (void)rig_add(&rig, 100, 0, 500, 10);
+    (void)rig_add(&rig, 20000, 0, 500, 10);
+    start(1000);
+    (void)pulses(1);
+    path_set_speed(&rig.path, 1, PATH_SPEED_UNITS);
+    change_at(168000 * 50 - 10, false);
+    TEST_ASSERT_EQUAL_UINT(50 + 20000, pulses(UINT64_MAX));
+    TEST_ASSERT_EQUAL_UINT64((500 * 500 - 2 * 10 * 50) * UINT64_C(65536), rig.ring[1].enter2);
+}
+
 void test_vectors_that_come_later_are_a_chain_of_their_own(void)
 {
     (void)rig_add(&rig, 50, 0, 3000, 10000);
