@@ -86,8 +86,8 @@ void test_a_new_line_before_the_end_of_a_command_is_damage(void)
 
 void test_a_missing_or_wrong_checksum_is_damage(void)
 {
-    static const char *const lines[] = {"!0F\r",    "!0\r",    "!0F,C\r",  "!0F,C5\r", "!0F,CG\r",
-                                        "!0F,G3\r", "!0FC3\r", "!0F.C3\r", "!0PF,1J\r"};
+    static const char *const lines[] = {"!0F\r",    "!0\r",    "!0F,C\r",  "!0F,C5\r",  "!0F,CG\r",
+                                        "!0F,G3\r", "!0FC3\r", "!0F.C3\r", "!0PF,1J\r", "!0F,D3\r"};
     switch_sums_on();
     for (unsigned i = 0; i < sizeof lines / sizeof lines[0]; i++) {
         take(lines[i]);
