@@ -14,7 +14,7 @@
  * is; 7: `value` is the speed of all vectors after the one there. What is changed while it brakes does not stop any
  * more. A change is planned when pulses up to `ahead` ticks after its place have been handed over. Goes out, a line a
  * case, times from the start: for each change that took effect its ordinal from 0, its section, step
- * + grains/grains of a step, speed2 and tick, and of a stop when the path went on (0: it did not), as
+ * + grains/grains of a step, speed2 and tick, and of a stop when the path went on (-1: it did not), as
  * `o:s:k+g/n:q:t:b` | the pulses of each axis in four fields, ticks, negative ones for negative steps; with stride > 1
  * only every stride-th pulse, the first two of a segment and its last one, as `count:tick` | segments of each axis.
  * Exit status 2: the input is no such thing; 3: a promise was broken.
@@ -264,7 +264,7 @@ static void go_on(struct probe *probe, uint64_t delay)
     struct wide rest = probe->path.rest.entry.time;
     uint64_t tick = rest.high + (rest.low != 0 ? 1U : 0U) + delay;
     bool goes_on = path_start(&probe->path, tick);
-    (void)printf(":%" PRIu64, goes_on ? tick - probe->epoch : 0U);
+    (void)printf(":%" PRId64, goes_on ? (int64_t)(tick - probe->epoch) : -1);
 }
 
 static void tell_change(const struct probe *probe, unsigned ordinal, const struct path_place *place)

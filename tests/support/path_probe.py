@@ -84,8 +84,8 @@ class Made:
     place: Fraction
     square: int
     tick: int
-    start: int = 0
-    """Of a stop: when the path went on; 0: it did not."""
+    start: int = -1
+    """Of a stop: when the path went on; -1: it did not."""
 
     @classmethod
     def parse(cls, text: str, changes: Sequence[Change]) -> Made:
@@ -128,9 +128,9 @@ def run(cases: Iterable[Case]) -> Iterator[Run]:
 def go_on(path: reference.Path, at: Made, known: int) -> None:
     """Leave the stand if anything is left of the path, as the probe must have done."""
     path.known = known
-    if (path.rest[0] == known) != (at.start == 0):
+    if (path.rest[0] == known) != (at.start < 0):
         raise AssertionError(f"{at}: the path rests at {path.rest} of {known} vectors")
-    if at.start != 0:
+    if at.start >= 0:
         if at.start - at.change.value not in path.rest_ticks():
             raise AssertionError(f"{at}: the path rests at {path.rest_ticks()}")
         path.start(at.start)
