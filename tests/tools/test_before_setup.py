@@ -20,6 +20,7 @@ FILES = (
     "tools/setup",
     "tools/requirements.txt",
     "firmware/rkm04/rkm04.h",
+    "firmware/gve134/command/gve_commands.def",
 )
 COMMANDS = [name for name, _ in commands_of(make_parser()) if name not in ("build", "size")]
 
@@ -34,6 +35,7 @@ def clone(tmp_path_factory) -> Path:
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, root / name)
     (root / "tools/service_page").mkdir()
+    (root / "tools/gve134").symlink_to("rkm04")
     return root
 
 
@@ -59,6 +61,19 @@ def test_help_version_and_completion_need_no_setup(clone):
         assert (done.returncode, done.stderr) == (0, ""), arguments
         assert done.stdout.startswith(begin)
     assert run(clone, "tools/test", "--help").stdout.startswith("usage: tools/test ")
+    assert is_untouched(clone)
+
+
+def test_the_other_tool_needs_no_setup_for_them_either(clone):
+    for arguments, status, begin in [
+        (["--help"], 0, "usage: gve134 "),
+        (["check", "--help"], 0, "usage: gve134 check "),
+        (["--version"], 0, "gve134, with the firmware IP134/200 v1 "),
+        (["chekc", "a.gve"], 2, "gve134: COMMAND chekc is none; did you mean check?; gve134 "),
+    ]:
+        done = run(clone, "tools/gve134", *arguments)
+        assert done.returncode == status, arguments
+        assert (done.stdout or done.stderr).startswith(begin)
     assert is_untouched(clone)
 
 
