@@ -2,7 +2,7 @@
  * The answers: codes and values in, bytes for the line out, one at a time.
  *
  * It keeps the last answer to be sent again byte for byte; an answer that must not take its place stands apart. While
- * one is being sent no other may be made. Main only. 140 bytes.
+ * one is being sent no other may be made. Main only. 128 bytes.
  */
 #ifndef GVE_ANSWER_H
 #define GVE_ANSWER_H

@@ -4,7 +4,7 @@
  *
  * It knows the frame of a line (line.md, "A request") and when one is damaged ("Damage"), nothing of commands. Its
  * owner tells it whether checksums are on and whether a packet is being received, as both change what damage is. There
- * is no clock inside: a byte has the tick of its end, and who waits calls gve_receiver_poll. Main only. 128 bytes.
+ * is no clock inside: a byte has the tick of its end, and who waits calls gve_receiver_poll. Main only. 104 bytes.
  */
 #ifndef GVE_RECEIVER_H
 #define GVE_RECEIVER_H
