@@ -96,19 +96,22 @@ static void meet_border(uint32_t section, uint64_t tick)
     *border = tick;
 }
 
-static void require_turn(const struct train *train, uint64_t tick, bool backward)
+/* Where an axis pauses before it turns, that the vector lasts long enough is the caller's. */
+static void require_turn(const struct train *train, unsigned axis, uint64_t tick, bool backward)
 {
-    bool stood = bench.path.start_speed != 0 && bench.started >= train->last;
-    if (train->kept > 0 && backward != train->backward && !stood && !bench.braked_otherwise) {
-        FUZZ_REQUIRE(tick - train->last + 1U >= (uint64_t)bench.path.turn_us * TICKS_PER_US);
+    if (train->kept == 0 || backward == train->backward || bench.braked_otherwise) {
+        return;
     }
+    bool stood = bench.path.start_speed != 0 && bench.started >= train->last;
+    bool paused = steps_of(train->section - 1U, axis) == 0;
+    FUZZ_REQUIRE(stood || paused || tick - train->last + 1U >= (uint64_t)bench.path.turn_us * TICKS_PER_US);
 }
 
 static void make_pulse(unsigned axis, uint64_t tick, bool backward)
 {
     struct train *train = &bench.train[axis];
     FUZZ_REQUIRE(tick >= train->last + (train->kept > 0 ? INTERVAL_TICKS_MIN : 0));
-    require_turn(train, tick, backward);
+    require_turn(train, axis, tick, backward);
     if (train->kept == KEPT_MAX) {
         train->kept = KEPT_MAX / 2;
         memmove(train->tick, train->tick + KEPT_MAX / 2, sizeof train->tick / 2);
@@ -263,6 +266,18 @@ static void do_start(struct fuzz_stream *stream)
     require_plan();
 }
 
+/* The vector with the last pulse that an axis has made, or its first one. */
+static uint32_t last_section(unsigned axis)
+{
+    uint32_t section = bench.train[axis].section;
+    bool begins = bench.train[axis].made == 0;
+    while (section > 0 && (begins || steps_of(section, axis) == 0)) {
+        section--;
+        begins = false;
+    }
+    return section;
+}
+
 /* What comes after a place is not made. */
 static void go_back(const struct path_place *place, unsigned axis, uint64_t back)
 {
@@ -283,6 +298,7 @@ static void go_back(const struct path_place *place, unsigned axis, uint64_t back
         train->last = train->kept > 0 ? train->tick[train->kept - 1U] : bench.epoch;
     }
     FUZZ_REQUIRE(train->kept == 0 || train->last <= time + 2U);
+    train->backward = bench.vector[last_section(axis)].steps[axis] < 0;
     train->generator.tick = (uint32_t)train->last;
     train->lost = train->lost || train->kept == 0;
 }

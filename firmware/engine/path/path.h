@@ -84,7 +84,8 @@ struct path {
  *
  * The speed at a border where an axis turns is the one at which its first pulse after it, as the path speeds up, comes
  * just late enough: u = L/(T*|d|) - A*T/2 in the vector after the border. Where that is not above 0 it is 0, the path
- * stands there for a moment; PATH_TURN_US_MAX is chosen so that this always suffices. */
+ * stands there for a moment; PATH_TURN_US_MAX is chosen so that this always suffices. Of an axis that rests in a vector
+ * before it turns nothing is asked: the caller's vectors last `turn_us` at least, L/speed, if axes do so. */
 void path_init(struct path *path, struct path_section *ring, uint32_t size, uint32_t turn_us);
 
 /* The start/stop speed of what begins with the next start, 1/256 step/s of the longest axis, 0 to PATH_SPEED_MAX; 0
