@@ -122,6 +122,7 @@ static void write_egr(struct timer *timer, uint32_t value)
         timer->count = 0;
         timer->anchor_cycle = now;
         timer_update_event(timer, true, now);
+        timer_plan(timer, now);
     }
     timer->sr |= value & CHANNEL_FLAGS; /* the flags; of the outputs section 18.4.6 says nothing */
     for (unsigned i = 0; i < TIMER_CHANNELS; i++) {
@@ -129,7 +130,6 @@ static void write_egr(struct timer *timer, uint32_t value)
             timer_request_channel(timer, i, now);
         }
     }
-    timer_plan(timer, now);
     timer_update_outputs(timer, now);
 }
 
