@@ -16,10 +16,10 @@
 static_assert((uint32_t)UNIT_MOTORS <= (uint32_t)STORE_SLOTS, "each motor has a slot for its program");
 static_assert((uint32_t)MESSAGES_LINE_COUNTS == (uint32_t)LINK_COUNTS_TOTAL, "Get Status tells all of them");
 
-static bool rkm04_step_isr(void *context, unsigned motor)
+static unsigned rkm04_lay_isr(void *context, unsigned motor, struct hal_step_room *room)
 {
     struct rkm04 *unit = context;
-    return axis_pulse_isr(&unit->axis[motor]);
+    return axis_lay_isr(&unit->axis[motor], room);
 }
 
 /* Stops motors as the inputs say; what takes long is left to the plan interrupt. */
@@ -69,13 +69,10 @@ void rkm04_init(struct rkm04 *unit)
     };
     unit->client = (struct hal_client){
         .context = unit,
-        .step_isr = rkm04_step_isr,
+        .lay_isr = rkm04_lay_isr,
         .tick_isr = rkm04_tick_isr,
         .plan_isr = rkm04_plan_isr,
     };
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        unit->client.channel[motor] = &unit->axis[motor].channel;
-    }
 }
 
 static void rkm04_start_program(struct rkm04 *unit, unsigned motor, uint64_t now_ticks)

@@ -55,21 +55,6 @@ void host_machine_restart(struct host_machine *machine)
     host_line_reset(machine);
 }
 
-static void wake_main(struct host_machine *machine, uint64_t tick)
-{
-    machine->wake = tick < machine->wake ? tick : machine->wake;
-}
-
-/* The motor whose pulse, or late interrupt, comes first. */
-static unsigned first_motor(const struct host_machine *machine)
-{
-    unsigned first = 0;
-    for (unsigned motor = 1; motor < UNIT_MOTORS; motor++) {
-        first = machine->armed[motor] < machine->armed[first] ? motor : first;
-    }
-    return first;
-}
-
 static uint64_t next_input_tick(const struct host_machine *machine)
 {
     if (machine->script_next == machine->script_length) {
@@ -77,34 +62,6 @@ static uint64_t next_input_tick(const struct host_machine *machine)
     }
     uint64_t tick = machine->script[machine->script_next].tick;
     return tick < machine->now ? machine->now : tick;
-}
-
-static void make_edge(struct host_machine *machine, unsigned motor)
-{
-    const struct host_listener *listener = &machine->listener;
-    void (*tell)(void *, uint64_t, unsigned, bool) = machine->connected[motor] ? listener->step : listener->simulated;
-    machine->pulses++;
-    if (tell != NULL) {
-        tell(listener->context, machine->now, motor, machine->backward[motor]);
-    }
-}
-
-static void pulse_event(struct host_machine *machine, unsigned motor)
-{
-    machine->now = machine->armed[motor];
-    if (!machine->edge_made[motor]) {
-        make_edge(machine, motor);
-        if (machine->faults.late_step_ticks != 0) {
-            machine->edge_made[motor] = true;
-            machine->armed[motor] += machine->faults.late_step_ticks;
-            return;
-        }
-    }
-    machine->edge_made[motor] = false;
-    machine->armed[motor] = TICK_NEVER;
-    if (machine->client.step_isr(machine->client.context, motor)) {
-        wake_main(machine, machine->now + HOST_PULSE_TICKS);
-    }
 }
 
 static uint8_t with_input(uint8_t levels, unsigned input, bool level)
@@ -121,7 +78,7 @@ static void sense_event(struct host_machine *machine)
         machine->client.tick_isr(machine->client.context, host_unit_time(machine) - machine->faults.late_tick_ticks);
         assert(!machine->step_held);
     }
-    wake_main(machine, machine->now);
+    host_wake_main(machine, machine->now);
 }
 
 static void set_inputs(struct host_machine *machine, uint8_t levels)
@@ -163,7 +120,7 @@ static void line_event(struct host_machine *machine)
 {
     machine->now = machine->line.next_tick;
     if (host_line_event(machine)) {
-        wake_main(machine, machine->now);
+        host_wake_main(machine, machine->now);
     }
 }
 
@@ -211,11 +168,11 @@ void host_machine_run(struct host_machine *machine, uint64_t until, host_main_pa
     host_machine_select(machine);
     machine->wake = machine->now;
     for (bool ended = false; !ended;) {
-        unsigned motor = first_motor(machine);
+        unsigned motor = host_step_first(machine);
         uint64_t input = next_input_tick(machine);
-        switch (next_event(machine, machine->armed[motor], input, until)) {
+        switch (next_event(machine, host_step_next_tick(machine, motor), input, until)) {
         case EVENT_PULSE:
-            pulse_event(machine, motor);
+            host_step_event(machine, motor);
             break;
         case EVENT_INPUT:
             input_event(machine, input);
@@ -244,7 +201,7 @@ void host_machine_run(struct host_machine *machine, uint64_t until, host_main_pa
 
 uint64_t host_machine_next_tick(const struct host_machine *machine)
 {
-    uint64_t next = machine->armed[first_motor(machine)];
+    uint64_t next = host_step_next_tick(machine, host_step_first(machine));
     uint64_t input = next_input_tick(machine);
     next = input < next ? input : next;
     next = machine->sense < next ? machine->sense : next;

@@ -32,6 +32,7 @@
 enum {
     HOST_LINE_HEARD_MAX = 256,  /* bytes received and not yet read, the last one broken; what comes beyond is lost */
     HOST_LINE_TO_SEND_MAX = 64, /* bytes given and not yet sent */
+    HOST_LAID_MAX = 64,         /* pulses of a motor that wait */
 };
 
 /* What the machine tells, in order of time; ticks count from the start of the machine, not from its epoch. Entries
@@ -101,6 +102,13 @@ struct host_faults {
     enum hal_board_cause start_cause; /* why the board has started */
 };
 
+/* The pulses of a motor that wait: a ring. */
+struct host_laid {
+    uint64_t tick[HOST_LAID_MAX];
+    uint32_t first;
+    uint32_t count;
+};
+
 struct host_machine {
     uint64_t epoch; /* hal_time_now at the start */
     uint64_t now;   /* ticks from the start */
@@ -112,9 +120,11 @@ struct host_machine {
     const struct host_input *script; /* sorted by tick */
     uint32_t script_length;
     uint32_t script_next;
-    uint64_t armed[UNIT_MOTORS]; /* ticks from the start; TICK_NEVER: none */
-    bool edge_made[UNIT_MOTORS]; /* `armed` is no more the edge but its interrupt, which is late */
-    bool backward[UNIT_MOTORS];  /* DIR as set; the pin shows it while connected */
+    uint32_t ahead_ticks;        /* pulses are laid this far ahead, or one; 0 unless set */
+    uint64_t armed[UNIT_MOTORS]; /* the next edge, ticks from the start; TICK_NEVER: none */
+    uint64_t step[UNIT_MOTORS];  /* the step interrupt that is due, likewise */
+    struct host_laid laid[UNIT_MOTORS];
+    bool backward[UNIT_MOTORS]; /* DIR as set; the pin shows it while connected */
     bool led[UNIT_MOTORS];
     bool connected[UNIT_MOTORS]; /* STEP and DIR reach their pins; so they do at the start */
     bool step_held;
@@ -122,8 +132,8 @@ struct host_machine {
     uint8_t inputs;
     uint8_t outputs;
     struct host_line line;
-    uint64_t late_steps;       /* pulses armed for a tick that had gone by; 0 in every good run */
-    uint64_t pulses;           /* armed pulses made, connected or not */
+    uint64_t late_steps;       /* pulses laid for a tick that had gone by; 0 in every good run */
+    uint64_t pulses;           /* pulses made, connected or not */
     uint32_t flash_operations; /* words and erases since the start or restart */
     uint32_t flash_rewrites;   /* words that were written when not erased; 0 in every good run */
     uint8_t flash[HAL_FLASH_AREAS][HAL_FLASH_AREA_BYTES];

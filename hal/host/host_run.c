@@ -4,7 +4,7 @@
 
 void hal_run_start(const struct hal_client *client)
 {
-    assert(client->step_isr != NULL && client->tick_isr != NULL && client->plan_isr != NULL);
+    assert(client->lay_isr != NULL && client->tick_isr != NULL && client->plan_isr != NULL);
     host_current()->client = *client;
 }
 

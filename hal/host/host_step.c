@@ -23,33 +23,140 @@ void host_step_reset(struct host_machine *machine)
 {
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         machine->armed[motor] = TICK_NEVER;
-        machine->edge_made[motor] = false;
+        machine->step[motor] = TICK_NEVER;
+        machine->laid[motor] = (struct host_laid){.count = 0};
         set_pins(machine, motor, false, true);
     }
 }
 
-void hal_step_arm(unsigned motor, uint32_t tick)
+static uint64_t *laid_slot(struct host_laid *laid, uint32_t place)
 {
-    struct host_machine *machine = host_current();
-    assert(motor < UNIT_MOTORS);
-    assert(machine->armed[motor] == TICK_NEVER);
-    int32_t way = tick_difference(tick, (uint32_t)host_unit_time(machine));
+    return &laid->tick[(laid->first + place) % HOST_LAID_MAX];
+}
+
+static void find_armed(struct host_machine *machine, unsigned motor)
+{
+    struct host_laid *laid = &machine->laid[motor];
+    machine->armed[motor] = laid->count == 0 ? TICK_NEVER : *laid_slot(laid, 0);
+}
+
+static void put(struct host_machine *machine, unsigned motor, const struct hal_step_pulse *pulse)
+{
+    struct host_laid *laid = &machine->laid[motor];
+    int32_t way = tick_difference(pulse->rise_tick, (uint32_t)host_unit_time(machine));
     if (way < 0) {
         machine->late_steps++;
         way = 0;
     }
-    machine->armed[motor] = machine->now + (uint32_t)way;
+    *laid_slot(laid, laid->count) = machine->now + (uint32_t)way;
+    laid->count++;
 }
 
-bool hal_step_disarm(unsigned motor)
+static bool wants_more(struct host_machine *machine, unsigned motor)
+{
+    struct host_laid *laid = &machine->laid[motor];
+    return laid->count == 0 ||
+           (laid->count < HOST_LAID_MAX && *laid_slot(laid, laid->count - 1U) < machine->now + machine->ahead_ticks);
+}
+
+/* Asks for a pulse at a time. True: main has something to do. */
+static bool lay(struct host_machine *machine, unsigned motor)
+{
+    bool main_has_work = false;
+    bool more = true;
+    while (more && wants_more(machine, motor)) {
+        struct hal_step_pulse pulse;
+        struct hal_step_room room = {
+            .pulse = &pulse,
+            .count = 1,
+            .waiting = machine->laid[motor].count,
+            .until_tick = (uint32_t)host_unit_time(machine) + machine->ahead_ticks,
+            .high_ticks = HOST_PULSE_TICKS,
+        };
+        more = machine->client.lay_isr(machine->client.context, motor, &room) != 0;
+        main_has_work = main_has_work || room.main_has_work;
+        if (more) {
+            put(machine, motor, &pulse);
+        }
+    }
+    find_armed(machine, motor);
+    return main_has_work;
+}
+
+unsigned host_step_first(const struct host_machine *machine)
+{
+    unsigned first = 0;
+    for (unsigned motor = 1; motor < UNIT_MOTORS; motor++) {
+        first = host_step_next_tick(machine, motor) < host_step_next_tick(machine, first) ? motor : first;
+    }
+    return first;
+}
+
+uint64_t host_step_next_tick(const struct host_machine *machine, unsigned motor)
+{
+    uint64_t edge = machine->armed[motor];
+    uint64_t step = machine->step[motor];
+    return edge < step ? edge : step;
+}
+
+static void make_edge(struct host_machine *machine, unsigned motor)
+{
+    const struct host_listener *listener = &machine->listener;
+    struct host_laid *laid = &machine->laid[motor];
+    void (*tell)(void *, uint64_t, unsigned, bool) = machine->connected[motor] ? listener->step : listener->simulated;
+    laid->first++;
+    laid->count--;
+    machine->pulses++;
+    if (tell != NULL) {
+        tell(listener->context, machine->now, motor, machine->backward[motor]);
+    }
+}
+
+/* The interrupt comes with the edge, unless it is late. */
+void host_step_event(struct host_machine *machine, unsigned motor)
+{
+    machine->now = host_step_next_tick(machine, motor);
+    if (machine->armed[motor] == machine->now) {
+        uint64_t step = machine->now + machine->faults.late_step_ticks;
+        make_edge(machine, motor);
+        find_armed(machine, motor);
+        machine->step[motor] = step < machine->step[motor] ? step : machine->step[motor];
+    }
+    if (machine->step[motor] == machine->now) {
+        machine->step[motor] = TICK_NEVER;
+        if (lay(machine, motor)) {
+            host_wake_main(machine, machine->now + HOST_PULSE_TICKS);
+        }
+    }
+}
+
+static struct host_machine *held_machine(unsigned motor)
 {
     struct host_machine *machine = host_current();
     assert(motor < UNIT_MOTORS);
-    if (machine->armed[motor] == TICK_NEVER || machine->edge_made[motor]) {
-        return false;
-    }
-    machine->armed[motor] = TICK_NEVER;
-    return true;
+    assert(machine->step_held);
+    return machine;
+}
+
+/* Whoever calls knows that main has work. */
+void hal_step_run(unsigned motor)
+{
+    (void)lay(held_machine(motor), motor);
+}
+
+unsigned hal_step_waiting(unsigned motor)
+{
+    return held_machine(motor)->laid[motor].count;
+}
+
+unsigned hal_step_take_back(unsigned motor, unsigned count)
+{
+    struct host_machine *machine = held_machine(motor);
+    struct host_laid *laid = &machine->laid[motor];
+    unsigned back = count < laid->count ? count : laid->count;
+    laid->count -= back;
+    find_armed(machine, motor);
+    return back;
 }
 
 void hal_step_set_direction(unsigned motor, bool backward)

@@ -7,18 +7,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base_limits.h"
-
-struct step_channel;
+struct hal_step_room;
 
 struct hal_client {
     void *context;
 
-    /* Step interrupt: the armed pulse of motor 0 to 3 has been made. True: main has something to do. */
-    bool (*step_isr)(void *context, unsigned motor);
-
-    /* What step_isr works on, for a backend that counts cycles: it calls step_channel_next itself, inline. */
-    struct step_channel *channel[UNIT_MOTORS];
+    /* Step interrupt, and hal_step_run: writes the pulses of motor 0 to 3 that are due next into `room` and returns how
+     * many. 0: none is left. It is asked once more when all that were laid have been made, and then the motor rests. */
+    unsigned (*lay_isr)(void *context, unsigned motor, struct hal_step_room *room);
 
     /* Tick interrupt, every millisecond and whenever an input changes: senses the inputs for guards and stops. They had
      * not changed before `since_tick`, the unit's time. */

@@ -1,8 +1,9 @@
 /*
- * The seam to the step output: four compare channels of one timer, one STEP pin each, and the DIR pins.
+ * The seam to the step output: four STEP pins whose edges the hardware makes, each at its tick, and the DIR pins.
  *
- * The backend makes the rising edge of STEP in hardware at the armed tick, puts it back low after the board's pulse
- * width, and then calls the client's step interrupt (hal_run.h). One pulse a motor can be armed at a time.
+ * Pulses are laid ahead: while a motor moves, the backend asks the client for those that are due next (hal_run.h,
+ * lay_isr), in time and at least one ahead. What has been laid is made without any code, or taken back. The position
+ * is what has been made.
  */
 #ifndef HAL_STEP_H
 #define HAL_STEP_H
@@ -10,15 +11,35 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Arms a pulse of motor 0 to 3 at `tick`, the low 32 bits of the unit's time, less than 25 s ahead. A tick that has
- * just gone by is made good at once and counted as late. Main and all interrupts. */
-void hal_step_arm(unsigned motor, uint32_t tick);
+/* The edges of a pulse: the low 32 bits of the unit's time. */
+struct hal_step_pulse {
+    uint32_t rise_tick;
+    uint32_t fall_tick;
+};
 
-/* Takes the armed pulse back. False: it has been made already and its interrupt is due. Only while hal_step_hold is in
- * force, so in main, plan and tick interrupt. */
-bool hal_step_disarm(unsigned motor);
+/* What the backend asks lay_isr for. */
+struct hal_step_room {
+    struct hal_step_pulse *pulse; /* where the pulses go, in their order */
+    unsigned count;               /* of places, at least 1 */
+    unsigned waiting;             /* pulses laid before that have not been made */
+    uint32_t until_tick;          /* no pulse is wanted after the first that is due at this tick or later */
+    uint32_t high_ticks;          /* the width of a pulse */
+    bool main_has_work;           /* set by the client where main is to be woken */
+};
 
-/* Sets DIR: false forward, true backward. Called only while no pulse is armed. Main. */
+/* Lays what is due of a motor that has none waiting, or of which some were taken back, and begins to ask for more. A
+ * pulse is due less than 25 s ahead; one whose tick has gone by is made good at once and counted as late. Only while
+ * hal_step_hold is in force. */
+void hal_step_run(unsigned motor);
+
+/* Pulses laid that have not been made. Only while hal_step_hold is in force. */
+unsigned hal_step_waiting(unsigned motor);
+
+/* Takes the last `count` pulses of those that wait back, or those of them for which it is not too late; tells how many.
+ * If any were, hal_step_run has to follow for more to come. Only while hal_step_hold is in force. */
+unsigned hal_step_take_back(unsigned motor, unsigned count);
+
+/* Sets DIR: false forward, true backward. Called only while no pulse waits. Main. */
 void hal_step_set_direction(unsigned motor, bool backward);
 
 /* Connects STEP and DIR of a motor to their pins, or holds the pins at 0 while all else runs on; at first they are
@@ -29,7 +50,7 @@ void hal_step_connect(unsigned motor, bool connected);
  * what planning takes. 0 where planning takes no time. Main. */
 uint32_t hal_step_lead_ticks(void);
 
-/* Holds the step interrupt off and all others with it, for less than 2 us, and lets them through again; not nested.
+/* Holds off the interrupt in which pulses are laid and all others with it, and lets them through again; not nested.
  * Main, plan and tick interrupt. */
 void hal_step_hold(void);
 void hal_step_release(void);

@@ -7,7 +7,8 @@
 enum {
     FRAME_PC = 6,
     FRAME_WORDS = 8,
-    EXCEPTION_MASK = 0x1FF
+    EXCEPTION_MASK = 0x1FF,
+    EXCEPTIONS = 16 /* of the processor, PM0214 2.3.2 */
 };
 
 extern uint32_t stm32_stack_bottom[];
@@ -52,6 +53,12 @@ __attribute__((naked)) void stm32_fault_entry(void)
                      "movt r2, #:upper16:stm32_stack_top\n\t"
                      "mov sp, r2\n\t"
                      "b stm32_fault_stop\n\t");
+}
+
+_Noreturn void stm32_fault_stop_output(void)
+{
+    (void)stm32_mask();
+    stop(HAL_BOARD_CAUSE_FAULT, EXCEPTIONS + TIM2_IRQ, (uint32_t)(uintptr_t)__builtin_return_address(0));
 }
 
 /* Where assert ends. */

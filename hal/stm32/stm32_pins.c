@@ -17,7 +17,10 @@ enum {
     USE_TIM2_CH1 = MODE_ALTERNATE | 1 << USE_ALTERNATE_PLACE,
     USE_TIM2_CH2 = USE_TIM2_CH1,
     USE_TIM2_CH3 = USE_TIM2_CH1,
-    USE_TIM2_CH4 = USE_TIM2_CH1,
+    USE_TIM5_CH1 = MODE_ALTERNATE | 2 << USE_ALTERNATE_PLACE,
+    USE_TIM5_CH2 = USE_TIM5_CH1,
+    USE_TIM5_CH3 = USE_TIM5_CH1,
+    USE_TIM5_CH4 = USE_TIM5_CH1,
     USE_USART1 = MODE_ALTERNATE | 7 << USE_ALTERNATE_PLACE | USE_PULL_UP,
     USE_USART2 = USE_USART1,
     USE_USART3 = USE_USART1,
@@ -83,7 +86,7 @@ void stm32_pins_make_safe(void)
     }
 }
 
-/* The timer holds the STEP pins before they are handed over to it, see hal_board_init. */
+/* The timers hold the STEP pins before they are handed over to them, see hal_board_init. */
 void stm32_pins_start(void)
 {
     stm32_pins_make_safe();

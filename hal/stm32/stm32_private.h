@@ -1,7 +1,7 @@
 /*
  * What the files of this backend share. Who runs where:
  *
- *   priority 0  TIM2     stm32_step.c   masked only with all interrupts (PRIMASK), for less than 2 us
+ *   priority 0  TIM2     stm32_step.c   masked only with all interrupts (PRIMASK), for less than 15 us
  *   priority 1  USART    stm32_line.c
  *   priority 2  SysTick  stm32_tick.c   held off by main through BASEPRI, for less than 2 us
  *               EXTI     stm32_tick.c   likewise
@@ -16,6 +16,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base_limits.h"
 #include "hal_run.h"
 
 enum {
@@ -78,7 +79,7 @@ void stm32_io_blink(bool on);
 void stm32_step_start(bool may_move);
 void stm32_step_set_client(const struct hal_client *client);
 void stm32_step_make_safe(void);
-/* An armed pulse is more than 5 ms overdue: the step interrupt does not run. */
+/* What the step interrupt has to do is more than 5 ms overdue: it does not run. */
 bool stm32_step_is_stuck(void);
 /* Pulses that were made later than asked for. */
 extern uint32_t stm32_late_steps;
@@ -138,6 +139,8 @@ enum {
 };
 extern struct stm32_fault stm32_fault_record;
 void stm32_fault_entry(void);
+/* The step output has failed: a stream has stopped by itself, or a pulse has not been made. */
+_Noreturn void stm32_fault_stop_output(void);
 _Noreturn void stm32_fault_stop(const uint32_t *frame, uint32_t exception);
 
 #endif

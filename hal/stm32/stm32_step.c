@@ -1,214 +1,293 @@
 #include "hal_step.h"
 
+#include "base_hint.h"
 #include "stm32_step_private.h"
 
 struct stm32_step stm32_step;
 uint32_t stm32_late_steps;
 
-/* On a board of short pulses the code of the long ones goes away. */
-#define PULSES_ARE_LONG (HIGH_TICKS > SPIN_TICKS)
-
-/* The tick for an edge, `now` being the time of a moment ago: one that leaves the driver too little low time, or is
- * past, is late and made as soon as may be. */
-static uint32_t made_good(uint32_t tick, uint32_t now)
+static inline bool is_before(uint32_t tick, uint32_t other)
 {
-    if ((int32_t)(tick - now) >= (int32_t)ROOM_TICKS) {
-        return tick;
+    return (int32_t)(tick - other) < 0;
+}
+
+static inline struct hal_step_pulse *slot(struct stm32_channel *channel, uint32_t pulse)
+{
+    return &channel->ring[pulse % RING_PULSES];
+}
+
+/* Of the words of the ring, NDTR has counted those that have arrived (RM0090 10.5.6); the last of them is the edge to
+ * come. A stream that has stopped by itself has met an error, and its edges are missing. */
+static uint32_t count_waiting(const struct stm32_channel *channel)
+{
+    if (BASE_SELDOM((DMA_CR(channel->stream) & DMA_CR_EN) == 0)) {
+        stm32_fault_stop_output();
     }
-    stm32_late_steps++;
-    return now + (uint32_t)ROOM_TICKS;
+    uint32_t arrived = (RING_EDGES - DMA_NDTR(channel->stream)) % RING_EDGES;
+    return (channel->laid - arrived / 2U) % RING_PULSES;
 }
 
-/* Whether the counter wraps before the pulse of an edge to come has been high long enough. */
-static inline bool ends_after_wrap(uint32_t edge, uint32_t now)
+/* All pulses that should have been made were, but for those that wait. */
+static void check_made(const struct stm32_channel *channel, uint32_t waiting)
 {
-    return edge + (uint32_t)HIGH_TICKS <= now;
+    if (BASE_SELDOM(count_waiting(channel) != waiting)) {
+        stm32_fault_stop_output();
+    }
 }
 
-/* Puts the pin low and arms the next edge, whatever the channel did before. A late edge is not where the client has it,
- * one after the counter's wrap is no matter of being above it, and one right before it would be cut short there. */
-static void arm(unsigned motor, uint32_t tick)
+/* The pin is low and stays so. */
+static void stop(struct stm32_channel *channel)
 {
-    struct stm32_channel *channel = &stm32_step.channel[motor];
-    uint32_t flag = flag_of(motor);
-    uint32_t now = TIM2_CNT;
-    uint32_t edge = made_good(tick, now);
-    bool plain = !PULSES_ARE_LONG && edge == tick && !ends_after_wrap(edge, now);
     set_mode(channel, MODE_LOW);
-    *channel->compare = edge;
-    stm32_step.edge[motor] = edge;
-    set_enabled(plain ? stm32_step.plain | flag : stm32_step.plain & ~flag,
-                plain ? stm32_step.special & ~flag : stm32_step.special | flag);
-    set_mode(channel, armed_mode(motor));
+    set_asking(channel, false);
+    DMA_CR(channel->stream) &= ~DMA_CR_EN;
+    while ((DMA_CR(channel->stream) & DMA_CR_EN) != 0) {
+    }
+    channel->active = false;
+    channel->laid = 0;
 }
 
-static void rest(unsigned motor, uint32_t edge)
+/* The stream moves the first edge into the compare register at once; none before it is near (RM0090 10.3.17 has the
+ * order of the writes to the stream). */
+static void start(struct stm32_channel *channel, uint32_t now)
 {
-    uint32_t others = ~flag_of(motor);
-    set_mode(&stm32_step.channel[motor], MODE_LOW);
-    set_enabled(stm32_step.plain & others, stm32_step.special & others);
-    stm32_step.edge[motor] = edge;
-}
-
-/* What follows the pulse at `edge`. */
-__attribute__((noinline)) static void follow(unsigned motor, uint32_t edge, unsigned next)
-{
-    if ((next & STEP_CHANNEL_ARM) != 0) {
-        arm(motor, stm32_step.client[motor]->cursor.generator.tick);
-    } else {
-        rest(motor, edge);
+    *channel->clear = channel->flags;
+    DMA_NDTR(channel->stream) = RING_EDGES;
+    DMA_CR(channel->stream) |= DMA_CR_EN;
+    *channel->compare = now - TICKS_PER_MS;
+    TIM_SR(channel->timer) = ~channel->event;
+    set_asking(channel, true);
+    TIM_EGR(channel->timer) = channel->event;
+    channel->active = true;
+    if (channel->connected) {
+        set_mode(channel, MODE_TOGGLE);
     }
 }
 
-/* The time, once a pulse has been high long enough. */
-static inline uint32_t wait_out(uint32_t edge)
+/* Moves pulses on that are due before `tick`, or too soon after the one before. */
+static void make_good(struct hal_step_pulse *pulse, uint32_t count, uint32_t tick)
 {
-    uint32_t now = TIM2_CNT;
-    while (BASE_SELDOM(now - edge < (uint32_t)HIGH_TICKS)) {
-        now = TIM2_CNT;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!is_before(pulse[i].rise_tick, tick)) {
+            return;
+        }
+        pulse[i] = (struct hal_step_pulse){.rise_tick = tick, .fall_tick = tick + (uint32_t)HIGH_TICKS};
+        tick += (uint32_t)(HIGH_TICKS + CATCH_UP_TICKS);
+        stm32_late_steps++;
     }
-    return now;
 }
 
-/* Has the channel end the pulse, which is none if the pin is disconnected. There are SPIN_TICKS at least until then. */
-static void fall_later(unsigned motor, unsigned next)
+/* The first tick at which a pulse can rise: the driver of the motor has had its time at low. */
+static uint32_t earliest(const struct stm32_channel *channel, uint32_t now)
+{
+    uint32_t started = now + (uint32_t)START_TICKS;
+    uint32_t low = channel->last_tick + (uint32_t)HIGH_TICKS + (uint32_t)LOW_TICKS;
+    return is_before(started, low) && !is_before(now, channel->last_tick) ? low : started;
+}
+
+/* How many pulses at a time. Slow ones cost more, each. */
+static inline uint32_t portion(struct stm32_channel *channel)
+{
+    uint32_t interval = channel->last_tick - slot(channel, channel->laid - 2U)->rise_tick;
+    return channel->laid > 1U && interval < (uint32_t)FAST_TICKS ? LAY_FAST_MAX : LAY_MAX;
+}
+
+/* Asks for pulses in one piece of the ring. */
+static inline uint32_t ask(unsigned motor, uint32_t waiting, uint32_t until)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
-    *channel->compare = stm32_step.edge[motor] + (uint32_t)HIGH_TICKS;
-    set_mode(channel, MODE_FALL);
-    stm32_step.falling |= flag_of(motor);
-    stm32_step.waiting |= (next & STEP_CHANNEL_ARM) != 0 ? flag_of(motor) : 0U;
-}
-
-static void serve_fall(unsigned motor)
-{
-    unsigned next = (stm32_step.waiting & flag_of(motor)) != 0 ? STEP_CHANNEL_ARM : 0U;
-    stm32_step.falling &= ~flag_of(motor);
-    stm32_step.waiting &= ~flag_of(motor);
-    follow(motor, stm32_step.edge[motor], next);
-}
-
-static void serve_special(unsigned motor)
-{
-    uint32_t edge = stm32_step.edge[motor];
-    if (PULSES_ARE_LONG && (stm32_step.falling & flag_of(motor)) != 0) {
-        serve_fall(motor);
-        return;
-    }
-    unsigned next = step_channel_next(stm32_step.client[motor]);
-    if ((next & STEP_CHANNEL_WAKE) != 0) {
+    uint32_t piece = RING_PULSES - channel->laid % RING_PULSES;
+    uint32_t count = portion(channel);
+    struct hal_step_room room = {
+        .pulse = slot(channel, channel->laid),
+        .count = piece < count ? piece : count,
+        .waiting = waiting,
+        .until_tick = until,
+        .high_ticks = HIGH_TICKS,
+    };
+    count = stm32_step.client.lay_isr(stm32_step.client.context, motor, &room);
+    if (room.main_has_work) {
         stm32_event = true;
     }
-    if (PULSES_ARE_LONG && TIM2_CNT - edge < (uint32_t)(HIGH_TICKS - SPIN_TICKS)) {
-        fall_later(motor, next);
+    return count;
+}
+
+/* What the ring has from its start: so many pulses. */
+static void note_laid(struct stm32_channel *channel, uint32_t laid)
+{
+    channel->laid = laid;
+    channel->last_tick = slot(channel, laid - 1U)->rise_tick;
+    slot(channel, laid)->rise_tick = channel->last_tick + NEVER_TICKS;
+    channel->from_tick = channel->last_tick - (uint32_t)NEAR_TICKS;
+    channel->due_tick = channel->last_tick - (uint32_t)LEAD_TICKS;
+    channel->ends = false;
+}
+
+/* What is laid comes to its end, and the pin to rest, before there is more. */
+static void note_end(struct stm32_channel *channel)
+{
+    channel->from_tick = channel->last_tick + (uint32_t)HIGH_TICKS + (uint32_t)SETTLE_TICKS;
+    channel->due_tick = channel->from_tick;
+    channel->ends = true;
+}
+
+static void begin(unsigned motor, uint32_t ahead_ticks)
+{
+    struct stm32_channel *channel = &stm32_step.channel[motor];
+    uint32_t count = ask(motor, 0, TIM2_CNT + ahead_ticks);
+    if (count != 0) {
+        uint32_t now = TIM2_CNT;
+        make_good(channel->ring, count, earliest(channel, now) + count * (uint32_t)GOOD_TICKS);
+        note_laid(channel, count);
+        start(channel, now);
+    }
+}
+
+/* The stream loads what comes after a pulse when that begins. Where that is far from the interrupt's begin, `now`, it
+ * is far. */
+static void append(unsigned motor, uint32_t now, uint32_t ahead_ticks)
+{
+    struct stm32_channel *channel = &stm32_step.channel[motor];
+    uint32_t waiting = count_waiting(channel);
+    uint32_t last = channel->last_tick;
+    bool far = !is_before(last, now + (uint32_t)FAR_TICKS);
+    bool in_time = far || !is_before(last, TIM2_CNT + (uint32_t)APPEND_TICKS);
+    if (waiting > (uint32_t)WAITING_MAX) {
+        channel->from_tick = channel->due_tick;
         return;
     }
-    (void)wait_out(edge);
-    follow(motor, edge, next);
-}
-
-__attribute__((noinline)) static void serve_specials(void)
-{
-    uint32_t due = TIM2_SR & stm32_step.special;
-    TIM2_SR = ~due;
-    for (; due != 0; due &= due - 1U) {
-        serve_special((unsigned)__builtin_ctz(due) - 1U);
-    }
-}
-
-/* Whether it takes more than a write of the compare value to arm the next edge: at the counter's wrap or after it, or
- * late. */
-static inline bool needs_care(uint32_t tick, uint32_t now)
-{
-    return BASE_SELDOM(ends_after_wrap(tick, now)) || BASE_SELDOM((int32_t)(tick - now) < (int32_t)MOVE_TICKS);
-}
-
-/* Where a segment ends, and perhaps the move. */
-__attribute__((noinline)) static void serve_border(unsigned motor)
-{
-    struct step_channel *client = stm32_step.client[motor];
-    uint32_t edge = client->cursor.generator.tick;
-    unsigned next = step_channel_next_segment(client);
-    uint32_t tick = client->cursor.generator.tick;
-    uint32_t now = wait_out(edge);
-    if ((next & STEP_CHANNEL_ARM) == 0 || needs_care(tick, now)) {
-        follow(motor, edge, next);
-    } else {
-        (&TIM2_CCR1)[motor] = tick;
-    }
-    stm32_event = true;
-}
-
-static inline void serve_plain(unsigned motor)
-{
-    struct step_channel *client = stm32_step.client[motor];
-    uint32_t edge = client->cursor.generator.tick;
-    if (BASE_SELDOM(client->cursor.left == 0)) {
-        serve_border(motor);
+    uint32_t count = in_time ? ask(motor, waiting, now + ahead_ticks) : 0;
+    if (BASE_SELDOM(count == 0)) {
+        note_end(channel);
         return;
     }
-    unsigned next = step_channel_next(client);
-    uint32_t tick = client->cursor.generator.tick;
-    if (needs_care(tick, wait_out(edge))) {
-        follow(motor, edge, next);
-    } else {
-        (&TIM2_CCR1)[motor] = tick;
+    make_good(slot(channel, channel->laid), count, last + (uint32_t)(HIGH_TICKS + LOW_TICKS));
+    note_laid(channel, channel->laid + count);
+    if (!far && is_before(last, TIM2_CNT)) {
+        stm32_fault_stop_output();
     }
 }
 
-/* A special channel whose edge comes together with plain ones is served after them: its flag calls once more. */
+static void refill(unsigned motor, uint32_t now, uint32_t ahead_ticks)
+{
+    struct stm32_channel *channel = &stm32_step.channel[motor];
+    if (BASE_SELDOM(channel->ends) && channel->active && !is_before(now, channel->from_tick)) {
+        check_made(channel, 0);
+        stop(channel);
+    }
+    if (BASE_SELDOM(!channel->active)) {
+        begin(motor, ahead_ticks);
+    } else if (!channel->ends) {
+        append(motor, now, ahead_ticks);
+    }
+}
+
+/* What the interrupt has to do. */
+struct agenda {
+    int32_t way;    /* ticks until a motor must be served */
+    int32_t next;   /* of those that may be served now, the way of the one that must be first; */
+    unsigned motor; /* that one */
+};
+
+static struct agenda look(uint32_t now)
+{
+    struct agenda agenda = {.way = TICKS_PER_MS, .next = INT32_MAX};
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        const struct stm32_channel *channel = &stm32_step.channel[motor];
+        int32_t way = (int32_t)(channel->due_tick - now);
+        if (channel->active && !is_before(now, channel->from_tick) && way < agenda.next) {
+            agenda.next = way;
+            agenda.motor = motor;
+        }
+        agenda.way = channel->active && way < agenda.way ? way : agenda.way;
+    }
+    return agenda;
+}
+
+/* Serves the motors in the order of what they have ahead, while that is urgent, or does not take long. */
 void stm32_step_interrupt(void)
 {
-    uint32_t due = TIM2_SR & stm32_step.plain;
-    if (BASE_SELDOM(due == 0)) {
-        serve_specials();
-        return;
+    TIM_SR(TIM2_BASE) = ~TIM_SR_CC4IF;
+    uint32_t entered = TIM2_CNT;
+    uint32_t now = entered;
+    struct agenda agenda = look(now);
+    while (agenda.next != INT32_MAX && (agenda.next < (int32_t)SOON_TICKS || now - entered < (uint32_t)ENTRY_TICKS)) {
+        refill(agenda.motor, now, HORIZON_TICKS);
+        now = TIM2_CNT;
+        agenda = look(now);
     }
-    TIM2_SR = ~due;
-    do {
-        serve_plain((unsigned)__builtin_ctz(due) - 1U);
-        due &= due - 1U;
-    } while (BASE_SELDOM(due != 0));
+    uint32_t next = now + (uint32_t)agenda.way;
+    TIM2_CCR4 = next;
+    if (BASE_SELDOM(is_before(next, TIM2_CNT + (uint32_t)SOON_TICKS))) {
+        TIM_EGR(TIM2_BASE) = TIM_EGR_CC4G;
+    }
 }
 
-/* Only from main, where the channel rests, or the pulse before is still being ended. The flag of a compare value long
- * past goes away after the new value, whose own match is ROOM_TICKS off at least. */
-void hal_step_arm(unsigned motor, uint32_t tick)
+/* The interrupt lays more as soon as it may. */
+void hal_step_run(unsigned motor)
 {
-    uint32_t mask = stm32_mask();
-    if ((stm32_step.falling & flag_of(motor)) != 0) {
-        stm32_step.waiting |= flag_of(motor);
-    } else {
-        arm(motor, tick);
-        TIM2_SR = ~flag_of(motor);
-    }
-    stm32_unmask(mask);
+    refill(motor, TIM2_CNT, RUN_TICKS);
+    TIM_EGR(TIM2_BASE) = TIM_EGR_CC4G;
 }
 
-/* A match less than WRITE_TICKS ahead counts as made: nothing may cut its pulse short. The pulse before may have been
- * made just now. */
-bool hal_step_disarm(unsigned motor)
+unsigned hal_step_waiting(unsigned motor)
 {
-    uint32_t flag = flag_of(motor);
-    bool taken = false;
-    uint32_t mask = stm32_mask();
-    if ((stm32_step.falling & flag) != 0) {
-        taken = (stm32_step.waiting & flag) != 0;
-        stm32_step.waiting &= ~flag;
-    } else if ((enabled() & flag) != 0) {
-        uint32_t now = TIM2_CNT;
-        taken = (int32_t)(edge_of(motor) - now) > (int32_t)WRITE_TICKS;
-        if (taken) {
-            rest(motor, now);
-        }
+    const struct stm32_channel *channel = &stm32_step.channel[motor];
+    return channel->active ? count_waiting(channel) : 0;
+}
+
+/* Takes all back from `pulse` on, as counted since the start, once the one before has come to its end. False if there
+ * is no time for that. */
+static bool stop_before(struct stm32_channel *channel, uint32_t pulse, uint32_t now)
+{
+    uint32_t quiet = now;
+    if (pulse != 0) {
+        uint32_t fallen = slot(channel, pulse - 1U)->fall_tick + (uint32_t)SETTLE_TICKS;
+        quiet = is_before(now, fallen) ? fallen : now;
     }
-    stm32_unmask(mask);
-    return taken;
+    if (is_before(slot(channel, pulse)->rise_tick, quiet + (uint32_t)STOP_TICKS)) {
+        return false;
+    }
+    while (is_before(TIM2_CNT, quiet)) {
+    }
+    check_made(channel, channel->laid - pulse);
+    if (pulse != 0) {
+        channel->last_tick = slot(channel, pulse - 1U)->rise_tick;
+    }
+    stop(channel);
+    return true;
+}
+
+/* Takes all back from `pulse` on. The one before has not begun, and its rising edge is not what the stream waits for.
+ */
+static bool cut_before(struct stm32_channel *channel, uint32_t pulse, uint32_t now)
+{
+    uint32_t before = slot(channel, pulse - 1U)->rise_tick;
+    if (is_before(before, now + (uint32_t)CUT_TICKS)) {
+        return false;
+    }
+    note_laid(channel, pulse);
+    return true;
+}
+
+unsigned hal_step_take_back(unsigned motor, unsigned count)
+{
+    struct stm32_channel *channel = &stm32_step.channel[motor];
+    uint32_t now = TIM2_CNT;
+    uint32_t waiting = hal_step_waiting(motor);
+    uint32_t laid = channel->laid;
+    uint32_t back = count < waiting ? count : waiting;
+    while (back > 0 && !(back < waiting && cut_before(channel, laid - back, now)) &&
+           !stop_before(channel, laid - back, now)) {
+        back--;
+    }
+    TIM_EGR(TIM2_BASE) = TIM_EGR_CC4G;
+    return back;
 }
 
 uint32_t hal_step_lead_ticks(void)
 {
-    return LEAD_TICKS;
+    return CHANGE_TICKS;
 }
 
 void hal_step_hold(void)

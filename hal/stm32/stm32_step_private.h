@@ -1,21 +1,20 @@
 /*
- * The state of the step output and the inner functions of its two files: stm32_step.c makes pulses, stm32_step_setup.c
- * does all else.
+ * The state of the step output and the inner functions of its two files: stm32_step.c lays pulses and takes them back,
+ * stm32_step_setup.c does all else.
  *
- * One pulse of a motor:
+ * A STEP pin is a channel of a timer in toggle mode (RM0090 18.3.8). At each match the pin changes, and the match asks
+ * a stream of DMA1 for the next edge, which goes from a ring in memory into the compare register (10.3):
  *
- *             edge by hardware          low by software, or by hardware while long pulses last
- *                 |<--- HIGH_TICKS --->|
- *      ___________/~~~~~~~~~~~~~~~~~~~~\______________/~~~
- *                 |  interrupt, client |    next armed
+ *      ring      rise 0 | fall 0 | rise 1 | fall 1 | never
+ *                                   |        |
+ *                          compare register  the stream's own: loaded when the one before went
  *
- * Finding the next pulse takes longer than most drivers' minimum width, so the pin mostly is low at once after it.
- * What is left of a wider pulse is waited for if that takes less than an interrupt would (SPIN_TICKS); else the same
- * channel makes the falling edge too, and its interrupt arms what comes next.
+ * No code runs at an edge. After the last pulse laid comes an edge that is never, as the counter takes 25 s there. The
+ * step interrupt comes while the last pulse is still LEAD_TICKS ahead, and lays what is due within HORIZON_TICKS.
  *
- * A channel stands in PWM mode 2 (RM0090 18.3.9): its pin is high from the compare value on and low before it, so one
- * write of the next value both ends a pulse and arms the next. That works while the counter does not wrap in between,
- * and for short pulses; `special` has the channels that are armed in another mode.
+ * The word that the stream has loaded is beyond recall. So what comes after it is taken back by one store; to take back
+ * the edge in the compare register, too, the pin is forced low and the stream stopped. It then begins anew at the
+ * ring's start.
  */
 #ifndef STM32_STEP_PRIVATE_H
 #define STM32_STEP_PRIVATE_H
@@ -25,18 +24,9 @@
 #include "base_limits.h"
 #include "base_tick.h"
 #include "board.h"
-#include "step_channel.h"
+#include "hal_step.h"
 #include "stm32_private.h"
 #include "stm32f4.h"
-
-/* The bus of the timer runs at a quarter of the core's clock, the timer at half. An access takes two clocks of that
- * bus, and one of the core each for the matrix and to get into step with the bus (AN4031, table 4): a write acts that
- * much after its instruction, and the next access waits for it. `cycles` are those of the code. */
-enum {
-    CYCLES_PER_TICK = 2,
-    BUS_ACCESS_CYCLES = 2 * 4 + 2
-};
-#define TICKS_OF_WRITES(writes, cycles) (((writes) * BUS_ACCESS_CYCLES + (cycles)) / CYCLES_PER_TICK)
 
 #define TICKS_OF_NS(ns) (((ns) * TICKS_PER_US + 999U) / 1000U)
 
@@ -46,93 +36,111 @@ enum {
     SETUP_TICKS = TICKS_OF_NS(BOARD_DIR_SETUP_NS),
     HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS) + HIGH_TICKS,
 
-    /* At most, from a look at the counter until what was decided has arrived: the write that holds a pin low, or moves
-     * an armed edge on; those that end a pulse by the channel; those that arm it. The tests have the cycles of code. */
-    WRITE_TICKS = TICKS_OF_WRITES(1, 48),
-    MOVE_WRITE_TICKS = TICKS_OF_WRITES(1, 16),
-    FALL_TICKS = TICKS_OF_WRITES(2, 48),
-    ARM_TICKS = TICKS_OF_WRITES(5, 80),
+    /* The interrupt comes LEAD_TICKS before the last pulse laid at the latest. That leaves time for what holds it off
+     * and for a portion of each of the other three motors. */
+    LEAD_TICKS = 48 * TICKS_PER_US,
+    LAY_MAX = 8,
+    LAY_FAST_MAX = 16,
+    FAST_TICKS = 10 * TICKS_PER_US,
+    ENTRY_TICKS = 25 * TICKS_PER_US, /* the interrupt serves what is not urgent for so long */
 
-    /* No edge comes before its channel is armed. */
-    ROOM_TICKS = LOW_TICKS + WRITE_TICKS > ARM_TICKS ? LOW_TICKS + WRITE_TICKS : ARM_TICKS,
-    MOVE_TICKS = LOW_TICKS + MOVE_WRITE_TICKS,
-    SPIN_TICKS = 48, /* what an interrupt more takes at least */
+    /* What is laid can be taken back, so it may be far ahead: the more pulses at a time, the less each costs. A motor
+     * that has less than NEAR_TICKS ahead is served along with others. */
+    HORIZON_TICKS = 512 * TICKS_PER_US,
+    NEAR_TICKS = HORIZON_TICKS / 2,
+    RUN_TICKS = 20 * TICKS_PER_US, /* what main lays, with all interrupts held off */
+
+    /* At most, from an edge until the next one is in the compare register and the one after it in the stream: four
+     * streams asked at once while the processor has the bus take 40 ticks. */
+    SETTLE_TICKS = 48,
+
+    /* At most, from a look at the counter: until the first word of the ring is written, with the longest search for its
+     * tick; until a stream that has been started waits for its first edge; from pulses taken back to others laid. */
+    APPEND_TICKS = 10 * TICKS_PER_US,
+    START_TICKS = 2 * TICKS_PER_US,
+    FAR_TICKS = 2 * LEAD_TICKS,
+    REACT_TICKS = 5 * TICKS_PER_US,
+
+    /* What is taken back is as far ahead as that: the pulse before it, if the stream goes on; or else itself. */
+    CUT_TICKS = REACT_TICKS + APPEND_TICKS,
+    STOP_TICKS = REACT_TICKS + START_TICKS,
+
+    /* Between late pulses: four motors that are late together must not ask for more than the streams can do. */
+    CATCH_UP_TICKS = LOW_TICKS > 2 * SETTLE_TICKS ? LOW_TICKS : 2 * SETTLE_TICKS,
+    GOOD_TICKS = 12, /* what a pulse that is made good takes */
+    SOON_TICKS = 48, /* a compare value nearer than that may be past when it arrives */
     STUCK_TICKS = 5 * TICKS_PER_MS,
 
     /* The first lead for a change of speed; where planning takes longer, the axis tries again with twice as much. */
-    LEAD_TICKS = 60 * TICKS_PER_US,
-};
+    CHANGE_TICKS = 60 * TICKS_PER_US,
 
-static_assert(SPIN_TICKS >= FALL_TICKS, "a pulse that its channel ends is not over before the channel knows");
+    RING_PULSES = 64,
+    RING_EDGES = 2 * RING_PULSES,
+    /* What has been made is known modulo the ring, and the edge that is never has a place. */
+    WAITING_MAX = RING_PULSES - 2 - LAY_FAST_MAX,
+};
+#define NEVER_TICKS (UINT32_C(1) << 31)
+
+static_assert((RING_PULSES & (RING_PULSES - 1)) == 0, "pulses are counted modulo the ring");
+static_assert(HIGH_TICKS >= SETTLE_TICKS - 6 && LOW_TICKS >= SETTLE_TICKS - 6,
+              "two edges are as far apart as streams need");
 
 /* What a channel does with its pin, RM0090 18.4.7. */
 enum {
-    MODE_RISE = 1,  /* active on match */
-    MODE_FALL = 2,  /* inactive on match */
-    MODE_LOW = 4,   /* forced inactive; matches are flagged all the same, RM0090 18.3.7 */
-    MODE_AFTER = 7, /* PWM mode 2: active from the compare value on */
+    MODE_TOGGLE = 3,
+    MODE_LOW = 4, /* forced inactive; matches are flagged, and ask for the next edge, all the same, 18.3.7 */
     MODE_MASK = 7,
 };
 
 struct stm32_channel {
-    uint32_t *modes;         /* what the register holds; two channels share it */
-    volatile uint32_t *mode; /* CCMR1 or CCMR2 */
+    uintptr_t stream;
+    uintptr_t timer;
     volatile uint32_t *compare;
-    uint32_t one; /* mode 1 of this channel in the register */
+    volatile uint32_t *mode;  /* CCMR1 or CCMR2 */
+    uint32_t *modes;          /* what the register holds; two channels share it */
+    uint32_t *asks;           /* what TIM_DIER holds */
+    uint32_t mode_one;        /* mode 1 of this channel in the register */
+    uint32_t event;           /* its bit in TIM_SR and TIM_EGR; in TIM_DIER it is DE_PLACE further */
+    volatile uint32_t *clear; /* DMA1_LIFCR or DMA1_HIFCR */
+    uint32_t flags;           /* of the stream, there */
+    uint32_t laid;            /* pulses since the stream was started */
+    uint32_t last_tick;       /* the rising edge of the last pulse laid */
+    uint32_t from_tick;       /* the step interrupt has something to do for it from this tick on, */
+    uint32_t due_tick;        /* and at this one at the latest */
+    bool active;              /* the stream runs */
+    bool ends;                /* nothing is laid any more before all has been made */
     bool backward;
     bool connected;
+    struct hal_step_pulse ring[RING_PULSES];
+};
+
+enum {
+    DE_PLACE = 8,
+    STREAM_FLAGS = 0x3D
 };
 
 struct stm32_step {
-    uint32_t plain; /* flags of the channels that have an edge to come, in MODE_AFTER */
-    struct step_channel *client[UNIT_MOTORS];
-    uint32_t special;           /* of those that have one in another mode */
-    uint32_t falling;           /* of those whose pulse is being ended by the channel */
-    uint32_t waiting;           /* of those falling that have a pulse to be armed after it */
-    uint32_t edge[UNIT_MOTORS]; /* of a plain channel, the client knows it; else the armed edge, or the last one */
+    struct hal_client client;
     bool may_move;
-    uint32_t modes[2];
+    uint32_t modes[2][2]; /* of TIM2 and TIM5 */
+    uint32_t asks[2];
     struct stm32_channel channel[UNIT_MOTORS];
 };
 extern struct stm32_step stm32_step;
 
-static inline uint32_t flag_of(unsigned motor)
-{
-    return TIM2_SR_CC1IF << motor;
-}
-
 static inline void set_mode(const struct stm32_channel *channel, uint32_t mode)
 {
-    uint32_t others = *channel->modes & ~(MODE_MASK * channel->one);
-    *channel->modes = others | mode * channel->one;
+    uint32_t others = *channel->modes & ~(MODE_MASK * channel->mode_one);
+    *channel->modes = others | mode * channel->mode_one;
     *channel->mode = *channel->modes;
 }
 
-/* The mode of an armed channel. While disconnected its pin stays low. */
-static inline uint32_t armed_mode(unsigned motor)
+/* Whether matches of the channel ask its stream for the next edge. */
+static inline void set_asking(const struct stm32_channel *channel, bool asks)
 {
-    uint32_t mode = (stm32_step.special & flag_of(motor)) != 0 ? MODE_RISE : MODE_AFTER;
-    return stm32_step.channel[motor].connected ? mode : MODE_LOW;
-}
-
-/* The channels that have an edge to come. */
-static inline uint32_t enabled(void)
-{
-    return stm32_step.plain | stm32_step.special;
-}
-
-static inline void set_enabled(uint32_t plain, uint32_t special)
-{
-    stm32_step.plain = plain;
-    stm32_step.special = special;
-    TIM2_DIER = plain | special;
-}
-
-/* The tick of the armed edge, else of the last one. */
-static inline uint32_t edge_of(unsigned motor)
-{
-    bool plain = (stm32_step.plain & flag_of(motor)) != 0;
-    return plain ? stm32_step.client[motor]->cursor.generator.tick : stm32_step.edge[motor];
+    uint32_t bit = channel->event << DE_PLACE;
+    *channel->asks = asks ? *channel->asks | bit : *channel->asks & ~bit;
+    TIM_DIER(channel->timer) = *channel->asks;
 }
 
 #endif

@@ -1,7 +1,70 @@
-#include "hal_step.h"
+#include <stddef.h>
+
 #include "stm32_pins.h"
 #include "stm32_step_private.h"
 
+/*
+ * What makes the edges of a pin: a channel of a timer (DS8626, table 9), and the stream of DMA1 and its channel that
+ * hear it (RM0090, table 42). TIM2 calls the step interrupt by its channel 4. Each stream is here once; TIM5_CH4 could
+ * also be at stream 1, where TIM2_CH3 is.
+ *
+ * X(use, timer, channel from 0, stream, channel of the stream)
+ */
+#define OUTPUTS(X)                                                                                                     \
+    X(TIM2_CH1, 0, 0, 5, 3)                                                                                            \
+    X(TIM2_CH2, 0, 1, 6, 3)                                                                                            \
+    X(TIM2_CH3, 0, 2, 1, 3)                                                                                            \
+    X(TIM5_CH1, 1, 0, 2, 6)                                                                                            \
+    X(TIM5_CH2, 1, 1, 4, 6)                                                                                            \
+    X(TIM5_CH3, 1, 2, 0, 6)                                                                                            \
+    X(TIM5_CH4, 1, 3, 3, 6)
+
+/* Also what a board's other pins are for, so that each pin has a number. */
+enum output {
+#define X(use, timer, channel, stream, request) OUTPUT_##use,
+    OUTPUTS(X)
+#undef X
+    OUTPUT_IN,
+    OUTPUT_IN_UP,
+    OUTPUT_OUT,
+    OUTPUT_USART1,
+    OUTPUT_USART2,
+    OUTPUT_USART3,
+};
+
+enum output_of {
+#define X(signal, port, pin, use) OUTPUT_OF_##signal = OUTPUT_##use,
+    BOARD_PINS(X)
+#undef X
+};
+
+struct source {
+    uint8_t timer;
+    uint8_t channel;
+    uint8_t stream;
+    uint8_t request;
+};
+
+static const struct source sources[] = {
+#define X(use, timer, channel, stream, request) {timer, channel, stream, request},
+    OUTPUTS(X)
+#undef X
+};
+
+enum {
+    TIMERS = 2,
+    SOURCES = sizeof sources / sizeof sources[0],
+    TO_PERIPHERAL = 1, /* DMA_CR: direction, size of a word, priority (RM0090 10.5.5) */
+    WORDS = 2,
+    VERY_HIGH = 3,
+    ALIGN_TRIES = 8,
+};
+static_assert((unsigned)OUTPUT_OF_STEP_1 < (unsigned)SOURCES && (unsigned)OUTPUT_OF_STEP_2 < (unsigned)SOURCES &&
+                  (unsigned)OUTPUT_OF_STEP_3 < (unsigned)SOURCES && (unsigned)OUTPUT_OF_STEP_4 < (unsigned)SOURCES,
+              "a timer makes the edges of every STEP pin");
+
+static const uintptr_t timers[TIMERS] = {TIM2_BASE, TIM5_BASE};
+static const uint8_t outputs[UNIT_MOTORS] = {OUTPUT_OF_STEP_1, OUTPUT_OF_STEP_2, OUTPUT_OF_STEP_3, OUTPUT_OF_STEP_4};
 static const uint8_t direction_pins[UNIT_MOTORS] = {STM32_PIN_DIR_1, STM32_PIN_DIR_2, STM32_PIN_DIR_3, STM32_PIN_DIR_4};
 
 static void write_direction(unsigned motor)
@@ -24,7 +87,7 @@ static void set_pins(unsigned motor, bool backward, bool connected)
     if (channel->backward == backward && channel->connected == connected) {
         return;
     }
-    wait_until_past(edge_of(motor), HOLD_TICKS);
+    wait_until_past(channel->last_tick, HOLD_TICKS);
     channel->backward = backward;
     channel->connected = connected;
     write_direction(motor);
@@ -36,64 +99,119 @@ void hal_step_set_direction(unsigned motor, bool backward)
     set_pins(motor, backward, stm32_step.channel[motor].connected);
 }
 
-/* STEP is low at rest, connected or not: the next pulse is armed in the right mode. Without the crystal nothing is ever
- * connected. */
+/* STEP is low at rest, connected or not: the next stream is started in the right mode. Without the crystal nothing is
+ * ever connected. */
 void hal_step_connect(unsigned motor, bool connected)
 {
     set_pins(motor, stm32_step.channel[motor].backward, connected && stm32_step.may_move);
 }
 
-/* All four pins low and the counter running; the pins may be handed over to the timer now. */
+static void start_timer(unsigned timer)
+{
+    uintptr_t base = timers[timer];
+    uint32_t low = TIM_CCMR1_OC1M((uint32_t)MODE_LOW) | TIM_CCMR1_OC2M((uint32_t)MODE_LOW);
+    TIM_CR1(base) = 0;
+    TIM_PSC(base) = 0;
+    TIM_ARR(base) = UINT32_MAX;
+    TIM_EGR(base) = TIM_EGR_UG;
+    TIM_CCMR1(base) = low;
+    TIM_CCMR2(base) = low;
+    stm32_step.modes[timer][0] = low;
+    stm32_step.modes[timer][1] = low;
+    TIM_SR(base) = 0;
+    TIM_CR1(base) = TIM_CR1_CEN;
+}
+
+/* Both timers count the same. Looks at their counters take the same time each, so the middle one lies half-way. */
+static void align_timers(void)
+{
+    uint32_t lead = 0;
+    for (unsigned i = 0; i < (unsigned)ALIGN_TRIES; i++) {
+        TIM_CNT(TIM5_BASE) = TIM2_CNT + lead;
+        uint32_t before = TIM2_CNT;
+        uint32_t other = TIM_CNT(TIM5_BASE);
+        uint32_t after = TIM2_CNT;
+        lead -= other - before - (after - before) / 2U;
+    }
+}
+
+static void set_up_stream(const struct stm32_channel *channel, uint32_t request)
+{
+    DMA_CR(channel->stream) = DMA_CR_DIR((uint32_t)TO_PERIPHERAL) | DMA_CR_CIRC | DMA_CR_MINC |
+                              DMA_CR_PSIZE((uint32_t)WORDS) | DMA_CR_MSIZE((uint32_t)WORDS) |
+                              DMA_CR_PL((uint32_t)VERY_HIGH) | DMA_CR_CHSEL(request);
+    DMA_FCR(channel->stream) = 0;
+    DMA_PAR(channel->stream) = (uint32_t)(uintptr_t)channel->compare;
+    DMA_M0AR(channel->stream) = (uint32_t)(uintptr_t)channel->ring;
+}
+
+static void set_up(unsigned motor, bool may_move)
+{
+    const struct source *source = &sources[outputs[motor]];
+    uintptr_t base = timers[source->timer];
+    unsigned half = source->channel / 2U;
+    unsigned stream = source->stream % 4U;
+    struct stm32_channel *channel = &stm32_step.channel[motor];
+    *channel = (struct stm32_channel){
+        .stream = DMA1_STREAM(source->stream),
+        .timer = base,
+        .compare = &TIM_CCR1(base) + source->channel,
+        .mode = &TIM_CCMR1(base) + half,
+        .modes = &stm32_step.modes[source->timer][half],
+        .asks = &stm32_step.asks[source->timer],
+        .mode_one = source->channel % 2U == 0 ? TIM_CCMR1_OC1M(1U) : TIM_CCMR1_OC2M(1U),
+        .event = TIM_SR_CC1IF << source->channel,
+        .clear = source->stream < 4U ? &DMA1_LIFCR : &DMA1_HIFCR,
+        .flags = (uint32_t)STREAM_FLAGS << (stream % 2U * 6U + stream / 2U * 16U),
+        .connected = may_move,
+    };
+    set_up_stream(channel, source->request);
+    TIM_CCER(base) |= (TIM_CCER_CC1E | (BOARD_STEP_LEVEL == 1U ? 0U : TIM_CCER_CC1P)) << (4U * source->channel);
+}
+
+/* All four pins low and the counters running; the pins may be handed over to the timers now. */
 void stm32_step_start(bool may_move)
 {
-    uint32_t levels = TIM2_CCER_CC1P | TIM2_CCER_CC2P | TIM2_CCER_CC3P | TIM2_CCER_CC4P;
-    stm32_enable_clock(&RCC_APB1ENR, RCC_APB1ENR_TIM2EN);
-    TIM2_CR1 = 0;
-    TIM2_PSC = 0;
-    TIM2_ARR = UINT32_MAX;
-    TIM2_EGR = TIM2_EGR_UG;
+    stm32_enable_clock(&RCC_APB1ENR, RCC_APB1ENR_TIM2EN | RCC_APB1ENR_TIM5EN);
+    stm32_enable_clock(&RCC_AHB1ENR, RCC_AHB1ENR_DMA1EN);
     stm32_step.may_move = may_move;
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        stm32_step.channel[motor] = (struct stm32_channel){
-            .modes = &stm32_step.modes[motor / 2U],
-            .mode = &TIM2_CCMR1 + motor / 2U,
-            .compare = &TIM2_CCR1 + motor,
-            .one = motor % 2U == 0 ? TIM2_CCMR1_OC1M(1U) : TIM2_CCMR1_OC2M(1U),
-            .connected = may_move,
-        };
-        set_mode(&stm32_step.channel[motor], MODE_LOW);
+    for (unsigned timer = 0; timer < TIMERS; timer++) {
+        start_timer(timer);
     }
-    TIM2_CCER =
-        TIM2_CCER_CC1E | TIM2_CCER_CC2E | TIM2_CCER_CC3E | TIM2_CCER_CC4E | (BOARD_STEP_LEVEL == 1U ? 0U : levels);
-    set_enabled(0, 0);
-    TIM2_SR = 0;
-    TIM2_CR1 = TIM2_CR1_CEN;
+    align_timers();
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        set_up(motor, may_move);
+    }
+    stm32_step.asks[0] = TIM_DIER_CC4IE;
+    TIM_DIER(TIM2_BASE) = TIM_DIER_CC4IE;
 }
 
 void stm32_step_set_client(const struct hal_client *client)
 {
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        stm32_step.client[motor] = client->channel[motor];
-    }
+    stm32_step.client = *client;
 }
 
 /* Also before stm32_step_start. */
 void stm32_step_make_safe(void)
 {
-    stm32_enable_clock(&RCC_APB1ENR, RCC_APB1ENR_TIM2EN);
-    TIM2_DIER = 0;
-    TIM2_CCMR1 = TIM2_CCMR1_OC1M((uint32_t)MODE_LOW) | TIM2_CCMR1_OC2M((uint32_t)MODE_LOW);
-    TIM2_CCMR2 = TIM2_CCMR2_OC3M((uint32_t)MODE_LOW) | TIM2_CCMR2_OC4M((uint32_t)MODE_LOW);
+    uint32_t low = TIM_CCMR1_OC1M((uint32_t)MODE_LOW) | TIM_CCMR1_OC2M((uint32_t)MODE_LOW);
+    stm32_enable_clock(&RCC_APB1ENR, RCC_APB1ENR_TIM2EN | RCC_APB1ENR_TIM5EN);
+    for (unsigned timer = 0; timer < TIMERS; timer++) {
+        TIM_DIER(timers[timer]) = 0;
+        TIM_CCMR1(timers[timer]) = low;
+        TIM_CCMR2(timers[timer]) = low;
+    }
 }
 
 bool stm32_step_is_stuck(void)
 {
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        const struct stm32_channel *channel = &stm32_step.channel[motor];
         uint32_t mask = stm32_mask();
-        bool armed = (enabled() & flag_of(motor)) != 0;
-        int32_t overdue = (int32_t)(TIM2_CNT - edge_of(motor));
+        bool active = channel->active;
+        int32_t overdue = (int32_t)(TIM2_CNT - channel->due_tick);
         stm32_unmask(mask);
-        if (armed && overdue > (int32_t)STUCK_TICKS) {
+        if (active && overdue > (int32_t)STUCK_TICKS) {
             return true;
         }
     }

@@ -39,6 +39,7 @@
 #define RCC_CFGR_PPRE1(n) ((n) << 10)
 #define RCC_CFGR_PPRE2(n) ((n) << 13)
 #define RCC_AHB1ENR_GPIOAEN (1U << 0)
+#define RCC_AHB1ENR_DMA1EN (1U << 21)
 #define RCC_APB1RSTR_TIM5RST (1U << 3)
 #define RCC_APB1ENR_TIM2EN (1U << 0)
 #define RCC_APB1ENR_TIM5EN (1U << 3)
@@ -117,53 +118,61 @@
 #define EXTI_FTSR STM32_REGISTER(EXTI_BASE + 0x0CU) /* 12.3.4 */
 #define EXTI_PR STM32_REGISTER(EXTI_BASE + 0x14U)   /* 12.3.6 */
 
-/* The step timer */
+/* The two timers of 32 bits. TIM2 is the unit's time and calls the step interrupt; the STEP pins are channels of both.
+ * TIM5 captures the low-speed oscillator before that. */
 #define TIM2_BASE 0x40000000U
-#define TIM2_CR1 STM32_REGISTER(TIM2_BASE + 0x00U)   /* 18.4.1 */
-#define TIM2_DIER STM32_REGISTER(TIM2_BASE + 0x0CU)  /* 18.4.4 */
-#define TIM2_SR STM32_REGISTER(TIM2_BASE + 0x10U)    /* 18.4.5 */
-#define TIM2_EGR STM32_REGISTER(TIM2_BASE + 0x14U)   /* 18.4.6 */
-#define TIM2_CCMR1 STM32_REGISTER(TIM2_BASE + 0x18U) /* 18.4.7 */
-#define TIM2_CCMR2 STM32_REGISTER(TIM2_BASE + 0x1CU) /* 18.4.8 */
-#define TIM2_CCER STM32_REGISTER(TIM2_BASE + 0x20U)  /* 18.4.9 */
-#define TIM2_CNT STM32_REGISTER(TIM2_BASE + 0x24U)   /* 18.4.10 */
-#define TIM2_PSC STM32_REGISTER(TIM2_BASE + 0x28U)   /* 18.4.11 */
-#define TIM2_ARR STM32_REGISTER(TIM2_BASE + 0x2CU)   /* 18.4.12 */
-#define TIM2_CCR1 STM32_REGISTER(TIM2_BASE + 0x34U)  /* 18.4.13 */
-#define TIM2_CR1_CEN (1U << 0)
-#define TIM2_SR_CC1IF (1U << 1)
-#define TIM2_SR_CC2IF (1U << 2)
-#define TIM2_SR_CC3IF (1U << 3)
-#define TIM2_SR_CC4IF (1U << 4)
-#define TIM2_EGR_UG (1U << 0)
-#define TIM2_CCMR1_OC1M(n) ((n) << 4)
-#define TIM2_CCMR1_OC2M(n) ((n) << 12)
-#define TIM2_CCMR2_OC3M(n) ((n) << 4)
-#define TIM2_CCMR2_OC4M(n) ((n) << 12)
-#define TIM2_CCER_CC1E (1U << 0)
-#define TIM2_CCER_CC1P (1U << 1)
-#define TIM2_CCER_CC2E (1U << 4)
-#define TIM2_CCER_CC2P (1U << 5)
-#define TIM2_CCER_CC3E (1U << 8)
-#define TIM2_CCER_CC3P (1U << 9)
-#define TIM2_CCER_CC4E (1U << 12)
-#define TIM2_CCER_CC4P (1U << 13)
-
-/* What captures the low-speed oscillator */
 #define TIM5_BASE 0x40000C00U
-#define TIM5_CR1 STM32_REGISTER(TIM5_BASE + 0x00U)   /* 18.4.1 */
-#define TIM5_SR STM32_REGISTER(TIM5_BASE + 0x10U)    /* 18.4.5 */
-#define TIM5_CCMR2 STM32_REGISTER(TIM5_BASE + 0x1CU) /* 18.4.8 */
-#define TIM5_CCER STM32_REGISTER(TIM5_BASE + 0x20U)  /* 18.4.9 */
-#define TIM5_CNT STM32_REGISTER(TIM5_BASE + 0x24U)   /* 18.4.10 */
-#define TIM5_CCR4 STM32_REGISTER(TIM5_BASE + 0x40U)  /* 18.4.16 */
-#define TIM5_OR STM32_REGISTER(TIM5_BASE + 0x50U)    /* 18.4.20 */
-#define TIM5_CR1_CEN (1U << 0)
-#define TIM5_SR_CC4IF (1U << 4)
+#define TIM_CR1(base) STM32_REGISTER((base) + 0x00U)   /* 18.4.1 */
+#define TIM_DIER(base) STM32_REGISTER((base) + 0x0CU)  /* 18.4.4 */
+#define TIM_SR(base) STM32_REGISTER((base) + 0x10U)    /* 18.4.5 */
+#define TIM_EGR(base) STM32_REGISTER((base) + 0x14U)   /* 18.4.6 */
+#define TIM_CCMR1(base) STM32_REGISTER((base) + 0x18U) /* 18.4.7 */
+#define TIM_CCMR2(base) STM32_REGISTER((base) + 0x1CU) /* 18.4.8 */
+#define TIM_CCER(base) STM32_REGISTER((base) + 0x20U)  /* 18.4.9 */
+#define TIM_CNT(base) STM32_REGISTER((base) + 0x24U)   /* 18.4.10 */
+#define TIM_PSC(base) STM32_REGISTER((base) + 0x28U)   /* 18.4.11 */
+#define TIM_ARR(base) STM32_REGISTER((base) + 0x2CU)   /* 18.4.12 */
+#define TIM_CCR1(base) STM32_REGISTER((base) + 0x34U)  /* 18.4.13 */
+#define TIM2_CNT STM32_REGISTER(TIM2_BASE + 0x24U)     /* 18.4.10 */
+#define TIM2_CCR4 STM32_REGISTER(TIM2_BASE + 0x40U)    /* 18.4.16 */
+#define TIM5_CCMR2 STM32_REGISTER(TIM5_BASE + 0x1CU)   /* 18.4.8 */
+#define TIM5_CCR4 STM32_REGISTER(TIM5_BASE + 0x40U)    /* 18.4.16 */
+#define TIM5_OR STM32_REGISTER(TIM5_BASE + 0x50U)      /* 18.4.20 */
+#define TIM_CR1_CEN (1U << 0)
+#define TIM_DIER_CC4IE (1U << 4)
+#define TIM_DIER_CC1DE (1U << 9)
+#define TIM_SR_CC1IF (1U << 1)
+#define TIM_SR_CC4IF (1U << 4)
+#define TIM_EGR_UG (1U << 0)
+#define TIM_EGR_CC1G (1U << 1)
+#define TIM_EGR_CC4G (1U << 4)
+#define TIM_CCMR1_OC1M(n) ((n) << 4)
+#define TIM_CCMR1_OC2M(n) ((n) << 12)
+#define TIM_CCER_CC1E (1U << 0)
+#define TIM_CCER_CC1P (1U << 1)
+#define TIM_CCER_CC4E (1U << 12)
 #define TIM5_CCMR2_CC4S(n) ((n) << 8)
 #define TIM5_CCMR2_IC4PSC(n) ((n) << 10)
-#define TIM5_CCER_CC4E (1U << 12)
 #define TIM5_OR_TI4_RMP(n) ((n) << 6)
+
+/* What carries the edges into the timers; the streams count from 0 */
+#define DMA1_BASE 0x40026000U
+#define DMA1_LIFCR STM32_REGISTER(DMA1_BASE + 0x08U) /* 10.5.3 */
+#define DMA1_HIFCR STM32_REGISTER(DMA1_BASE + 0x0CU) /* 10.5.4 */
+#define DMA1_STREAM(n) (DMA1_BASE + 0x10U + 0x18U * (n))
+#define DMA_CR(stream) STM32_REGISTER((stream) + 0x00U)   /* 10.5.5 */
+#define DMA_NDTR(stream) STM32_REGISTER((stream) + 0x04U) /* 10.5.6 */
+#define DMA_PAR(stream) STM32_REGISTER((stream) + 0x08U)  /* 10.5.7 */
+#define DMA_M0AR(stream) STM32_REGISTER((stream) + 0x0CU) /* 10.5.8 */
+#define DMA_FCR(stream) STM32_REGISTER((stream) + 0x14U)  /* 10.5.10 */
+#define DMA_CR_EN (1U << 0)
+#define DMA_CR_DIR(n) ((n) << 6)
+#define DMA_CR_CIRC (1U << 8)
+#define DMA_CR_MINC (1U << 10)
+#define DMA_CR_PSIZE(n) ((n) << 11)
+#define DMA_CR_MSIZE(n) ((n) << 13)
+#define DMA_CR_PL(n) ((n) << 16)
+#define DMA_CR_CHSEL(n) ((n) << 25)
 
 /* What converts the internal reference; CCR is that of all three converters */
 #define ADC1_BASE 0x40012000U

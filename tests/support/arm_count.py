@@ -2,8 +2,9 @@
 
 Compiles the stages step and motion of firmware/engine for Cortex-M4, runs them in the Unicorn CPU
 emulator and counts every executed instruction of `step_generator_next` (the next tick of one pulse)
-and of `step_channel_pulse_isr` (the whole work of one step interrupt but the timer's registers).
-These are counts, not cycles: exact, and the same on every machine.
+and of `step_channel_lay_isr` (the whole work of a question of the backend for pulses, but for the
+backend itself), where one pulse is laid at a time and where many are laid at once. These are
+counts, not cycles: exact, and the same on every machine.
 
     python tests/support/arm_count.py [--json]
 """
@@ -38,9 +39,11 @@ COMPILER = "arm-none-eabi-gcc"
 FLAGS = ["-std=c11", "-O2", "-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=soft"]
 CODE, RAM, RETURN = 0x0800_0000, 0x2000_0000, 0x0810_0000
 MEMORY = 0x20_0000
-GENERATOR, INTERRUPT = "find_next", "step_channel_pulse_isr"
+GENERATOR, QUESTION = "find_next", "step_channel_lay_isr"
 GOAL = 60
 PULSES_MAX = 3000
+MANY = 16
+"""Pulses laid at once, while as many wait."""
 
 # What the moves show: start speed, speed, acceleration, steps.
 MOVES = {
@@ -136,26 +139,42 @@ def load(path: Path) -> Counter:
     return counter
 
 
-def run_move(counter: Counter, move: tuple[int, int, int, int]) -> dict[str, list[int]]:
-    """Plans a move, runs its pulses, and returns the counts of each watched function."""
+def begin_move(counter: Counter, move: tuple[int, int, int, int]) -> int:
+    """Plans a move and has its first pulse laid; returns how many pulses to measure."""
+    counter.counts.clear()
     counter.call("bench_begin", *move)
     while counter.call("bench_feed") & 0xFF:
         pass
     counter.call("bench_run")
-    counter.counts.clear()
+    return min(move[3] - 2, PULSES_MAX)
+
+
+def count_single(counter: Counter, move: tuple[int, int, int, int]) -> dict[str, list[int]]:
+    """The counts of each function, pulse by pulse, where one is laid at a time."""
+    pulses = begin_move(counter, move)
     counter.watch(GENERATOR)
-    counter.watch(INTERRUPT)
-    for _ in range(min(move[3] - 2, PULSES_MAX)):
+    counter.watch(QUESTION)
+    for _ in range(pulses):
         counter.call("bench_next")
-        counter.call("bench_pulse")
+        counter.call("bench_lay", 1)
     return counter.counts
 
 
-def summary(counts: list[int]) -> dict[str, float]:
+def count_many(counter: Counter, move: tuple[int, int, int, int]) -> list[float]:
+    """The instructions of each question for many pulses, for each pulse that was laid."""
+    pulses = begin_move(counter, move)
+    counter.watch(QUESTION)
+    laid: list[int] = []
+    while sum(laid) < pulses - MANY:
+        laid.append(counter.call("bench_lay", MANY))
+    return [count / many for count, many in zip(counter.counts[QUESTION], laid, strict=True)]
+
+
+def summary(counts: Sequence[float]) -> dict[str, float]:
     return {
         "median": statistics.median(counts),
         "mean": round(statistics.fmean(counts), 1),
-        "max": max(counts),
+        "max": round(max(counts), 1),
     }
 
 
@@ -166,25 +185,25 @@ def measure() -> dict[str, object]:
     rows = []
     worst = 0.0
     for name, move in MOVES.items():
-        counts = run_move(counter, move)
+        counts = count_single(counter, move)
         generator = summary(counts[GENERATOR])
         worst = max(worst, generator["mean"])
-        interrupt = summary(counts[INTERRUPT])
-        rows.append({"move": name, "generator": generator, "interrupt": interrupt})
+        row = {"move": name, "generator": generator, "single": summary(counts[QUESTION])}
+        rows.append({**row, "many": summary(count_many(counter, move))})
     return {"goal": GOAL, "generator_worst_mean": worst, "moves": rows}
 
 
 def table(result: dict[str, object]) -> str:
     lines = [
-        f"{'':32}{'next tick':>24}{'whole interrupt':>24}",
-        f"{'instructions a pulse':32}" + "  median    mean     max" * 2,
+        f"{'':32}{'next tick':>24}{'laid one at a time':>24}{f'laid {MANY} at once':>24}",
+        f"{'instructions a pulse':32}" + "  median    mean     max" * 3,
     ]
     rows = result["moves"]
     assert isinstance(rows, list)
     for row in rows:
         cells = "".join(
             f"{row[part]['median']:8.0f}{row[part]['mean']:8.1f}{row[part]['max']:8.0f}"
-            for part in ("generator", "interrupt")
+            for part in ("generator", "single", "many")
         )
         lines.append(f"{row['move']:32}{cells}")
     return "\n".join(lines)

@@ -17,6 +17,7 @@
 #include <stdlib.h>
 
 #include "hal_run.h"
+#include "hal_step.h"
 #include "host_machine.h"
 #include "axis.h"
 
@@ -88,7 +89,7 @@ static bool read_case(struct probe *probe)
     return true;
 }
 
-/* Whether the next change takes effect at the pulse that is armed now. */
+/* Whether the next change takes effect at the next pulse. */
 static bool change_is_due(const struct probe *probe)
 {
     return probe->changes_made < probe->change_count &&
@@ -109,12 +110,13 @@ static void step_seen(void *context, uint64_t tick, unsigned motor, bool backwar
     (void)printf("%" PRIu64 " ", tick);
 }
 
-static bool step_isr(void *context, unsigned motor)
+/* Main, which lays pulses in a hold, looks for itself. */
+static unsigned lay_isr(void *context, unsigned motor, struct hal_step_room *room)
 {
     struct probe *probe = context;
     (void)motor;
-    bool attention = axis_pulse_isr(&probe->axis);
-    return change_is_due(probe) || attention;
+    room->main_has_work = !probe->machine.step_held && change_is_due(probe);
+    return axis_lay_isr(&probe->axis, room);
 }
 
 static void tick_isr(void *context, uint64_t since_tick)
@@ -155,8 +157,7 @@ static bool has_ended(void *context)
 static void run_case(struct probe *probe)
 {
     static const struct axis_guards none = {0};
-    const struct hal_client client = {
-        .context = probe, .step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+    const struct hal_client client = {.context = probe, .lay_isr = lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&probe->machine, probe->epoch);
     probe->machine.listener = (struct host_listener){.context = probe, .step = step_seen};
     host_machine_select(&probe->machine);

@@ -4,6 +4,7 @@
  * Comes in on standard input, line by line; numbers are decimal, ticks count from power-on, lines of a kind come in the
  * order of their ticks:
  *   epoch E             the unit's time at power-on
+ *   ahead TICKS         pulses are laid so far ahead; at first, one at a time
  *   in T INPUT LEVEL    an input changes
  *   send T HEX          a request, bytes in hexadecimal
  *   run T               runs all of the above up to T, and answers
@@ -179,6 +180,8 @@ static void obey(struct probe *probe, const char *line)
 {
     if (strncmp(line, "epoch ", 6) == 0) {
         begin(probe, strtoull(line + 6, NULL, 10));
+    } else if (strncmp(line, "ahead ", 6) == 0) {
+        probe->machine.ahead_ticks = (uint32_t)strtoul(line + 6, NULL, 10);
     } else if (strncmp(line, "in ", 3) == 0) {
         add_input(probe, line + 3);
     } else if (strncmp(line, "send ", 5) == 0) {

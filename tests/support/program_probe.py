@@ -36,17 +36,21 @@ class Edge:
 
 @dataclass(frozen=True)
 class Script:
-    """A run: what comes to the unit and when, sorted by tick; ticks count from power-on."""
+    """A run: what comes to the unit and when, sorted by tick; ticks count from power-on.
+
+    `ahead`: ticks that pulses are laid ahead; 0: one at a time.
+    """
 
     requests: tuple[Request, ...]
     edges: tuple[Edge, ...] = ()
     end: int = 0
     epoch: int = 0
+    ahead: int = 0
 
     @property
     def lines(self) -> str:
         """The script as the probe reads it."""
-        lines = [f"epoch {self.epoch}"]
+        lines = [f"epoch {self.epoch}", f"ahead {self.ahead}"]
         lines += [f"in {edge.tick} {edge.number} {edge.level}" for edge in self.edges]
         lines += [f"send {request.tick} {request.data.hex()}" for request in self.requests]
         return "\n".join([*lines, f"run {self.end}\n"])

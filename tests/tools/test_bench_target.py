@@ -38,8 +38,8 @@ def rig(tmp_path: Path) -> Rig:
 @pytest.mark.parametrize(
     ("figures", "key", "budget"),
     [
-        (target_figures.step_cycles, "lone_step_median", "lone_step_cycles"),
-        (target_figures.step_cycles, "together_step_mean", "together_step_cycles"),
+        (target_figures.step_cycles, "lone_step", "lone_step_cycles"),
+        (target_figures.step_cycles, "together_step", "together_step_cycles"),
         (target_figures.load_language, "load_16000", "load_16000_percent"),
     ],
 )
@@ -102,8 +102,8 @@ def test_cycles_go_down_with_the_cycles_of_a_refill(rig):
     dear = target_figures.step_cycles(rig)
     cheap = target_figures.step_cycles(rig.beside("cheap", target_run.BESIDE))
 
-    assert cheap["lone_step_mean"] < dear["lone_step_mean"]
-    assert cheap["together_step_mean"] < dear["together_step_mean"] < dear["lone_step_median"]
+    assert cheap["lone_step"] < dear["lone_step"]
+    assert cheap["fast_step"] < dear["fast_step"] < dear["together_step"] < dear["lone_step"]
 
 
 @on_target
@@ -227,7 +227,7 @@ def test_the_command_tells_every_figure_with_both_models(tool, monkeypatch):
 
     rows = {row["key"]: row for row in answer["figures"]}
     assert answer["models"]["measured"] == {"refill": GATE.refill, "wait_states": 5}
-    assert (rows["lone_step_median"]["measured"], rows["lone_step_median"]["beside"]) == (3, 2)
+    assert (rows["lone_step"]["measured"], rows["lone_step"]["beside"]) == (3, 2)
     assert rows["flash"]["met"] is True
     assert [r["met"] for r in answer["reactions"]] == [False, False]
     assert answer["reactions"][0]["us_until_ramp"] == {"min": 99.0, "median": 99.75, "max": 100.5}

@@ -1,13 +1,13 @@
 """The step driver at its edges of time, on the slow bus: pin and count agree, all pulses are whole.
 
-The image is that of a board with another main (images/disarm_main.c); the pulses are those that the
-virtual board has seen at the pins. A write to the timer takes ten cycles to arrive.
+The image is that of a board with another main (images/take_back_main.c); the pulses are those that
+the virtual board has seen at the pins. A write to the timer takes ten cycles to arrive.
 """
 
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,13 +15,26 @@ import pytest
 from rkm04_tools import board, virtual_board
 
 SHORT, LONG = "f405", "f407-discovery"
-WIDTH_US = {SHORT: 0.5, LONG: 2.5}
+WIDTH_TICKS = {SHORT: 42, LONG: 210}
 """High and low alike."""
-SEED = 20261122
+TICKS_PER_US = 84
 SECONDS_MAX = 20.0
-HALTS = (0, 0)
-FOLLOWS = {SHORT: (400, 100), LONG: (570, 440)}
-"""Ticks: the least lead of a first edge, and from that to a second one; both vary by 256."""
+ODD = ["--refill", "1", "--match-equal"]
+FAST_BUS = ["--apb-wait", "3", "--pwm-at-once"]
+
+
+@dataclass(frozen=True)
+class Train:
+    """What is tried; as struct take_back_setting."""
+
+    trials: int
+    seed: int = 20261123
+    lead_ticks: int = 2000
+    lead_varied: int = 256
+    pace_ticks: int = 420
+    pulses: int = 1
+    halt_ticks: int = 0
+    together: int = 1
 
 
 @dataclass
@@ -42,23 +55,23 @@ class Tried:
 
 
 @pytest.fixture
-def try_edges(program: Path, tmp_path: Path):
-    """Run so many trials of one kind on a board."""
+def try_trains(program: Path, tmp_path: Path):
+    """Run trains of one kind on a board."""
 
-    def run(name: str, trials: int, kind: tuple[int, int], *options: str) -> Tried:
-        image = board.build(name, "disarm_image")
+    def run(name: str, train: Train, *options: str) -> Tried:
+        image = board.build(name, "take_back_image")
         (tmp_path / "pins").write_text(virtual_board.board_pins(name))
-        elf = image.file("elf").with_name(f"{image.name}-disarm.elf")
-        setting = struct.pack("<4I", trials, SEED, *kind).hex()
+        elf = image.file("elf").with_name(f"{image.name}-take-back.elf")
+        setting = struct.pack("<8I", *astuple(train)).hex()
         arguments = ["--elf", str(elf), "--pins", str(tmp_path / "pins"), "--for", str(SECONDS_MAX)]
-        arguments += ["--end-at", "disarm_done", "--set", f"disarm_setting={setting}"]
-        arguments += ["--watch", "disarm_report", "--watch", "stm32_late_steps", *options]
+        arguments += ["--end-at", "take_back_done", "--set", f"take_back_setting={setting}"]
+        arguments += ["--watch", "take_back_report", "--watch", "stm32_late_steps", *options]
         summary = virtual_board.run(program, arguments)
         assert summary["ended"] == "reached", summary["error"]
         watch = summary["watch"]
         return Tried(
             summary["motors"],
-            watch["disarm_report"],
+            watch["take_back_report"],
             watch["stm32_late_steps"],
             summary["warnings"],
         )
@@ -66,42 +79,59 @@ def try_edges(program: Path, tmp_path: Path):
     return run
 
 
+HALTS = Train(trials=10_000, pace_ticks=5250, pulses=3, halt_ticks=16_000)
+FAST = Train(trials=3000, pace_ticks=420, pulses=60, halt_ticks=30_000)
+
+
 @pytest.mark.parametrize(
-    ("name", "trials", "options"),
+    ("name", "train", "options"),
     [
-        (SHORT, 100_000, []),
-        (SHORT, 10_000, ["--refill", "1", "--match-equal"]),
-        (SHORT, 10_000, ["--apb-wait", "3", "--pwm-at-once"]),
-        (LONG, 10_000, []),
+        (SHORT, replace(HALTS, trials=40_000), []),
+        (SHORT, HALTS, ODD),
+        (SHORT, HALTS, FAST_BUS),
+        (LONG, HALTS, []),
+        (SHORT, FAST, []),
+        (SHORT, replace(FAST, pace_ticks=110, pulses=200, trials=1000), []),
+        (SHORT, replace(FAST, together=4, lead_ticks=8000, trials=1000), []),
+        (SHORT, replace(FAST, together=4, lead_ticks=8000, trials=1000), ODD),
+        (LONG, replace(FAST, pace_ticks=440, together=4, lead_ticks=8000, trials=1000), []),
     ],
 )
-def test_an_edge_that_is_taken_back_at_any_time_is_made_and_counted_or_neither(
-    try_edges, name, trials, options
+def test_pulses_that_are_taken_back_at_any_time_are_made_and_counted_or_neither(
+    try_trains, name, train, options
 ):
-    tried = try_edges(name, trials, HALTS, *options)
+    tried = try_trains(name, train, *options)
 
+    all_pulses = train.trials * train.pulses * train.together
     assert tried.counted == tried.shown
-    assert tried.warnings == 0
-    assert trials / 4 < sum(tried.counted) < trials * 3 / 4  # the rest was taken back
-    assert tried.least_us("width_min") >= WIDTH_US[name]
+    assert tried.warnings == tried.late == 0
+    assert all_pulses / 4 < sum(tried.counted) < all_pulses * 3 / 4  # the rest was taken back
+    assert tried.least_us("width_min") == pytest.approx(WIDTH_TICKS[name] / TICKS_PER_US)
 
 
 @pytest.mark.parametrize(
-    ("name", "options"),
-    [
-        (SHORT, []),
-        (SHORT, ["--refill", "1", "--match-equal"]),
-        (SHORT, ["--apb-wait", "3", "--pwm-at-once"]),
-        (LONG, []),
-    ],
+    ("name", "options"), [(SHORT, []), (SHORT, ODD), (SHORT, FAST_BUS), (LONG, [])]
 )
-def test_edges_that_are_armed_just_in_time_or_late_are_whole_and_none_is_lost(
-    try_edges, name, options
+@pytest.mark.parametrize("pulses", [2, 40])
+def test_pulses_that_are_laid_just_in_time_or_late_are_whole_and_none_is_lost(
+    try_trains, name, pulses, options
 ):
-    trials = 5000
-    tried = try_edges(name, trials, FOLLOWS[name], *options)
+    width = WIDTH_TICKS[name]
+    pace = 2 * width + 16
+    train = Train(trials=2000, lead_ticks=400, lead_varied=1000, pace_ticks=pace, pulses=pulses)
+    tried = try_trains(name, train, *options)
 
-    assert tried.counted == tried.shown == [2 * trials // 4] * 4
-    assert tried.least_us("width_min") >= WIDTH_US[name]
-    assert tried.least_us("gap_min") >= WIDTH_US[name]
-    assert trials / 10 < tried.late < 2 * trials * 9 / 10
+    assert tried.counted == tried.shown == [train.trials * pulses // 4] * 4
+    assert tried.least_us("width_min") == pytest.approx(width / TICKS_PER_US)
+    assert tried.least_us("gap_min") >= width / TICKS_PER_US
+    assert 0 < tried.late < train.trials * pulses
+
+
+@pytest.mark.parametrize("options", [[], ODD, FAST_BUS])
+def test_four_motors_that_are_late_together_lose_no_pulse(try_trains, options):
+    tried = try_trains(SHORT, replace(FAST, lead_ticks=500, trials=300, halt_ticks=0, together=4), *options)
+
+    assert tried.counted == tried.shown == [300 * FAST.pulses] * 4
+    assert tried.late > 0
+    assert tried.least_us("width_min") == pytest.approx(WIDTH_TICKS[SHORT] / TICKS_PER_US)
+    assert tried.least_us("gap_min") >= WIDTH_TICKS[SHORT] / TICKS_PER_US

@@ -14,12 +14,16 @@ from pathlib import Path
 
 from rkm04_tools.board_header import Pin, read_board
 
-# Which pins can be a channel of the step timer (alternate function 1) or the line (7).
+# Which pins can be a channel of a timer of 32 bits (alternate functions 1 and 2) or the line (7).
+# Channel 4 of TIM2 calls the step interrupt.
 TIMER_CHANNELS = {
     "TIM2_CH1": {"A0", "A5", "A15"},
     "TIM2_CH2": {"A1", "B3"},
     "TIM2_CH3": {"A2", "B10"},
-    "TIM2_CH4": {"A3", "B11"},
+    "TIM5_CH1": {"A0"},
+    "TIM5_CH2": {"A1"},
+    "TIM5_CH3": {"A2"},
+    "TIM5_CH4": {"A3"},
 }
 LINE_PINS = {
     "USART1": {"TX": {"A9", "B6"}, "RX": {"A10", "B7"}},
@@ -53,8 +57,8 @@ def use_errors(pin: Pin, line: str) -> Iterator[str]:
     if kind in SAFE_AT_RESET and pin.pin in PULLED_UP:
         yield f"{pin.signal}: P{pin.pin} is pulled up at reset as {PULLED_UP[pin.pin]}"
     if kind == "STEP":
-        if pin.use != f"TIM2_CH{which}":
-            yield f"{pin.signal} must be TIM2_CH{which}, not {pin.use}"
+        if pin.use not in TIMER_CHANNELS:
+            yield f"{pin.signal} must be one of {', '.join(TIMER_CHANNELS)}, not {pin.use}"
         elif pin.pin not in TIMER_CHANNELS[pin.use]:
             yield f"P{pin.pin} has no {pin.use}"
     elif pin.signal in ("LINE_TX", "LINE_RX"):
@@ -76,6 +80,14 @@ def edge_errors(pins: list[Pin]) -> Iterator[str]:
                 yield f"{owner.signal} and {pin.signal} share line {pin.pin[1:]} for edges"
 
 
+def channel_errors(pins: list[Pin]) -> Iterator[str]:
+    """A channel makes the steps of one motor."""
+    owners: dict[str, Pin] = {}
+    for pin in pins:
+        if pin.use in TIMER_CHANNELS and (owner := owners.setdefault(pin.use, pin)) is not pin:
+            yield f"{pin.signal} and {owner.signal} are both {pin.use}"
+
+
 def find_errors(text: str) -> Iterator[str]:
     board = read_board(text)
     package = board.values.get("BOARD_PACKAGE", "")
@@ -95,6 +107,7 @@ def find_errors(text: str) -> Iterator[str]:
             yield f"{pin.signal}: P{pin.pin} belongs to {occupant}"
         yield from use_errors(pin, f"USART{board.values.get('BOARD_USART')}")
     yield from edge_errors(board.pins)
+    yield from channel_errors(board.pins)
 
 
 def main(arguments: list[str]) -> int:

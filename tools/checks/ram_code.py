@@ -24,7 +24,7 @@ REFERENCES_MIN = 100  # fewer mean that the image was linked without them
 ENTRIES = [
     *(f"stm32_{name}_interrupt" for name in ("step", "tick", "edge", "line", "plan")),
     *("stm32_fault_entry", "stm32_fault_stop"),
-    *("rkm04_tick_isr", "rkm04_plan_isr"),
+    *("rkm04_lay_isr", "rkm04_tick_isr", "rkm04_plan_isr"),
     *("hal_flash_read", "hal_flash_write_word", "hal_flash_erase"),
 ]
 

@@ -57,19 +57,17 @@ STORE_MS = 2500.0
 
 
 def step_cycles(rig: Rig) -> Figures:
-    """Cycles of the step interrupt, entry and exit included."""
+    """Cycles of the step interrupt for each pulse, entry and exit included."""
     lone = ramps(rig, 1)
     together = ramps(rig, len(MOTORS))
-    one, four = lone.step_interrupt, together.step_interrupt
+    fast = rig.run_moves(fast_moves(len(MOTORS), FAST, FAST_ACCEL, (0,) * 4))
+    runs = (lone, together, fast)
     return {
-        "lone_step_min": one["min"],
-        "lone_step_median": one["median"],
-        "lone_step_mean": one["cycles"] / lone.pulses,
-        "lone_step_max": one["max"],
-        "together_step_median": four["median"] / len(MOTORS),
-        "together_step_mean": four["cycles"] / together.pulses,
-        "together_step_max": four["max"] / len(MOTORS),
-        "stack_used": max(lone.stack_used, together.stack_used),
+        "lone_step": lone.step_cycles,
+        "together_step": together.step_cycles,
+        "fast_step": fast.step_cycles,
+        "interrupt_max": max(ran.step_interrupt["max"] for ran in runs),
+        "stack_used": max(ran.stack_used for ran in runs),
     }
 
 

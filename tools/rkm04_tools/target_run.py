@@ -127,6 +127,11 @@ class Ran:
         return int(self.summary["stack"]["used"])
 
     @property
+    def step_cycles(self) -> float:
+        """What a pulse costs the step interrupt."""
+        return self.step_interrupt["cycles"] / self.pulses
+
+    @property
     def step_interrupt(self) -> dict[str, int]:
         """How often it ran, its cycles (all, min, median, max), and how long it had to wait."""
         nothing = dict.fromkeys(("count", "cycles", "min", "median", "max", "latency_max"), 0)

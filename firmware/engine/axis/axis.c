@@ -284,8 +284,3 @@ unsigned axis_corners(const struct axis *axis, struct motion_corner corners[MOTI
     hal_run_release_plan();
     return count;
 }
-
-bool axis_pulse_isr(struct axis *axis)
-{
-    return step_channel_pulse_isr(&axis->channel);
-}

@@ -31,7 +31,7 @@ struct axis_guards {
 
 /*
  * One motor, about 1.7 kB. Who may call:
- *   step interrupt   axis_pulse_isr
+ *   step interrupt   axis_lay_isr
  *   tick interrupt   axis_sense_isr, also main before the interrupts start
  *   plan interrupt   axis_plan_isr
  *   main             everything else
@@ -139,7 +139,10 @@ bool axis_sense_isr(struct axis *axis, uint8_t inputs, uint64_t since);
 /* Plans the stop of a motor that has begun to brake. */
 void axis_plan_isr(struct axis *axis);
 
-/* The armed pulse has been made. True: main has something to do. */
-bool axis_pulse_isr(struct axis *axis);
+/* Lays the pulses that are due next: what lay_isr of hal_run.h is for one motor. */
+static inline unsigned axis_lay_isr(struct axis *axis, struct hal_step_room *room)
+{
+    return step_channel_lay_isr(&axis->channel, room);
+}
 
 #endif

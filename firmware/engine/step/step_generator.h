@@ -101,32 +101,55 @@ static inline uint32_t step_generator_predict(uint64_t residual, uint64_t slope)
     return (distance + speed / 2U) / speed;
 }
 
+/* Where the prediction of the next interval leads to. */
+struct step_guess {
+    uint64_t residual;
+    uint64_t slope;
+    uint32_t interval;
+};
+
+static inline struct step_guess step_generator_guess(uint64_t residual, uint64_t slope, int32_t accel,
+                                                     uint32_t last_interval)
+{
+    uint64_t about = slope + wide_from_signed((int64_t)accel * (int32_t)last_interval);
+    uint32_t interval = step_generator_predict(residual, about);
+    uint64_t gain = wide_from_signed((int64_t)accel * (int32_t)interval);
+    uint64_t middle = slope + gain;
+    return (struct step_guess){
+        .residual = residual + interval * middle - STEP_QUANTA,
+        .slope = middle + gain,
+        .interval = interval,
+    };
+}
+
 /* The next pulse of a segment with acceleration. */
 static inline uint32_t step_generator_ramp(struct step_generator *generator)
 {
-    int64_t accel = generator->accel;
-    uint64_t about = generator->slope + wide_from_signed(accel * (int32_t)generator->interval);
-    uint32_t interval = step_generator_predict(generator->residual, about);
-    uint64_t gain = wide_from_signed(accel * (int32_t)interval);
-    uint64_t middle = generator->slope + gain;
-    uint64_t residual = generator->residual + interval * middle - STEP_QUANTA;
-    uint64_t slope = middle + gain;
-    if (BASE_SELDOM(!step_generator_is_near(residual, slope))) {
-        return step_generator_search(generator, interval);
+    struct step_guess guess =
+        step_generator_guess(generator->residual, generator->slope, generator->accel, generator->interval);
+    if (BASE_SELDOM(!step_generator_is_near(guess.residual, guess.slope))) {
+        return step_generator_search(generator, guess.interval);
     }
-    return step_generator_accept(generator, residual, slope, interval);
+    return step_generator_accept(generator, guess.residual, guess.slope, guess.interval);
 }
 
-/* The next pulse at constant speed: what the pace leaves of each step adds up, until it exceeds
+/* The next interval at constant speed: what the pace leaves of each step adds up in the residual, until it exceeds
  * half a tick's travel. */
+static inline uint32_t step_generator_pace(uint64_t *residual, uint64_t slope, uint64_t rest, uint32_t ticks)
+{
+    *residual -= rest;
+    if (wide_to_signed(*residual + (slope >> 1U)) < 0) {
+        *residual += slope;
+        ticks++;
+    }
+    return ticks;
+}
+
+/* The next pulse at constant speed. */
 static inline uint32_t step_generator_cruise(struct step_generator *generator)
 {
-    uint64_t residual = generator->residual - generator->pace_rest;
-    uint32_t interval = generator->pace_ticks;
-    if (wide_to_signed(residual + (generator->slope >> 1U)) < 0) {
-        residual += generator->slope;
-        interval++;
-    }
+    uint64_t residual = generator->residual;
+    uint32_t interval = step_generator_pace(&residual, generator->slope, generator->pace_rest, generator->pace_ticks);
     return step_generator_accept(generator, residual, generator->slope, interval);
 }
 

@@ -7,7 +7,7 @@
 
 /*
  * The low-speed oscillator, at channel 4 of TIM5 (RM0090 18.4.20), every eighth edge of it: before all else, as TIM5
- * may be the board's step timer afterwards. The slowest has 17 kHz (DS8626), so 64 captures take 31 ms at most.
+ * makes steps afterwards. The slowest has 17 kHz (DS8626), so 64 captures take 31 ms at most.
  */
 enum {
     CAPTURES = 64,
@@ -54,8 +54,8 @@ static void start_capture(void)
     stm32_enable_clock(&RCC_APB1ENR, RCC_APB1ENR_TIM5EN);
     TIM5_OR = TIM5_OR_TI4_RMP((uint32_t)FROM_LSI);
     TIM5_CCMR2 = TIM5_CCMR2_CC4S((uint32_t)OWN_INPUT) | TIM5_CCMR2_IC4PSC((uint32_t)EVERY_EIGHTH);
-    TIM5_CCER = TIM5_CCER_CC4E;
-    TIM5_CR1 = TIM5_CR1_CEN;
+    TIM_CCER(TIM5_BASE) = TIM_CCER_CC4E;
+    TIM_CR1(TIM5_BASE) = TIM_CR1_CEN;
 }
 
 /* As after a reset. */
@@ -69,9 +69,9 @@ static void end_capture(void)
 /* False: none has come in time. */
 static bool wait_for_capture(uint32_t *tick)
 {
-    uint32_t begin = TIM5_CNT;
-    while ((TIM5_SR & TIM5_SR_CC4IF) == 0) {
-        if (TIM5_CNT - begin > timer_hz() / 1000U * LIMIT_MS) {
+    uint32_t begin = TIM_CNT(TIM5_BASE);
+    while ((TIM_SR(TIM5_BASE) & TIM_SR_CC4IF) == 0) {
+        if (TIM_CNT(TIM5_BASE) - begin > timer_hz() / 1000U * LIMIT_MS) {
             return false;
         }
     }

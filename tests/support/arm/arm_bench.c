@@ -1,6 +1,6 @@
 /*
  * The step path compiled for Cortex-M4, as arm_count.py calls it function by function: one motor's channel, fed from
- * one move, with a step output that only remembers the armed tick.
+ * one move, with a step output that only counts the pulses that are laid.
  */
 #include <stdbool.h>
 #include <stdint.h>
@@ -9,27 +9,55 @@
 #include "motion_plan.h"
 #include "step_channel.h"
 
+enum {
+    PLACES = 64,
+    HIGH_TICKS = 210
+};
+
 static struct step_channel channel;
 static struct motion_plan plan;
-static uint32_t armed_tick;
+static struct hal_step_pulse pulses[PLACES];
+static uint32_t laid;
 
 void bench_begin(uint32_t start_speed, uint32_t speed, uint32_t accel, uint32_t steps);
 bool bench_feed(void);
 void bench_run(void);
 uint32_t bench_next(void);
-bool bench_pulse(void);
-uint32_t bench_armed(void);
+uint32_t bench_lay(uint32_t count);
 
-void hal_step_arm(unsigned motor, uint32_t tick)
+/* Asks for `count` pulses while as many wait of those laid before; of one at a time none does. */
+static uint32_t lay(uint32_t count)
 {
-    (void)motor;
-    armed_tick = tick;
+    uint32_t before = count > 1U ? count : 0;
+    struct hal_step_room room = {
+        .pulse = pulses,
+        .count = count,
+        .waiting = laid < before ? laid : before,
+        .until_tick = channel.cursor.generator.tick + (UINT32_C(1) << 30U),
+        .high_ticks = HIGH_TICKS,
+    };
+    uint32_t more = step_channel_lay_isr(&channel, &room);
+    laid += more;
+    return more;
 }
 
-bool hal_step_disarm(unsigned motor)
+void hal_step_run(unsigned motor)
 {
     (void)motor;
-    return true;
+    (void)lay(1);
+}
+
+unsigned hal_step_waiting(unsigned motor)
+{
+    (void)motor;
+    return 0;
+}
+
+unsigned hal_step_take_back(unsigned motor, unsigned count)
+{
+    (void)motor;
+    (void)count;
+    return 0;
 }
 
 void hal_step_set_direction(unsigned motor, bool backward)
@@ -60,6 +88,7 @@ void bench_begin(uint32_t start_speed, uint32_t speed, uint32_t accel, uint32_t 
         .start_speed_steps_per_s = start_speed,
         .sections = 1,
     };
+    laid = 0;
     step_channel_init(&channel, 0);
     step_channel_begin(&channel, 0, false);
     motion_plan_begin(&plan, &order, 0);
@@ -88,14 +117,8 @@ uint32_t bench_next(void)
     return channel.cursor.left == 0 ? 0 : find_next(&generator);
 }
 
-/* The work of one step interrupt; false after the last pulse. */
-bool bench_pulse(void)
+/* Has up to `count` pulses laid at once and tells how many; 0 after the last pulse. */
+uint32_t bench_lay(uint32_t count)
 {
-    (void)step_channel_pulse_isr(&channel);
-    return step_channel_is_running(&channel);
-}
-
-uint32_t bench_armed(void)
-{
-    return armed_tick;
+    return lay(count);
 }

@@ -25,10 +25,13 @@ add_custom_target(all-tests)
 # library and what that sees.
 #
 # It runs on the host backend, unless it includes a mock_hal_*.h: then those mocks are its backend.
+# Arguments after these: what follows the program's name, and definitions that it is compiled with.
 function(firmware_add_test group library source)
     cmake_path(GET source STEM stem)
     string(REGEX REPLACE "^test_" "" module ${stem})
-    set(name ${group}.${module})
+    set(definitions ${ARGN})
+    list(POP_FRONT definitions suffix)
+    set(name ${group}.${module}${suffix})
     set(runner ${CMAKE_CURRENT_BINARY_DIR}/${name}.runner.c)
     add_custom_command(
         OUTPUT ${runner}
@@ -38,6 +41,7 @@ function(firmware_add_test group library source)
         VERBATIM)
 
     add_executable(${name} ${source} ${runner})
+    target_compile_definitions(${name} PRIVATE ${definitions})
     set_target_properties(${name} PROPERTIES
         RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/${group})
     # The prototypes of the test functions are in the runner; the runner is not ours.
@@ -65,10 +69,15 @@ function(firmware_add_test group library source)
     add_dependencies(all-tests ${name})
 endfunction()
 
-# firmware_add_tests(<group> <library> <folder>): every test_*.c of a folder.
+# firmware_add_tests(<group> <library> <folder>): every test_*.c of a folder. Those on a rig that
+# lays pulses are made a second time, <group>.<module>_ahead, with several pulses laid ahead.
 function(firmware_add_tests group library folder)
     file(GLOB sources CONFIGURE_DEPENDS ${folder}/test_*.c)
     foreach(source IN LISTS sources)
         firmware_add_test(${group} ${library} ${source})
+        file(STRINGS ${source} rigs REGEX "^#include \"(channel|laid|late)_rig\\.h\"")
+        if(rigs)
+            firmware_add_test(${group} ${library} ${source} _ahead LAID_AHEAD=7)
+        endif()
     endforeach()
 endfunction()

@@ -40,11 +40,11 @@ static void stepped(void *context, uint64_t tick, unsigned motor, bool backward)
     bench->edges++;
 }
 
-static bool step_isr(void *context, unsigned motor)
+static unsigned lay_isr(void *context, unsigned motor, struct hal_step_room *room)
 {
     struct axis_bench *bench = context;
     TEST_ASSERT_EQUAL_UINT(AXIS_BENCH_MOTOR, motor);
-    return axis_pulse_isr(&bench->axis);
+    return axis_lay_isr(&bench->axis, room);
 }
 
 static void tick_isr(void *context, uint64_t since_tick)
@@ -75,7 +75,7 @@ static uint64_t main_pass(void *context)
 void axis_bench_init(struct axis_bench *bench)
 {
     const struct hal_client client = {
-        .context = bench, .step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+        .context = bench, .lay_isr = lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&bench->machine, epoch_random());
     bench->machine.listener = (struct host_listener){.context = bench, .trace = traced, .step = stepped};
     host_machine_select(&bench->machine);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "epoch.h"
+#include "hal_step.h"
 #include "unity.h"
 
 #define IDLE_LIMIT_TICKS (UINT64_C(60) * TICK_HZ)
@@ -49,11 +50,12 @@ static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trac
     judge_unit_trace(bench, tick, motor, event, value);
 }
 
-static bool step_isr(void *context, unsigned motor)
+static unsigned lay_isr(void *context, unsigned motor, struct hal_step_room *room)
 {
     struct bench *bench = context;
     bool wanted = bench->wanted_motor == motor + 1U && bench->wanted_pulses == bench->made[motor + 1U];
-    return bench->unit.client.step_isr(&bench->unit, motor) || wanted;
+    room->main_has_work = wanted;
+    return bench->unit.client.lay_isr(&bench->unit, motor, room);
 }
 
 static void tick_isr(void *context, uint64_t since_tick)
@@ -73,7 +75,7 @@ static void start_unit(struct bench *bench)
     rkm04_init(&bench->unit);
     rkm04_start(&bench->unit);
     bench->machine.client =
-        (struct hal_client){.context = bench, .step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+        (struct hal_client){.context = bench, .lay_isr = lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
 }
 
 void bench_init_at(struct bench *bench, uint64_t epoch)

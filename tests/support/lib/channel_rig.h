@@ -1,6 +1,5 @@
 /*
- * The rig of the tests of a step channel: a channel on the mock of hal_step.h, which keeps what is armed and sees that
- * the step interrupt is held off in pairs.
+ * The rig of the tests of a step channel: a channel on the step output of laid_rig.h.
  *
  * Pulses come at constant speed, one every INTERVAL ticks, so that pulse k of a move stands at START + k * INTERVAL.
  * To be included by one test program alone, after the mock.
@@ -13,6 +12,8 @@
 #include "step_scale.h"
 #include "unity.h"
 
+#include "laid_rig.h"
+
 enum {
     MOTOR = 2,
     INTERVAL = 84000,
@@ -20,57 +21,21 @@ enum {
 };
 
 static struct step_channel channel;
-static uint32_t armed_tick;
-static unsigned arms;
-static bool disarm_answer;
-static unsigned holds;
 
-static inline void arm_seen(unsigned motor, uint32_t tick, int calls)
+static inline unsigned lay(struct hal_step_room *room)
 {
-    (void)calls;
-    TEST_ASSERT_EQUAL_UINT(MOTOR, motor);
-    armed_tick = tick;
-    arms++;
-}
-
-static inline bool disarm_asked(unsigned motor, int calls)
-{
-    (void)calls;
-    TEST_ASSERT_EQUAL_UINT(MOTOR, motor);
-    return disarm_answer;
-}
-
-static inline void hold_seen(int calls)
-{
-    (void)calls;
-    TEST_ASSERT_EQUAL_UINT_MESSAGE(0, holds, "held twice");
-    holds++;
-}
-
-static inline void release_seen(int calls)
-{
-    (void)calls;
-    TEST_ASSERT_EQUAL_UINT_MESSAGE(1, holds, "released without a hold");
-    holds--;
+    return step_channel_lay_isr(&channel, room);
 }
 
 static inline void channel_rig_init(void)
 {
-    arms = 0;
-    armed_tick = 0;
-    holds = 0;
-    disarm_answer = true;
-    hal_step_arm_Stub(arm_seen);
-    hal_step_disarm_Stub(disarm_asked);
-    hal_step_hold_Stub(hold_seen);
-    hal_step_release_Stub(release_seen);
-    hal_step_set_direction_Ignore();
+    laid_init(MOTOR, START, lay);
     step_channel_init(&channel, MOTOR);
 }
 
 static inline void channel_rig_check(void)
 {
-    TEST_ASSERT_EQUAL_UINT_MESSAGE(0, holds, "the step interrupt is still held off");
+    TEST_ASSERT_EQUAL_UINT_MESSAGE(0, laid.holds, "the step interrupt is still held off");
 }
 
 /* Pulses INTERVAL ticks apart, the first one INTERVAL after pulse number `pulse` of the move. */
@@ -111,7 +76,7 @@ static inline void begin_two(uint32_t first, uint32_t second)
 static inline void make_pulses(unsigned count)
 {
     for (unsigned i = 0; i < count; i++) {
-        (void)step_channel_pulse_isr(&channel);
+        (void)laid_make_pulse();
     }
 }
 
@@ -119,10 +84,11 @@ static inline unsigned run_to_the_end(void)
 {
     unsigned count = 0;
     while (step_channel_is_running(&channel)) {
-        (void)step_channel_pulse_isr(&channel);
+        make_pulses(1);
         count++;
         TEST_ASSERT_LESS_THAN_UINT(100000, count);
     }
+    TEST_ASSERT_EQUAL_UINT_MESSAGE(0, laid_waiting(), "pulses are to come to a channel that rests");
     return count;
 }
 

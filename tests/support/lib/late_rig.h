@@ -15,10 +15,10 @@
 #include "axis.h"
 #include "unity.h"
 
+#include "laid_rig.h"
+
 static struct axis axis;
 static uint64_t now;
-static uint64_t armed;
-static bool is_armed;
 static uint32_t lead_ticks;
 static uint64_t planning_ticks; /* that pass until the cut */
 static uint64_t handing_ticks;  /* that pass after the cut */
@@ -39,34 +39,30 @@ static const struct motion_order fast = {
     .sections = 1,
 };
 
+static inline unsigned lay(struct hal_step_room *room)
+{
+    return axis_lay_isr(&axis, room);
+}
+
+static inline bool is_waiting(void)
+{
+    return laid_waiting() != 0;
+}
+
+static inline uint64_t next_pulse(void)
+{
+    return tick_extend(laid_next_tick(), now);
+}
+
 static inline void make_pulses_until(uint64_t tick)
 {
-    while (is_armed && armed <= tick) {
-        now = armed > now ? armed : now;
-        is_armed = false;
-        pulse_tick[pulses] = armed;
+    while (is_waiting() && next_pulse() <= tick) {
+        pulse_tick[pulses] = next_pulse();
+        now = pulse_tick[pulses] > now ? pulse_tick[pulses] : now;
         pulses++;
-        (void)axis_pulse_isr(&axis);
+        (void)laid_make_pulse();
     }
     now = tick > now ? tick : now;
-}
-
-static inline void arm_seen(unsigned motor, uint32_t tick, int calls)
-{
-    (void)motor;
-    (void)calls;
-    TEST_ASSERT_FALSE(is_armed);
-    armed = tick_extend(tick, now);
-    is_armed = true;
-}
-
-static inline bool disarm_seen(unsigned motor, int calls)
-{
-    (void)motor;
-    (void)calls;
-    bool taken = is_armed;
-    is_armed = false;
-    return taken;
 }
 
 static inline void hold_seen(int calls)
@@ -79,11 +75,13 @@ static inline void hold_seen(int calls)
         cuts_tried++;
         make_pulses_until(now + planning_ticks);
     }
+    laid_hold();
 }
 
 static inline void release_seen(int calls)
 {
     (void)calls;
+    laid_release();
     if (changes && holds % 2U == 0 && handing_ticks != 0) {
         make_pulses_until(now + handing_ticks);
     }
@@ -114,7 +112,6 @@ static inline uint32_t tell_lead(int calls)
 static inline void late_rig_init(void)
 {
     now = UINT64_C(1) << 40;
-    is_armed = false;
     lead_ticks = 0;
     planning_ticks = 0;
     handing_ticks = 0;
@@ -126,9 +123,7 @@ static inline void late_rig_init(void)
     cuts_tried = 0;
     pulses = 0;
     changes_traced = 0;
-    hal_step_set_direction_Ignore();
-    hal_step_arm_Stub(arm_seen);
-    hal_step_disarm_Stub(disarm_seen);
+    laid_init(0, (uint32_t)now, lay);
     hal_step_hold_Stub(hold_seen);
     hal_step_release_Stub(release_seen);
     hal_step_lead_ticks_Stub(tell_lead);
@@ -147,7 +142,7 @@ static inline void start(const struct motion_order *order, unsigned made)
     while (axis_feed(&axis)) {
     }
     for (unsigned i = 0; i < made; i++) {
-        make_pulses_until(armed);
+        make_pulses_until(next_pulse());
     }
     TEST_ASSERT_EQUAL_UINT64(made, pulses);
 }
@@ -172,10 +167,10 @@ static inline void run_to_the_end(void)
     planning_ticks = 0;
     handing_ticks = 0;
     for (axis_poll(&axis); axis_is_moving(&axis); axis_poll(&axis)) {
-        TEST_ASSERT_TRUE(is_armed);
+        TEST_ASSERT_TRUE(is_waiting());
         while (axis_feed(&axis)) {
         }
-        make_pulses_until(armed);
+        make_pulses_until(next_pulse());
     }
     TEST_ASSERT_EQUAL_UINT64(pulses, axis_steps_made(&axis));
 }

@@ -3,10 +3,10 @@
 #include "hal_io.h"
 #include "hal_time.h"
 
-static bool step_isr(void *context, unsigned motor)
+static unsigned lay_isr(void *context, unsigned motor, struct hal_step_room *room)
 {
     struct example_unit *unit = context;
-    return axis_pulse_isr(&unit->axis[motor]);
+    return axis_lay_isr(&unit->axis[motor], room);
 }
 
 static void tick_isr(void *context, uint64_t since_tick)
@@ -30,11 +30,10 @@ static void plan_isr(void *context)
 
 void example_unit_start(struct example_unit *unit)
 {
-    unit->client = (struct hal_client){unit, .step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+    unit->client = (struct hal_client){unit, .lay_isr = lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     for (unsigned motor = 0; motor < EXAMPLE_MOTORS; motor++) {
         axis_init(&unit->axis[motor], motor);
         (void)axis_sense_isr(&unit->axis[motor], hal_io_read_inputs(), hal_time_now());
-        unit->client.channel[motor] = &unit->axis[motor].channel;
     }
     hal_run_start(&unit->client);
 }

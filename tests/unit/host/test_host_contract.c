@@ -11,6 +11,8 @@
 #include "hal_trace.h"
 #include "host_machine.h"
 
+#include "given_pulses.h"
+
 static struct host_machine machine;
 static jmp_buf before;
 
@@ -33,6 +35,17 @@ static bool is_refused(void (*call)(void))
     return refused;
 }
 
+static void tick_isr(void *context, uint64_t since_tick)
+{
+    (void)context;
+    (void)since_tick;
+}
+
+static void plan_isr(void *context)
+{
+    (void)context;
+}
+
 static uint64_t pass_that_holds_the_step_interrupt(void *context)
 {
     (void)context;
@@ -49,28 +62,53 @@ static uint64_t pass_that_holds_the_plan_interrupt(void *context)
 
 void setUp(void)
 {
+    static const struct hal_client client = {.lay_isr = given_lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+    given_clear();
     host_machine_init(&machine, 0);
     host_machine_select(&machine);
+    hal_run_start(&client);
 }
 
 void tearDown(void)
 {
 }
 
-static void arm_twice(void)
+static void run_motor_4(void)
 {
-    hal_step_arm(0, 10);
-    hal_step_arm(0, 20);
+    hal_step_hold();
+    hal_step_run(UNIT_MOTORS);
 }
 
-static void arm_motor_4(void)
+static void ask_for_motor_4(void)
 {
-    hal_step_arm(UNIT_MOTORS, 10);
+    hal_step_hold();
+    (void)hal_step_waiting(UNIT_MOTORS);
 }
 
-static void disarm_motor_4(void)
+static void take_back_of_motor_4(void)
 {
-    (void)hal_step_disarm(UNIT_MOTORS);
+    hal_step_hold();
+    (void)hal_step_take_back(UNIT_MOTORS, 1);
+}
+
+static void connect_motor_4(void)
+{
+    hal_step_connect(UNIT_MOTORS, true);
+}
+
+static void run_without_a_hold(void)
+{
+    hal_step_run(0);
+}
+
+static void ask_without_a_hold(void)
+{
+    (void)hal_step_waiting(0);
+}
+
+static void take_back_without_a_hold(void)
+{
+    (void)hal_step_take_back(0, 1);
 }
 
 static void turn_motor_4(void)
@@ -78,10 +116,16 @@ static void turn_motor_4(void)
     hal_step_set_direction(UNIT_MOTORS, true);
 }
 
-static void turn_an_armed_motor(void)
+static void turn_a_motor_with_a_pulse_to_come(void)
 {
-    hal_step_arm(0, 10);
+    lay_pulse(0, 10);
     hal_step_set_direction(0, true);
+}
+
+static void disconnect_a_motor_with_a_pulse_to_come(void)
+{
+    lay_pulse(0, 10);
+    hal_step_connect(0, false);
 }
 
 static void light_motor_4(void)
@@ -173,23 +217,31 @@ static void use_no_machine(void)
     (void)hal_io_read_inputs();
 }
 
-void test_a_motor_can_be_armed_only_once(void)
+void test_pulses_are_laid_counted_and_taken_back_only_in_a_hold(void)
 {
-    TEST_ASSERT_TRUE(is_refused(arm_twice));
+    TEST_ASSERT_TRUE(is_refused(run_without_a_hold));
+    TEST_ASSERT_TRUE(is_refused(ask_without_a_hold));
+    TEST_ASSERT_TRUE(is_refused(take_back_without_a_hold));
 }
 
 void test_there_are_four_motors(void)
 {
-    TEST_ASSERT_TRUE(is_refused(arm_motor_4));
-    TEST_ASSERT_TRUE(is_refused(disarm_motor_4));
+    TEST_ASSERT_TRUE(is_refused(run_motor_4));
+    setUp();
+    TEST_ASSERT_TRUE(is_refused(ask_for_motor_4));
+    setUp();
+    TEST_ASSERT_TRUE(is_refused(take_back_of_motor_4));
+    TEST_ASSERT_TRUE(is_refused(connect_motor_4));
     TEST_ASSERT_TRUE(is_refused(turn_motor_4));
     TEST_ASSERT_TRUE(is_refused(light_motor_4));
     TEST_ASSERT_TRUE(is_refused(trace_motor_5));
 }
 
-void test_the_direction_of_an_armed_motor_cannot_be_set(void)
+void test_while_a_pulse_waits_a_motor_is_neither_turned_nor_disconnected(void)
 {
-    TEST_ASSERT_TRUE(is_refused(turn_an_armed_motor));
+    TEST_ASSERT_TRUE(is_refused(turn_a_motor_with_a_pulse_to_come));
+    setUp();
+    TEST_ASSERT_TRUE(is_refused(disconnect_a_motor_with_a_pulse_to_come));
 }
 
 void test_an_interrupt_is_held_only_once(void)

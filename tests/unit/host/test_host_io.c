@@ -158,11 +158,12 @@ static void plan_isr(void *context)
     (void)context;
 }
 
-static bool step_seen(void *context, unsigned motor)
+static unsigned lay_nothing(void *context, unsigned motor, struct hal_step_room *room)
 {
     (void)context;
     (void)motor;
-    return false;
+    (void)room;
+    return 0;
 }
 
 /* Two changes within the delay call one interrupt. */
@@ -172,7 +173,7 @@ void test_a_tick_interrupt_that_is_late_sees_all_changes_until_then(void)
         {.tick = 400, .input = 1, .level = true},
         {.tick = 410, .input = 2, .level = true},
     };
-    const struct hal_client client = {.step_isr = step_seen, .tick_isr = tick_seen, .plan_isr = plan_isr};
+    const struct hal_client client = {.lay_isr = lay_nothing, .tick_isr = tick_seen, .plan_isr = plan_isr};
     hal_run_start(&client);
     ticks_called = 0;
     machine.faults.late_tick_ticks = 30;

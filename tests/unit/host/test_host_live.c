@@ -7,6 +7,8 @@
 #include "hal_step.h"
 #include "host_machine.h"
 
+#include "given_pulses.h"
+
 static struct host_machine machine;
 static uint64_t wanted; /* what main answers */
 static unsigned passes;
@@ -19,13 +21,6 @@ static uint64_t main_pass(void *context)
     (void)context;
     passes++;
     return wanted;
-}
-
-static bool step_isr(void *context, unsigned motor)
-{
-    (void)context;
-    (void)motor;
-    return false;
 }
 
 static void tick_isr(void *context, uint64_t since_tick)
@@ -50,7 +45,8 @@ static void input_seen(void *context, uint64_t tick, uint8_t levels)
 
 void setUp(void)
 {
-    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+    static const struct hal_client client = {.lay_isr = given_lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+    given_clear();
     host_machine_init(&machine, 0);
     host_machine_select(&machine);
     hal_run_start(&client);
@@ -125,11 +121,11 @@ void test_the_pass_that_main_wants_is_next(void)
     TEST_ASSERT_EQUAL_UINT64(5000, host_machine_next_tick(&machine));
 }
 
-void test_an_armed_pulse_is_next(void)
+void test_a_pulse_that_waits_is_next(void)
 {
     wanted = 5000;
     run_until(100);
-    hal_step_arm(2, 300);
+    lay_pulse(2, 300);
 
     TEST_ASSERT_EQUAL_UINT64(300, host_machine_next_tick(&machine));
 }
@@ -146,7 +142,7 @@ void test_an_input_of_the_script_is_next(void)
 
 void test_slices_make_the_pulses_of_one_run(void)
 {
-    hal_step_arm(0, 1000);
+    lay_pulse(0, 1000);
     for (uint64_t until = 0; until <= 1000; until += 10) {
         run_until(until);
         TEST_ASSERT_EQUAL_UINT64(0, machine.pulses);

@@ -5,6 +5,8 @@
 #include "hal_step.h"
 #include "host_machine.h"
 
+#include "given_pulses.h"
+
 static struct host_machine machine;
 static unsigned edges;
 static unsigned simulated_edges;
@@ -52,13 +54,6 @@ static void direction_seen(void *context, uint64_t tick, unsigned motor, bool ba
     pin_backward = backward;
 }
 
-static bool step_isr(void *context, unsigned motor)
-{
-    (void)context;
-    (void)motor;
-    return false;
-}
-
 static void tick_isr(void *context, uint64_t since_tick)
 {
     (void)context;
@@ -83,7 +78,8 @@ static void run_until(uint64_t until)
 
 static void begin_at(uint64_t epoch)
 {
-    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+    static const struct hal_client client = {.lay_isr = given_lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+    given_clear();
     host_machine_init(&machine, epoch);
     machine.listener =
         (struct host_listener){.step = step_seen, .simulated = simulated_seen, .direction = direction_seen};
@@ -104,9 +100,9 @@ void tearDown(void)
 {
 }
 
-void test_a_pulse_comes_at_the_armed_tick(void)
+void test_a_pulse_comes_at_its_tick(void)
 {
-    hal_step_arm(0, 840);
+    lay_pulse(0, 840);
 
     run_until(10000);
 
@@ -116,7 +112,7 @@ void test_a_pulse_comes_at_the_armed_tick(void)
 void test_a_pulse_beyond_the_wrap_of_the_counter_is_ahead(void)
 {
     begin_at(UINT32_MAX);
-    hal_step_arm(0, 99);
+    lay_pulse(0, 99);
 
     run_until(1000);
 
@@ -126,7 +122,7 @@ void test_a_pulse_beyond_the_wrap_of_the_counter_is_ahead(void)
 
 void test_the_longest_way_ahead_is_half_of_the_counter(void)
 {
-    hal_step_arm(0, INT32_MAX);
+    lay_pulse(0, INT32_MAX);
 
     run_until(UINT32_MAX);
 
@@ -136,7 +132,7 @@ void test_the_longest_way_ahead_is_half_of_the_counter(void)
 void test_a_pulse_for_the_present_tick_is_in_time(void)
 {
     run_until(5000);
-    hal_step_arm(0, 5000);
+    lay_pulse(0, 5000);
 
     run_until(6000);
 
@@ -147,7 +143,7 @@ void test_a_pulse_for_the_present_tick_is_in_time(void)
 void test_a_pulse_for_a_tick_gone_by_comes_at_once_and_is_counted(void)
 {
     run_until(5000);
-    hal_step_arm(0, 4999);
+    lay_pulse(0, 4999);
 
     run_until(6000);
 
@@ -155,28 +151,28 @@ void test_a_pulse_for_a_tick_gone_by_comes_at_once_and_is_counted(void)
     TEST_ASSERT_EQUAL_UINT64(1, machine.late_steps);
 }
 
-void test_an_armed_pulse_can_be_taken_back(void)
+void test_a_pulse_that_waits_can_be_taken_back(void)
 {
-    hal_step_arm(1, 100);
+    lay_pulse(1, 100);
 
-    TEST_ASSERT_TRUE(hal_step_disarm(1));
+    TEST_ASSERT_EQUAL_UINT(1, take_back_given(1, 1));
 
     run_until(1000);
     TEST_ASSERT_EQUAL_UINT(0, edges);
 }
 
-void test_a_pulse_that_is_not_armed_cannot_be_taken_back(void)
+void test_where_no_pulse_waits_none_is_taken_back(void)
 {
-    TEST_ASSERT_FALSE(hal_step_disarm(1));
+    TEST_ASSERT_EQUAL_UINT(0, take_back_given(1, 1));
 }
 
 void test_a_pulse_cannot_be_taken_back_between_its_edge_and_its_interrupt(void)
 {
     machine.faults.late_step_ticks = 50;
-    hal_step_arm(1, 100);
+    lay_pulse(1, 100);
     run_until(120);
 
-    TEST_ASSERT_FALSE(hal_step_disarm(1));
+    TEST_ASSERT_EQUAL_UINT(0, take_back_given(1, 1));
     TEST_ASSERT_EQUAL_UINT(1, edges);
 }
 
@@ -196,7 +192,7 @@ void test_a_direction_is_told_when_it_changes(void)
 void test_an_edge_tells_the_direction_of_its_motor(void)
 {
     hal_step_set_direction(0, true);
-    hal_step_arm(0, 10);
+    lay_pulse(0, 10);
 
     run_until(100);
 
@@ -206,8 +202,8 @@ void test_an_edge_tells_the_direction_of_its_motor(void)
 void test_a_disconnected_motor_runs_on_but_shows_no_edge(void)
 {
     hal_step_connect(0, false);
-    hal_step_arm(0, 10);
-    hal_step_arm(1, 10);
+    lay_pulse(0, 10);
+    lay_pulse(1, 10);
 
     run_until(100);
 
@@ -269,6 +265,17 @@ void test_a_restart_connects_and_turns_the_pins_forward(void)
     TEST_ASSERT_FALSE(pin_backward);
 }
 
+void test_a_restart_takes_back_what_was_laid(void)
+{
+    lay_pulse(0, 100);
+    host_machine_restart(&machine);
+
+    run_until(200);
+
+    TEST_ASSERT_EQUAL_UINT64(0, machine.pulses);
+    TEST_ASSERT_EQUAL_UINT(0, waiting_given(0));
+}
+
 void test_planning_takes_no_time(void)
 {
     TEST_ASSERT_EQUAL_UINT32(0, hal_step_lead_ticks());
@@ -278,7 +285,7 @@ void test_a_machine_without_listener_runs_all_the_same(void)
 {
     machine.listener = (struct host_listener){0};
     hal_step_set_direction(0, true);
-    hal_step_arm(0, 10);
+    lay_pulse(0, 10);
 
     run_until(100);
 

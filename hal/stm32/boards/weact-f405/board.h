@@ -10,10 +10,10 @@
 #define BOARD_H
 
 #define BOARD_PINS(X)                                                                                                  \
-    X(STEP_1, A, 0, TIM2_CH1)                                                                                          \
-    X(STEP_2, A, 1, TIM2_CH2)                                                                                          \
-    X(STEP_3, A, 2, TIM2_CH3)                                                                                          \
-    X(STEP_4, A, 3, TIM2_CH4)                                                                                          \
+    X(STEP_1, A, 0, TIM5_CH1)                                                                                          \
+    X(STEP_2, A, 1, TIM5_CH2)                                                                                          \
+    X(STEP_3, A, 2, TIM5_CH3)                                                                                          \
+    X(STEP_4, A, 3, TIM5_CH4)                                                                                          \
     X(DIR_1, A, 4, OUT)                                                                                                \
     X(DIR_2, A, 5, OUT)                                                                                                \
     X(DIR_3, A, 6, OUT)                                                                                                \

@@ -24,7 +24,7 @@ static void start(const struct motion_order *order)
 
 /* Stops by main */
 
-/* At 1000 ms pulse 798 is armed in cruise, and 247 steps bring the motor down to S. */
+/* At 1000 ms pulse 798 is next in cruise, and 247 steps bring the motor down to S. */
 void test_a_stop_ends_down_the_ramp(void)
 {
     start(&axis_bench_trapezoid);

@@ -97,7 +97,7 @@ void test_the_cause_of_one_move_is_forgotten_in_the_next(void)
     axis_bench_run(&bench);
 }
 
-/* Stops by inputs: at 1000 ms pulse 798 is armed in cruise, and 247 steps bring the motor down to S. */
+/* Stops by inputs: at 1000 ms pulse 798 is next in cruise, and 247 steps bring the motor down to S. */
 
 static void assert_ramp_stop(struct axis_guards guards, uint8_t input, enum axis_cause cause)
 {

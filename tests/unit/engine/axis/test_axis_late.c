@@ -138,10 +138,10 @@ static void run_dry(void)
     handing_ticks = 6 * 5250;
 
     change_speed(15999);
-    TEST_ASSERT_FALSE(is_armed);
+    TEST_ASSERT_FALSE(is_waiting());
 }
 
-/* Pulse 2 is armed when the change comes. */
+/* Pulse 2 is the next one when the change comes. */
 void test_a_change_hands_over_two_segments_for_the_time_until_main_lays_the_others(void)
 {
     run_dry();
@@ -165,7 +165,7 @@ void test_a_queue_that_ran_dry_goes_on_as_soon_as_it_is_fed(void)
     run_dry();
 
     TEST_ASSERT_TRUE(axis_feed(&axis));
-    TEST_ASSERT_TRUE(is_armed);
+    TEST_ASSERT_TRUE(is_waiting());
     run_to_the_end();
 
     TEST_ASSERT_EQUAL_UINT64(MOTION_SECTIONS, pulses);

@@ -6,6 +6,8 @@
 #include "axis.h"
 #include "unity.h"
 
+#include "laid_rig.h"
+
 /* An input changes while main works: the tick interrupt comes at any of the calls that main makes to the backend, and
  * the plan interrupt as soon as main lets it. No time passes, so all that counts is what main had done until then. */
 
@@ -17,13 +19,10 @@ enum {
 
 static struct axis axis;
 static uint64_t now;
-static uint64_t armed;
-static bool is_armed;
 static uint64_t pulses;
 static unsigned calls;   /* of main to the backend */
 static unsigned edge_at; /* the call at which the input changes; 0: never */
 static bool edge_waits;  /* the interrupt is held off */
-static bool step_held;
 static bool plan_held;
 static bool plan_waits;
 static unsigned stops_traced;
@@ -47,10 +46,10 @@ static void make_change(void)
 
 static void let_through(void)
 {
-    if (edge_waits && !step_held) {
+    if (edge_waits && laid.holds == 0) {
         make_change();
     }
-    if (plan_waits && !plan_held && !step_held) {
+    if (plan_waits && !plan_held && laid.holds == 0) {
         plan_waits = false;
         plan_held = true;
         axis_plan_isr(&axis);
@@ -65,38 +64,17 @@ static void call_seen(void)
     let_through();
 }
 
-static void arm_seen(unsigned motor, uint32_t tick, int count)
-{
-    (void)motor;
-    (void)count;
-    TEST_ASSERT_FALSE(is_armed);
-    armed = tick_extend(tick, now);
-    is_armed = true;
-    call_seen();
-}
-
-static bool disarm_seen(unsigned motor, int count)
-{
-    (void)motor;
-    (void)count;
-    bool taken = is_armed;
-    is_armed = false;
-    return taken;
-}
-
 static void hold_seen(int count)
 {
     (void)count;
     call_seen();
-    TEST_ASSERT_FALSE(step_held);
-    step_held = true;
+    laid_hold();
 }
 
 static void release_seen(int count)
 {
     (void)count;
-    TEST_ASSERT_TRUE(step_held);
-    step_held = false;
+    laid_release();
     call_seen();
 }
 
@@ -130,11 +108,14 @@ static void traced(uint64_t tick, unsigned motor, enum hal_trace_event event, in
     stops_traced += event == HAL_TRACE_STOP ? 1U : 0U;
 }
 
+static unsigned lay(struct hal_step_room *room)
+{
+    return axis_lay_isr(&axis, room);
+}
+
 void setUp(void)
 {
     now = UINT64_C(1) << 40;
-    is_armed = false;
-    step_held = false;
     plan_held = false;
     plan_waits = false;
     edge_waits = false;
@@ -142,10 +123,8 @@ void setUp(void)
     calls = 0;
     pulses = 0;
     stops_traced = 0;
-    hal_step_set_direction_Ignore();
+    laid_init(0, (uint32_t)now, lay);
     hal_step_lead_ticks_IgnoreAndReturn(0);
-    hal_step_arm_Stub(arm_seen);
-    hal_step_disarm_Stub(disarm_seen);
     hal_step_hold_Stub(hold_seen);
     hal_step_release_Stub(release_seen);
     hal_run_hold_plan_Stub(hold_plan_seen);
@@ -161,10 +140,9 @@ void tearDown(void)
 
 static void make_pulse(void)
 {
-    now = armed;
-    is_armed = false;
+    now = tick_extend(laid_next_tick(), now);
     pulses++;
-    (void)axis_pulse_isr(&axis);
+    (void)laid_make_pulse();
 }
 
 static void start(void)
@@ -187,11 +165,11 @@ static void run_to_the_end(void)
         TEST_ASSERT_LESS_THAN_UINT_MESSAGE(PASSES_MAX, passes++, "a move does not end");
         while (axis_feed(&axis)) {
         }
-        if (is_armed) {
+        if (laid_waiting() != 0) {
             make_pulse();
         }
     }
-    TEST_ASSERT_FALSE(is_armed);
+    TEST_ASSERT_EQUAL_UINT(0, laid_waiting());
     TEST_ASSERT_TRUE(axis_take_end(&axis));
     TEST_ASSERT_EQUAL_UINT64(pulses, axis_steps_made(&axis));
 }
@@ -297,7 +275,7 @@ static unsigned pulses_laid(void)
 {
     setUp();
     start();
-    while (is_armed) {
+    while (laid_waiting() != 0) {
         make_pulse();
     }
     return (unsigned)pulses;

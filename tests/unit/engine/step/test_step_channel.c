@@ -26,18 +26,18 @@ void test_a_new_channel_rests_at_position_0(void)
 
 void test_a_move_begins_with_its_direction_set(void)
 {
-    hal_step_set_direction_StopIgnore();
+    hal_step_set_direction_Stub(NULL);
     hal_step_set_direction_Expect(MOTOR, true);
 
     step_channel_begin(&channel, START, true);
 }
 
-void test_run_arms_the_first_pulse_a_whole_step_after_the_start(void)
+void test_run_lays_the_first_pulse_a_whole_step_after_the_start(void)
 {
     begin_move(10);
 
-    TEST_ASSERT_EQUAL_UINT(1, arms);
-    TEST_ASSERT_EQUAL_UINT32(START + INTERVAL, armed_tick);
+    TEST_ASSERT_EQUAL_UINT(LAID_AHEAD, laid_waiting());
+    TEST_ASSERT_EQUAL_UINT32(START + INTERVAL, laid_next_tick());
 }
 
 void test_run_with_nothing_queued_rests(void)
@@ -47,16 +47,17 @@ void test_run_with_nothing_queued_rests(void)
     step_channel_run(&channel);
 
     TEST_ASSERT_FALSE(step_channel_is_running(&channel));
-    TEST_ASSERT_EQUAL_UINT(0, arms);
+    TEST_ASSERT_EQUAL_UINT(0, laid.laid);
 }
 
-void test_each_pulse_arms_the_next_one(void)
+void test_after_each_pulse_the_next_one_waits(void)
 {
-    begin_move(3);
+    begin_move(LAID_AHEAD + 2);
 
     make_pulses(1);
 
-    TEST_ASSERT_EQUAL_UINT32(START + 2 * INTERVAL, armed_tick);
+    TEST_ASSERT_EQUAL_UINT32(START + 2 * INTERVAL, laid_next_tick());
+    TEST_ASSERT_EQUAL_UINT(LAID_AHEAD, laid_waiting());
 }
 
 void test_a_move_has_the_pulses_of_its_segments(void)
@@ -64,11 +65,11 @@ void test_a_move_has_the_pulses_of_its_segments(void)
     begin_two(3, 4);
 
     TEST_ASSERT_EQUAL_UINT(7, run_to_the_end());
-    TEST_ASSERT_EQUAL_UINT(7, arms);
-    TEST_ASSERT_EQUAL_UINT32(START + 7 * INTERVAL, armed_tick);
+    TEST_ASSERT_EQUAL_UINT(7, laid.laid);
+    TEST_ASSERT_EQUAL_UINT32(START + 7 * INTERVAL, laid.last_tick);
 }
 
-void test_an_armed_pulse_is_not_counted_before_it_is_made(void)
+void test_a_pulse_that_waits_is_not_counted_before_it_is_made(void)
 {
     begin_move(3);
 
@@ -121,24 +122,39 @@ void test_the_position_goes_on_in_the_next_move_and_the_count_of_pulses_begins_a
 
 void test_a_pulse_inside_a_segment_needs_no_attention(void)
 {
-    begin_move(3);
+    begin_move(LAID_AHEAD + 2);
 
-    TEST_ASSERT_FALSE(step_channel_pulse_isr(&channel));
+    make_pulses(1);
+
+    TEST_ASSERT_FALSE(laid.main_has_work);
 }
 
-void test_the_begin_of_a_segment_wants_attention(void)
+/* Segments of one pulse: the queue gets shorter with the first question that no way back leads over. */
+void test_a_queue_that_gets_shorter_wants_attention(void)
 {
-    begin_two(1, 2);
+    step_channel_begin(&channel, START, false);
+    for (uint32_t i = 0; i < STEP_QUEUE_SEGMENTS; i++) {
+        push(i, 1);
+    }
+    step_channel_run(&channel);
+    uint32_t room = step_channel_room(&channel);
 
-    TEST_ASSERT_TRUE(step_channel_pulse_isr(&channel));
-    TEST_ASSERT_FALSE(step_channel_pulse_isr(&channel));
+    while (step_channel_is_running(&channel)) {
+        make_pulses(1);
+        TEST_ASSERT_TRUE(laid.main_has_work || step_channel_room(&channel) == room);
+        room = step_channel_room(&channel);
+    }
+
+    TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS, room);
 }
 
 void test_the_end_of_a_move_wants_attention_and_rests(void)
 {
     begin_move(1);
 
-    TEST_ASSERT_TRUE(step_channel_pulse_isr(&channel));
+    make_pulses(1);
+
+    TEST_ASSERT_TRUE(laid.main_has_work);
     TEST_ASSERT_FALSE(step_channel_is_running(&channel));
 }
 
@@ -169,12 +185,13 @@ void test_room_shrinks_with_each_push_until_the_queue_is_full(void)
     TEST_ASSERT_EQUAL_UINT32(0, step_channel_room(&channel));
 }
 
-void test_a_segment_that_has_begun_makes_room(void)
+/* Two places are kept, and no pulse waits longer than LAID_AHEAD others. */
+void test_a_segment_makes_room_when_no_way_back_leads_over_it(void)
 {
-    begin_two(2, 2);
-    TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS - 1, step_channel_room(&channel));
+    begin_two(2, 4 * LAID_AHEAD);
+    TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS - 2, step_channel_room(&channel));
 
-    make_pulses(2);
+    make_pulses(2 + 2 * LAID_AHEAD);
 
     TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS, step_channel_room(&channel));
 }
@@ -199,11 +216,15 @@ void test_the_queue_is_a_ring_that_can_be_fed_without_end(void)
     begin_two(1, 1);
 
     for (uint32_t i = 2; i < SEGMENTS; i++) {
+        TEST_ASSERT_GREATER_THAN_UINT32(0, step_channel_room(&channel));
         push(i, 1);
-        make_pulses(1);
+        if (i > LAID_AHEAD) {
+            make_pulses(1);
+        }
     }
 
-    TEST_ASSERT_EQUAL_UINT(2, run_to_the_end());
+    (void)run_to_the_end();
+    TEST_ASSERT_EQUAL_UINT64(SEGMENTS, step_channel_pulses(&channel));
     TEST_ASSERT_EQUAL_UINT32(START + SEGMENTS * (uint32_t)INTERVAL, step_channel_end_tick(&channel));
 }
 
@@ -215,22 +236,27 @@ void test_a_queue_that_was_fed_too_late_goes_on_from_the_last_pulse(void)
     push(3, 2);
     step_channel_run(&channel);
 
-    TEST_ASSERT_EQUAL_UINT32(START + 4 * INTERVAL, armed_tick);
+    TEST_ASSERT_EQUAL_UINT32(START + 4 * INTERVAL, laid_next_tick());
     TEST_ASSERT_EQUAL_UINT(2, run_to_the_end());
     TEST_ASSERT_EQUAL_UINT64(5, step_channel_pulses(&channel));
 }
 
+/* The segment's first pulse is laid when `MARKED - LAID_AHEAD` others have been made. */
+enum {
+    MARKED = LAID_AHEAD + 2
+};
+
 static void begin_marked(void)
 {
-    struct step_segment marked = segment_after(2, 2);
+    struct step_segment marked = segment_after(MARKED - 1, 2);
     marked.marked = true;
     step_channel_begin(&channel, START, false);
-    push(0, 2);
+    push(0, MARKED - 1);
     step_channel_push(&channel, &marked);
     step_channel_run(&channel);
 }
 
-void test_a_mark_is_not_seen_before_its_segment_begins(void)
+void test_a_mark_is_not_seen_before_its_segment_is_laid(void)
 {
     begin_marked();
 
@@ -239,12 +265,13 @@ void test_a_mark_is_not_seen_before_its_segment_begins(void)
     TEST_ASSERT_FALSE(step_channel_take_mark(&channel));
 }
 
-void test_a_mark_is_seen_once_when_its_segment_begins(void)
+void test_a_mark_is_seen_once_when_its_segment_is_laid(void)
 {
     begin_marked();
 
     make_pulses(2);
 
+    TEST_ASSERT_TRUE(laid.main_has_work);
     TEST_ASSERT_TRUE(step_channel_take_mark(&channel));
     TEST_ASSERT_FALSE(step_channel_take_mark(&channel));
 }

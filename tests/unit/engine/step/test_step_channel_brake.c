@@ -9,11 +9,17 @@
 /* The stopgap that brakes at once, and the planned segment that takes its place. */
 
 enum {
-    MADE = 5, /* pulses before the stop, of MOVE; the next one is armed */
+    MADE = 5, /* pulses before the stop, of MOVE */
     MOVE = 1000,
-    PLANNED = 40,      /* pulses after the armed one, as planned */
+    PLANNED = 40,      /* pulses after the next one, as planned */
     GAP = PLANNED / 2, /* and those of the stopgap */
     ACCEL = 2000 * (int32_t)STEP_ACCEL_PER_ACCEL,
+    FAST = 3359, /* ticks: above 25 000 steps/s */
+};
+
+/* Pulse 5 came on this tick; pulse 6 is the next one. */
+enum {
+    LAST_TICK = START + MADE * INTERVAL
 };
 
 static uint32_t ticks[PLANNED + 2];
@@ -35,7 +41,7 @@ static struct step_cursor brake_until(uint64_t until)
     struct step_cursor at;
     begin_move(MOVE);
     make_pulses(MADE);
-    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, armed_tick, &at));
+    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, laid_next_tick(), &at));
     TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, until, &at));
     return at;
 }
@@ -58,12 +64,11 @@ static void record(unsigned most)
 {
     for (unsigned i = 0; i < most && step_channel_is_running(&channel); i++) {
         TEST_ASSERT_LESS_THAN_UINT(PLANNED + 2, count);
-        ticks[count++] = armed_tick;
-        make_pulses(1);
+        ticks[count++] = laid_make_pulse();
     }
 }
 
-/* The pulses after `at` that were armed before the replacement, `gap` of them, are the stopgap's. */
+/* The pulses after `at` that were laid before the replacement, `gap` of them, are the stopgap's. */
 static void assert_planned_ticks(const struct step_cursor *at, unsigned gap)
 {
     struct step_segment segment = planned_after(at, PLANNED);
@@ -81,7 +86,7 @@ static void assert_planned_ticks(const struct step_cursor *at, unsigned gap)
     TEST_ASSERT_EQUAL_INT64(MADE + 1 + PLANNED, step_channel_position(&channel));
 }
 
-/* Brakes, makes so many pulses, the armed one included, and has the planned segment in the place of the stopgap. */
+/* Brakes, makes so many pulses, the next one included, and has the planned segment in the place of the stopgap. */
 static void assert_replaced_after(unsigned made)
 {
     setUp();
@@ -96,164 +101,52 @@ static void assert_replaced_after(unsigned made)
     assert_planned_ticks(&at, 0);
 }
 
-void test_a_search_tells_the_armed_pulse(void)
+void test_a_brake_of_fast_pulses_goes_on_from_the_last_one_made(void)
 {
-    struct step_cursor cursor;
-    begin_move(MOVE);
-    make_pulses(MADE);
-
-    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, armed_tick, &cursor));
-
-    TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&cursor));
-    TEST_ASSERT_EQUAL_UINT32(armed_tick, cursor.generator.tick);
-}
-
-void test_a_search_at_rest_tells_the_last_pulse_and_that_none_is_armed(void)
-{
-    struct step_cursor cursor;
-    begin_move(3);
-    (void)run_to_the_end();
-
-    TEST_ASSERT_FALSE(step_channel_find_pulse(&channel, armed_tick, &cursor));
-
-    TEST_ASSERT_EQUAL_UINT64(3, step_cursor_pulse(&cursor));
-    TEST_ASSERT_EQUAL_UINT32(START + 3 * INTERVAL, cursor.generator.tick);
-}
-
-/* Pulse 5 came on this tick; pulse 6 is armed. */
-enum {
-    LAST_TICK = START + MADE * INTERVAL
-};
-
-void test_the_pulse_found_is_the_pulse_before_the_armed_one_if_that_came_after_the_moment(void)
-{
-    struct step_cursor cursor;
-    begin_move(MOVE);
-    make_pulses(MADE);
-
-    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, LAST_TICK - 1, &cursor));
-    TEST_ASSERT_EQUAL_UINT64(MADE, step_cursor_pulse(&cursor));
-    TEST_ASSERT_EQUAL_UINT32(LAST_TICK, cursor.generator.tick);
-
-    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, LAST_TICK, &cursor));
-    TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&cursor));
-}
-
-void test_a_search_before_the_first_pulse_of_a_move_tells_that_one(void)
-{
-    struct step_cursor cursor;
-    begin_move(MOVE);
-
-    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, START - 1000, &cursor));
-
-    TEST_ASSERT_EQUAL_UINT64(1, step_cursor_pulse(&cursor));
-}
-
-/* Pulses 1 to 10 on a ramp up from 1000 steps/s, and 11 to 20 on one down. */
-static void begin_up_and_down(void)
-{
-    step_channel_begin(&channel, START, false);
-    struct step_segment up = segment_after(0, 10);
-    up.accel = ACCEL;
-    step_channel_push(&channel, &up);
-    struct step_segment down = {.slope = up.slope, .accel = -ACCEL, .tick = START + 10 * INTERVAL, .steps = 10};
-    step_generator_aim(&down, INTERVAL);
-    step_channel_push(&channel, &down);
-    step_channel_run(&channel);
-}
-
-void test_a_search_goes_back_to_any_pulse_and_over_the_border_of_two_segments(void)
-{
-    struct step_cursor last;
-    struct step_cursor cursor;
-    begin_up_and_down();
-    for (uint64_t pulse = 1; pulse < 20; pulse++) {
-        TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, armed_tick, &last));
-        make_pulses(1);
-
-        TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, last.generator.tick - 1U, &cursor));
-
-        TEST_ASSERT_EQUAL_UINT64(pulse, step_cursor_pulse(&cursor));
-        TEST_ASSERT_EQUAL_UINT32(last.generator.tick, cursor.generator.tick);
-        TEST_ASSERT_EQUAL_HEX64(last.generator.residual, cursor.generator.residual);
-        TEST_ASSERT_EQUAL_HEX64(last.generator.slope, cursor.generator.slope);
-        TEST_ASSERT_EQUAL_INT32(last.generator.accel, cursor.generator.accel);
-    }
-}
-
-static void begin_fast_move(uint32_t interval)
-{
-    struct step_segment segment = {
-        .slope = STEP_QUANTA / interval, .tick = START, .pace_ticks = interval, .steps = 100};
-    step_generator_aim(&segment, interval);
+    struct step_segment segment = {.slope = STEP_QUANTA / FAST, .tick = START, .pace_ticks = FAST, .steps = 100};
+    struct step_cursor at;
+    step_generator_aim(&segment, FAST);
     step_channel_begin(&channel, START, false);
     step_channel_push(&channel, &segment);
     step_channel_run(&channel);
     make_pulses(MADE);
-}
-
-static struct step_cursor look_at_start(void)
-{
-    struct step_cursor cursor;
-    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, START, &cursor));
-    return cursor;
-}
-
-void test_a_search_goes_back_at_up_to_25_000_steps_per_s(void)
-{
-    begin_fast_move(3360);
-
-    struct step_cursor cursor = look_at_start();
-
-    TEST_ASSERT_EQUAL_UINT64(MADE, step_cursor_pulse(&cursor));
-}
-
-void test_a_search_at_faster_pulses_tells_the_armed_one(void)
-{
-    begin_fast_move(3359);
-
-    struct step_cursor cursor = look_at_start();
-
-    TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&cursor));
-}
-
-void test_a_brake_of_fast_pulses_takes_none_back(void)
-{
-    begin_fast_move(3359);
-    struct step_cursor at = look_at_start();
+    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, START, &at));
     make_pulses(1);
 
     TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, MADE + GAP, &at));
 
-    TEST_ASSERT_EQUAL_UINT64(MADE + 2, step_cursor_pulse(&at));
-    TEST_ASSERT_EQUAL_UINT(MADE + 2, arms);
+    TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&at));
+    TEST_ASSERT_EQUAL_UINT(LAID_AHEAD, laid.back);
+    TEST_ASSERT_EQUAL_UINT(GAP - 1, run_to_the_end());
+    TEST_ASSERT_GREATER_THAN_UINT32(START + (MADE + GAP) * FAST, laid.last_tick);
 }
 
-/* Looks while pulse 5 is armed, and brakes when it has been made. */
+/* Looks while pulse 5 is the next one, and brakes when it has been made. */
 static struct step_cursor brake_at_the_pulse_found(void)
 {
     struct step_cursor at;
     begin_move(MOVE);
     make_pulses(MADE - 1);
-    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, armed_tick, &at));
+    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, laid_next_tick(), &at));
     make_pulses(1);
     TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, MADE + GAP, &at));
     return at;
 }
 
-void test_a_brake_takes_the_pulse_back_that_follows_the_one_found(void)
+void test_a_brake_takes_the_pulses_back_that_follow_the_one_found(void)
 {
     struct step_cursor at = brake_at_the_pulse_found();
 
     TEST_ASSERT_EQUAL_UINT64(MADE, step_cursor_pulse(&at));
     TEST_ASSERT_EQUAL_UINT32(LAST_TICK, at.generator.tick);
     TEST_ASSERT_EQUAL_UINT64(MADE, step_channel_pulses(&channel));
-    TEST_ASSERT_EQUAL_UINT(MADE + 2, arms);
-    TEST_ASSERT_GREATER_THAN_UINT32(LAST_TICK + INTERVAL, armed_tick);
+    TEST_ASSERT_EQUAL_UINT(LAID_AHEAD, laid.back);
+    TEST_ASSERT_EQUAL_UINT(LAID_AHEAD, laid_waiting());
+    TEST_ASSERT_GREATER_THAN_UINT32(LAST_TICK + INTERVAL, laid_next_tick());
     TEST_ASSERT_EQUAL_UINT(GAP, run_to_the_end());
 }
 
-void test_a_brake_that_takes_a_pulse_back_makes_the_pulses_of_one_in_time(void)
+void test_a_brake_that_takes_pulses_back_makes_the_pulses_of_one_in_time(void)
 {
     struct step_cursor at = brake_at_the_pulse_found();
     record(GAP);
@@ -263,7 +156,7 @@ void test_a_brake_that_takes_a_pulse_back_makes_the_pulses_of_one_in_time(void)
     setUp();
     begin_move(MOVE);
     make_pulses(MADE - 1);
-    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, armed_tick, &at));
+    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, laid_next_tick(), &at));
     TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, MADE + GAP, &at));
     make_pulses(1);
     record(GAP);
@@ -271,40 +164,73 @@ void test_a_brake_that_takes_a_pulse_back_makes_the_pulses_of_one_in_time(void)
     TEST_ASSERT_EQUAL_UINT32_ARRAY(expected, ticks, GAP);
 }
 
-void test_a_brake_goes_on_from_the_armed_pulse_if_that_has_just_come(void)
+void test_a_brake_goes_on_from_a_pulse_for_which_it_is_too_late(void)
 {
-    disarm_answer = false;
+    laid.too_late = 1;
     struct step_cursor at = brake_at_the_pulse_found();
 
     TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&at));
-    TEST_ASSERT_EQUAL_UINT(MADE + 1, arms);
-    TEST_ASSERT_EQUAL_UINT32(LAST_TICK + INTERVAL, armed_tick);
+    TEST_ASSERT_EQUAL_UINT(LAID_AHEAD - 1, laid.back);
+    TEST_ASSERT_EQUAL_UINT32(LAST_TICK + INTERVAL, laid_next_tick());
 }
 
-void test_a_brake_two_pulses_after_the_one_found_goes_on_from_the_armed_pulse(void)
+/* The way from the pulse found leads over the one that cannot be taken back: both brakes begin there. */
+void test_a_brake_that_is_too_late_for_a_pulse_makes_the_pulses_of_one_that_found_it(void)
+{
+    laid.too_late = 1;
+    (void)brake_at_the_pulse_found();
+    record(GAP);
+    uint32_t expected[GAP];
+    memcpy(expected, ticks, sizeof expected);
+
+    setUp();
+    (void)brake_until(MADE + GAP);
+    record(GAP);
+
+    TEST_ASSERT_EQUAL_UINT32_ARRAY(expected, ticks, GAP);
+}
+
+static struct step_cursor brake_two_pulses_after_the_one_found(void)
 {
     struct step_cursor at;
     begin_move(MOVE);
     make_pulses(MADE - 2);
-    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, armed_tick, &at));
+    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, laid_next_tick(), &at));
     make_pulses(2);
-
     TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, MADE + GAP, &at));
-
-    TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&at));
-    TEST_ASSERT_EQUAL_UINT(MADE + 1, arms);
+    return at;
 }
 
-void test_a_brake_stands_on_the_armed_pulse_and_leaves_it_armed(void)
+void test_a_brake_two_pulses_after_the_one_found_goes_on_from_the_last_one_made(void)
+{
+    struct step_cursor at = brake_two_pulses_after_the_one_found();
+
+    TEST_ASSERT_EQUAL_UINT64(MADE, step_cursor_pulse(&at));
+    TEST_ASSERT_EQUAL_UINT32(LAST_TICK, at.generator.tick);
+    TEST_ASSERT_EQUAL_UINT(LAID_AHEAD, laid.back);
+    TEST_ASSERT_EQUAL_UINT(GAP, run_to_the_end());
+}
+
+void test_a_brake_two_pulses_after_the_one_found_leaves_what_cannot_be_taken_back(void)
+{
+    laid.too_late = 1;
+
+    struct step_cursor at = brake_two_pulses_after_the_one_found();
+
+    TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&at));
+    TEST_ASSERT_EQUAL_UINT(GAP, run_to_the_end());
+}
+
+void test_a_brake_stands_on_the_next_pulse_and_leaves_it_laid(void)
 {
     struct step_cursor at = brake_until(MADE + 1 + GAP);
 
     TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&at));
-    TEST_ASSERT_EQUAL_UINT(MADE + 1, arms);
-    TEST_ASSERT_EQUAL_UINT32(START + (MADE + 1) * INTERVAL, armed_tick);
+    TEST_ASSERT_EQUAL_UINT(LAID_AHEAD - 1, laid.back);
+    TEST_ASSERT_EQUAL_UINT32(START + (MADE + 1) * INTERVAL, laid_next_tick());
 }
 
-void test_a_brake_acts_from_the_armed_pulse_on(void)
+void test_a_brake_acts_from_the_next_pulse_on(void)
 {
     (void)brake_until(MADE + 1 + GAP);
 
@@ -320,7 +246,7 @@ void test_a_brake_goes_on_until_its_last_pulse_and_drops_what_is_queued(void)
     struct step_cursor at;
     begin_two(MADE + 10, 100);
     make_pulses(MADE);
-    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, armed_tick, &at));
+    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, laid_next_tick(), &at));
 
     TEST_ASSERT_TRUE(step_channel_brake(&channel, ACCEL, MADE + 20, &at));
 
@@ -329,7 +255,7 @@ void test_a_brake_goes_on_until_its_last_pulse_and_drops_what_is_queued(void)
     TEST_ASSERT_EQUAL_UINT64(MADE + 20, step_channel_pulses(&channel));
 }
 
-void test_a_brake_that_must_end_at_the_armed_pulse_or_before_leaves_that_pulse(void)
+void test_a_brake_that_must_end_at_the_next_pulse_or_before_leaves_that_pulse(void)
 {
     for (uint64_t until = MADE - 1; until <= MADE + 1; until++) {
         setUp();
@@ -348,13 +274,13 @@ void test_a_brake_at_rest_changes_nothing(void)
     push(3, 2);
     struct step_cursor at = {.end = 77};
     struct step_cursor before;
-    (void)step_channel_find_pulse(&channel, armed_tick, &before);
+    (void)step_channel_find_pulse(&channel, laid.last_tick, &before);
 
     TEST_ASSERT_FALSE(step_channel_brake(&channel, ACCEL, 100, &at));
 
     TEST_ASSERT_EQUAL_UINT64(77, at.end);
     TEST_ASSERT_EQUAL_MEMORY(&before, &channel.cursor, sizeof before);
-    TEST_ASSERT_EQUAL_UINT(3, arms);
+    TEST_ASSERT_EQUAL_UINT(3, laid.laid);
 }
 
 void test_a_brake_closes_the_queue_until_it_is_replaced(void)
@@ -371,7 +297,7 @@ void test_a_brake_closes_the_queue_until_it_is_replaced(void)
     TEST_ASSERT_TRUE(step_channel_push(&channel, &segment));
 }
 
-void test_a_planned_segment_before_the_armed_pulse_is_made_has_all_its_pulses(void)
+void test_a_planned_segment_before_the_next_pulse_is_made_has_all_its_pulses(void)
 {
     assert_replaced_after(0);
 }
@@ -384,7 +310,7 @@ void test_a_planned_segment_after_some_pulses_of_the_stopgap_goes_on_as_planned(
     assert_replaced_after(GAP);
 }
 
-void test_a_planned_segment_after_a_stopgap_that_ran_out_arms_the_next_pulse(void)
+void test_a_planned_segment_after_a_stopgap_that_ran_out_lays_the_next_pulse(void)
 {
     assert_replaced_after(GAP + 1);
 }
@@ -401,7 +327,7 @@ static void assert_replaced_off_after(unsigned made)
     step_channel_replace_brake(&channel, &at, &segment);
     record(PLANNED + 2);
 
-    assert_planned_ticks(&off, made);
+    assert_planned_ticks(&off, made + LAID_AHEAD - 1);
 }
 
 void test_a_planned_segment_goes_on_as_planned_where_the_stopgap_was_some_ticks_off(void)
@@ -430,17 +356,17 @@ void test_a_planned_segment_with_no_more_pulses_than_were_made_rests(void)
 {
     struct step_cursor at = brake_until(MADE + 1 + GAP);
     (void)run_to_the_end();
-    unsigned armed = arms;
+    uint32_t before = laid.laid;
 
     struct step_segment segment = planned_after(&at, GAP);
     step_channel_replace_brake(&channel, &at, &segment);
 
     TEST_ASSERT_FALSE(step_channel_is_running(&channel));
-    TEST_ASSERT_EQUAL_UINT(armed, arms);
+    TEST_ASSERT_EQUAL_UINT32(before, laid.laid);
     TEST_ASSERT_EQUAL_UINT64(MADE + 1 + GAP, step_channel_pulses(&channel));
 }
 
-void test_a_planned_segment_whose_last_pulse_is_armed_ends_with_it(void)
+void test_a_planned_segment_whose_last_pulse_waits_ends_with_it(void)
 {
     struct step_cursor at = brake_until(MADE + 1 + GAP);
     make_pulses(GAP);
@@ -459,8 +385,9 @@ static void replace_by_marked(const struct step_cursor *at)
     step_channel_replace_brake(&channel, at, &segment);
 }
 
-void test_a_mark_of_a_planned_segment_is_seen_when_the_armed_pulse_has_been_made(void)
+void test_a_mark_of_a_planned_segment_is_seen_when_its_first_pulse_is_laid(void)
 {
+    laid.ahead = 1;
     struct step_cursor at = brake_until(MADE + 1 + GAP);
 
     replace_by_marked(&at);
@@ -470,7 +397,7 @@ void test_a_mark_of_a_planned_segment_is_seen_when_the_armed_pulse_has_been_made
     TEST_ASSERT_TRUE(step_channel_take_mark(&channel));
 }
 
-void test_a_mark_of_a_planned_segment_is_seen_at_once_if_that_pulse_has_been_made(void)
+void test_a_mark_of_a_planned_segment_is_seen_at_once_if_that_pulse_has_been_laid(void)
 {
     struct step_cursor at = brake_until(MADE + 1 + GAP);
     make_pulses(1);
@@ -492,4 +419,20 @@ void test_a_mark_of_a_planned_segment_after_the_last_pulse_of_the_stopgap_is_see
 
     TEST_ASSERT_TRUE(step_channel_take_mark(&channel));
     TEST_ASSERT_EQUAL_UINT(PLANNED, run_to_the_end());
+}
+
+/* No way leads back along the stopgap, but the pulse before the one that waits is known. */
+void test_a_halt_on_a_planned_segment_ends_with_the_last_pulse_made(void)
+{
+    laid.ahead = 1;
+    struct step_cursor at = brake_until(MADE + 1 + GAP);
+    record(3);
+    struct step_segment segment = planned_after(&at, PLANNED);
+    step_channel_replace_brake(&channel, &at, &segment);
+
+    step_channel_halt(&channel);
+
+    TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+    TEST_ASSERT_EQUAL_UINT64(MADE + 3, step_channel_pulses(&channel));
+    TEST_ASSERT_EQUAL_UINT32(ticks[2], step_channel_end_tick(&channel));
 }

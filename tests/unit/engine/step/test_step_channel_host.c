@@ -1,15 +1,17 @@
 #include "base_tick.h"
 #include "epoch.h"
 #include "hal_run.h"
+#include "hal_step.h"
 #include "host_machine.h"
 #include "step_channel.h"
 #include "step_scale.h"
 #include "unity.h"
 
-/* Channels on the host machine: what arrives at the pins. */
+/* Channels on the host machine: what arrives at the pins, however far ahead pulses are laid. */
 
 enum {
     INTERVAL = 84000,
+    AHEAD = 7 * INTERVAL + 5,
     EDGES_MAX = 64,
     MOTOR = 1
 };
@@ -30,10 +32,10 @@ static void edge_seen(void *context, uint64_t tick, unsigned motor, bool backwar
     edges++;
 }
 
-static bool step_isr(void *context, unsigned motor)
+static unsigned lay_isr(void *context, unsigned motor, struct hal_step_room *room)
 {
     (void)context;
-    return step_channel_pulse_isr(&channels[motor]);
+    return step_channel_lay_isr(&channels[motor], room);
 }
 
 /* A limit switch: any input ends the move. */
@@ -57,7 +59,7 @@ static uint64_t main_pass(void *context)
 
 static void start_machine(uint64_t epoch)
 {
-    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+    static const struct hal_client client = {.lay_isr = lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&machine, epoch);
     machine.listener.step = edge_seen;
     host_machine_select(&machine);
@@ -69,14 +71,15 @@ static void start_machine(uint64_t epoch)
 
 static void begin_move(unsigned motor, uint32_t interval_ticks, uint32_t steps, bool backward)
 {
+    uint32_t start_tick = (uint32_t)(machine.epoch + machine.now);
     struct step_segment segment = {
         .slope = STEP_QUANTA / interval_ticks,
-        .tick = (uint32_t)machine.epoch,
+        .tick = start_tick,
         .pace_ticks = interval_ticks,
         .steps = steps,
     };
     step_generator_aim(&segment, interval_ticks);
-    step_channel_begin(&channels[motor], (uint32_t)machine.epoch, backward);
+    step_channel_begin(&channels[motor], start_tick, backward);
     step_channel_push(&channels[motor], &segment);
     step_channel_run(&channels[motor]);
 }
@@ -95,6 +98,19 @@ void setUp(void)
 void tearDown(void)
 {
     TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, machine.late_steps, "late pulses");
+}
+
+static void lay_ahead(void)
+{
+    machine.ahead_ticks = AHEAD;
+}
+
+static unsigned waiting(unsigned motor)
+{
+    hal_step_hold();
+    unsigned count = hal_step_waiting(motor);
+    hal_step_release();
+    return count;
 }
 
 static void assert_edges(unsigned count, uint64_t interval_ticks)
@@ -172,4 +188,94 @@ void test_a_halt_between_a_pulse_and_its_late_interrupt_counts_the_pulse(void)
     assert_edges(5, INTERVAL);
     TEST_ASSERT_FALSE(step_channel_is_running(&channels[MOTOR]));
     TEST_ASSERT_EQUAL_INT64(5, step_channel_position(&channels[MOTOR]));
+}
+
+void test_pulses_laid_ahead_come_at_their_ticks(void)
+{
+    lay_ahead();
+    begin_move(MOTOR, INTERVAL, 20, false);
+    TEST_ASSERT_EQUAL_UINT(8, waiting(MOTOR));
+
+    run();
+
+    assert_edges(20, INTERVAL);
+    TEST_ASSERT_EQUAL_INT64(20, step_channel_position(&channels[MOTOR]));
+    TEST_ASSERT_FALSE(step_channel_is_running(&channels[MOTOR]));
+}
+
+void test_pulses_laid_ahead_come_at_their_ticks_where_the_counter_wraps(void)
+{
+    start_machine((UINT64_C(7) << 32) - 5U * INTERVAL - 1U);
+    lay_ahead();
+    begin_move(MOTOR, INTERVAL, 20, false);
+
+    run();
+
+    assert_edges(20, INTERVAL);
+}
+
+void test_a_halt_takes_back_what_is_laid_ahead(void)
+{
+    static const struct host_input script[] = {{.tick = 5 * INTERVAL + 1, .input = 1, .level = true}};
+    host_machine_set_script(&machine, script, 1);
+    lay_ahead();
+    begin_move(MOTOR, INTERVAL, 20, false);
+
+    run();
+
+    assert_edges(5, INTERVAL);
+    TEST_ASSERT_FALSE(step_channel_is_running(&channels[MOTOR]));
+    TEST_ASSERT_EQUAL_INT64(5, step_channel_position(&channels[MOTOR]));
+    TEST_ASSERT_EQUAL_UINT32((uint32_t)machine.epoch + 5 * INTERVAL, step_channel_end_tick(&channels[MOTOR]));
+}
+
+void test_a_halt_leaves_what_other_channels_have_laid(void)
+{
+    static const struct host_input script[] = {{.tick = 5 * INTERVAL + 1, .input = 1, .level = true}};
+    host_machine_set_script(&machine, script, 1);
+    lay_ahead();
+    begin_move(MOTOR, INTERVAL, 20, false);
+    begin_move(MOTOR + 1, INTERVAL, 20, true);
+
+    run();
+
+    TEST_ASSERT_EQUAL_UINT(5 + 20, edges);
+    TEST_ASSERT_EQUAL_INT64(-20, step_channel_position(&channels[MOTOR + 1]));
+}
+
+/* DIR changes only where no pulse waits: the backend asserts it. */
+void test_a_motor_turns_after_the_last_pulse_and_after_a_halt(void)
+{
+    lay_ahead();
+    begin_move(MOTOR, INTERVAL, 4, false);
+    run();
+    begin_move(MOTOR, INTERVAL, 4, true);
+    step_channel_halt(&channels[MOTOR]);
+
+    begin_move(MOTOR, INTERVAL, 3, false);
+    run();
+
+    TEST_ASSERT_EQUAL_UINT(4 + 3, edges);
+    TEST_ASSERT_EQUAL_INT64(7, step_channel_position(&channels[MOTOR]));
+}
+
+/* Eight pulses wait, over the border of two segments, and main feeds the next one when the queue is empty. */
+void test_a_queue_that_is_fed_while_its_last_pulses_wait_goes_on_in_time(void)
+{
+    struct step_segment more = {
+        .slope = STEP_QUANTA / INTERVAL,
+        .tick = (uint32_t)machine.epoch + 6 * INTERVAL,
+        .pace_ticks = INTERVAL,
+        .steps = 10,
+    };
+    step_generator_aim(&more, INTERVAL);
+    lay_ahead();
+    begin_move(MOTOR, INTERVAL, 6, false);
+    TEST_ASSERT_EQUAL_UINT(6, waiting(MOTOR));
+    host_machine_run(&machine, 2 * INTERVAL + 1, main_pass, NULL, NULL);
+
+    TEST_ASSERT_TRUE(step_channel_push(&channels[MOTOR], &more));
+    run();
+
+    assert_edges(16, INTERVAL);
 }

@@ -47,7 +47,7 @@ void test_a_resting_channel_has_nothing_ahead(void)
     TEST_ASSERT_FALSE(step_channel_look_ahead(&channel, START, &cursor));
 }
 
-void test_the_armed_pulse_is_found_ahead_where_no_time_is_needed(void)
+void test_the_next_pulse_is_found_ahead_where_no_time_is_needed(void)
 {
     struct step_cursor cursor;
     begin_move(5);
@@ -94,7 +94,8 @@ void test_looking_ahead_changes_nothing(void)
     (void)look_ahead_at(6);
 
     TEST_ASSERT_EQUAL_UINT(7, run_to_the_end());
-    TEST_ASSERT_EQUAL_UINT(7, arms);
+    TEST_ASSERT_EQUAL_UINT(7, laid.laid);
+    TEST_ASSERT_EQUAL_UINT(0, laid.back);
 }
 
 /* Looks ahead, replaces there, and lets two fast pulses follow. */
@@ -111,7 +112,7 @@ static void assert_replaced_after(uint32_t pulse)
     TEST_ASSERT_EQUAL_UINT32(START + (pulse + 1U) * INTERVAL, step_channel_end_tick(&channel));
 }
 
-void test_a_replacement_at_the_armed_pulse_takes_effect_after_it(void)
+void test_a_replacement_at_the_next_pulse_takes_effect_after_it(void)
 {
     begin_two(4, 4);
     make_pulses(1);
@@ -222,39 +223,42 @@ void test_a_replacement_hands_over_all_segments_that_are_to_follow(void)
     TEST_ASSERT_EQUAL_UINT32(START + 11 * INTERVAL, step_channel_end_tick(&channel));
 }
 
-void test_a_replacement_that_finds_no_room_after_its_pulse_changes_nothing(void)
-{
-    step_channel_begin(&channel, START, false);
-    push(0, 1);
-    step_channel_run(&channel);
-    for (uint32_t i = 1; i <= STEP_QUEUE_SEGMENTS; i++) {
-        push(i, 1);
-    }
-    struct step_cursor last = look_ahead_at(STEP_QUEUE_SEGMENTS + 1);
-    struct step_cursor before = look_ahead_at(STEP_QUEUE_SEGMENTS);
-
-    TEST_ASSERT_FALSE(cut_at(&last));
-    TEST_ASSERT_EQUAL_UINT32(0, step_channel_room(&channel));
-    TEST_ASSERT_TRUE(cut_at(&before));
-
-    TEST_ASSERT_EQUAL_UINT(STEP_QUEUE_SEGMENTS + 2, run_to_the_end());
-}
-
-void test_a_replacement_gives_the_room_of_what_it_dropped_back(void)
+/* One segment for each pulse, as many as there is room for. */
+static void begin_full(void)
 {
     step_channel_begin(&channel, START, false);
     for (uint32_t i = 0; i < STEP_QUEUE_SEGMENTS; i++) {
         push(i, 1);
     }
     step_channel_run(&channel);
+}
+
+void test_a_replacement_that_finds_no_room_after_its_pulse_changes_nothing(void)
+{
+    begin_full();
+    struct step_cursor last = look_ahead_at(STEP_QUEUE_SEGMENTS);
+    struct step_cursor before = look_ahead_at(STEP_QUEUE_SEGMENTS - 1);
+
+    TEST_ASSERT_FALSE(cut_at(&last));
+    TEST_ASSERT_EQUAL_UINT32(0, step_channel_room(&channel));
+    TEST_ASSERT_EQUAL_UINT(0, laid.back);
+    TEST_ASSERT_TRUE(cut_at(&before));
+
+    TEST_ASSERT_EQUAL_UINT(STEP_QUEUE_SEGMENTS + 1, run_to_the_end());
+}
+
+/* The segment that is cut keeps its place while a way back leads over it. */
+void test_a_replacement_gives_the_room_of_what_it_dropped_back(void)
+{
+    begin_full();
     struct step_cursor cursor = look_ahead_at(1);
 
     TEST_ASSERT_TRUE(cut_at(&cursor));
 
-    TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS - 1, step_channel_room(&channel));
+    TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS - 2, step_channel_room(&channel));
 }
 
-void test_a_halt_takes_the_armed_pulse_back(void)
+void test_a_halt_takes_all_pulses_back_that_wait(void)
 {
     begin_two(4, 4);
     make_pulses(2);
@@ -315,12 +319,12 @@ void test_a_halt_at_rest_drops_what_is_queued_and_closes_the_queue(void)
     TEST_ASSERT_EQUAL_UINT64(3, step_channel_pulses(&channel));
 }
 
-/* The hardware has made the edge when it is asked to take it back; its interrupt is due. */
-void test_a_halt_that_finds_the_pulse_made_ends_with_it(void)
+/* The hardware is about to make the edge when it is asked to take it back. */
+void test_a_halt_that_is_too_late_for_a_pulse_ends_with_it(void)
 {
     begin_two(4, 4);
     make_pulses(2);
-    disarm_answer = false;
+    laid.too_late = 1;
 
     step_channel_halt(&channel);
     TEST_ASSERT_TRUE(step_channel_is_running(&channel));
@@ -335,7 +339,7 @@ void test_a_halt_at_rest_does_nothing(void)
 {
     begin_move(2);
     (void)run_to_the_end();
-    hal_step_disarm_Stub(NULL);
+    hal_step_take_back_Stub(NULL);
 
     step_channel_halt(&channel);
 

@@ -19,11 +19,11 @@ static struct interpreter interpreter;
 static unsigned traced[16];
 static int64_t last_value;
 
-static bool step_isr(void *context, unsigned motor)
+static unsigned lay_isr(void *context, unsigned motor, struct hal_step_room *room)
 {
     (void)context;
     (void)motor;
-    return axis_pulse_isr(&axis);
+    return axis_lay_isr(&axis, room);
 }
 
 static void tick_isr(void *context, uint64_t since_tick)
@@ -50,7 +50,7 @@ static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trac
 
 void setUp(void)
 {
-    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+    static const struct hal_client client = {.lay_isr = lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     memset(traced, 0, sizeof traced);
     host_machine_init(&machine, epoch_random());
     host_machine_select(&machine);

@@ -23,10 +23,10 @@ static uint8_t answer[MESSAGES_ANSWER_BYTES_MAX + 1];
 static uint32_t answer_length;
 static uint8_t request[MESSAGES_REQUEST_BYTES_MAX + 1];
 
-static bool step_isr(void *context, unsigned motor)
+static unsigned lay_isr(void *context, unsigned motor, struct hal_step_room *room)
 {
     (void)context;
-    return axis_pulse_isr(&axis[motor]);
+    return axis_lay_isr(&axis[motor], room);
 }
 
 static void tick_isr(void *context, uint64_t since_tick)
@@ -42,7 +42,7 @@ static void plan_isr(void *context)
 
 void setUp(void)
 {
-    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+    static const struct hal_client client = {.lay_isr = lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&machine, epoch_random());
     host_machine_select(&machine);
     io_init(&io);

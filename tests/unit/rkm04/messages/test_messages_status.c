@@ -22,10 +22,10 @@ static struct axis axis[UNIT_MOTORS];
 static struct interpreter interpreter[UNIT_MOTORS];
 static struct messages_status status;
 
-static bool step_isr(void *context, unsigned motor)
+static unsigned lay_isr(void *context, unsigned motor, struct hal_step_room *room)
 {
     (void)context;
-    return axis_pulse_isr(&axis[motor]);
+    return axis_lay_isr(&axis[motor], room);
 }
 
 static void tick_isr(void *context, uint64_t since_tick)
@@ -42,7 +42,7 @@ static void plan_isr(void *context)
 
 static void start(void)
 {
-    static const struct hal_client client = {.step_isr = step_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+    static const struct hal_client client = {.lay_isr = lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     io_init(&io);
     interpreter_shared_init(&shared, &io);
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
