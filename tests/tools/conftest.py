@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -14,11 +13,9 @@ from typing import Any
 
 import pytest
 from fake_unit import FakeLine, FakeUnit
-from rkm04_tools import board
 from rkm04_tools.cli import main
 from served import Served
 from service_client import Service, build_with_page
-from step_rig import MOTORS, StepRig
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -44,9 +41,6 @@ class Result:
 
 
 Tool = Callable[..., Result]
-
-SHORT, LONG = "f405", "f407-discovery"  # boards of short and of long pulses
-STEP_WIDTH = {SHORT: 42, LONG: 210}  # 0.5 us and 2.5 us in ticks, high and low alike
 
 
 @pytest.fixture(autouse=True, scope="session")
@@ -146,42 +140,3 @@ def serve(tmp_path: Path) -> Iterator[Callable[..., Served]]:
     yield begin
     for served in all_of_them:
         served.end()
-
-
-@pytest.fixture(scope="session", params=[(SHORT, False), (SHORT, True), (LONG, False)], ids=str)
-def step_board(request: pytest.FixtureRequest) -> tuple[str, bool]:
-    """A board, and whether a channel that comes to PWM mode shows the comparison at once."""
-    if not shutil.which(board.COMPILER):
-        pytest.skip(f"{board.COMPILER} is not installed: run tools/setup test")
-    name, at_once = request.param
-    return str(name), bool(at_once)
-
-
-@pytest.fixture(scope="session")
-def width(step_board: tuple[str, bool]) -> int:
-    """Ticks that STEP must be high, and low."""
-    return STEP_WIDTH[step_board[0]]
-
-
-@pytest.fixture(scope="session")
-def step_image(step_board: tuple[str, bool]) -> Path:
-    return board.build(step_board[0]).file("elf")
-
-
-@pytest.fixture
-def make_rig(
-    step_board: tuple[str, bool], step_image: Path, width: int
-) -> Iterator[Callable[..., StepRig]]:
-    """Make a rig whose counter stands at a tick. No pulse of it may be too short, nor too near."""
-    rigs: list[StepRig] = []
-
-    def make(now: int = 1000) -> StepRig:
-        rigs.append(StepRig(step_image, now, step_board[1]))
-        return rigs[-1]
-
-    yield make
-    for rig in rigs:
-        for motor in range(MOTORS):
-            assert not rig.timer.pins[motor], "a pulse without an end"
-            assert min(rig.highs(motor), default=width) >= width, rig.timer.edges
-            assert min(rig.lows(motor), default=width) >= width, rig.timer.edges

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from collections.abc import Callable
@@ -28,15 +29,17 @@ def test_the_table_of_a_board_has_the_pins_of_its_header(name: str) -> None:
     assert [(w.signal, w.pin) for w in wires(name)] == [(p.signal, p.pin) for p in pins]
 
 
-# Datasheet DS8626, table 9: which pins have what of the step timer, and of USARTs for the line.
+# Datasheet DS8626, table 9: which pins have what of the timers, and of USARTs for the line.
 FUNCTIONS = {
-    "A0": ["TIM2_CH1"], "A1": ["TIM2_CH2"], "A2": ["TIM2_CH3", "USART2_TX"],
-    "A3": ["TIM2_CH4", "USART2_RX"], "A5": ["TIM2_CH1"], "A9": ["USART1_TX"],
-    "A10": ["USART1_RX"], "A15": ["TIM2_CH1"], "B3": ["TIM2_CH2"], "B6": ["USART1_TX"],
-    "B7": ["USART1_RX"], "B10": ["TIM2_CH3", "USART3_TX"], "B11": ["TIM2_CH4", "USART3_RX"],
+    "A0": ["TIM2_CH1", "TIM5_CH1"], "A1": ["TIM2_CH2", "TIM5_CH2"],
+    "A2": ["TIM2_CH3", "TIM5_CH3", "USART2_TX"], "A3": ["TIM2_CH4", "TIM5_CH4", "USART2_RX"],
+    "A5": ["TIM2_CH1"], "A9": ["USART1_TX"], "A10": ["USART1_RX"], "A15": ["TIM2_CH1"],
+    "B3": ["TIM2_CH2"], "B6": ["USART1_TX"], "B7": ["USART1_RX"],
+    "B10": ["TIM2_CH3", "USART3_TX"], "B11": ["TIM2_CH4", "USART3_RX"],
     "C10": ["USART3_TX"], "C11": ["USART3_RX"], "D5": ["USART2_TX"], "D6": ["USART2_RX"],
     "D8": ["USART3_TX"], "D9": ["USART3_RX"],
 }  # fmt: skip
+CHANNEL = re.compile(r"TIM(\d) channel (\d)")
 
 
 @pytest.mark.parametrize("name", board.names())
@@ -45,9 +48,13 @@ def test_the_table_of_a_board_names_functions_that_the_datasheet_gives_its_pins(
     steps = [rows[f"STEP_{channel}"] for channel in range(1, 5)]
     ends = {end: rows[f"LINE_{end}"] for end in ("TX", "RX")}
 
-    assert [wire.note.split(",")[0] for wire in steps] == [f"TIM2 channel {c}" for c in range(1, 5)]
-    for channel, wire in enumerate(steps, 1):
-        assert f"TIM2_CH{channel}" in FUNCTIONS[wire.pin]
+    channels = [CHANNEL.sub(r"TIM\1_CH\2", wire.note).split(",")[0] for wire in steps]
+    for channel, wire in zip(channels, steps, strict=True):
+        assert channel in FUNCTIONS[wire.pin]
+    assert len(set(channels)) == len(channels)
+    assert "TIM2_CH4" not in channels  # it calls the step interrupt
+    pins = board_header.read_board((board.BOARDS / name / "board.h").read_text()).pins
+    assert channels == [pin.use for pin in pins if pin.signal.startswith("STEP")]
     for end, wire in ends.items():
         assert f"{wire.note}_{end}" in FUNCTIONS[wire.pin]
 
@@ -94,13 +101,19 @@ def test_a_build_for_an_unknown_board_is_told_which_there_are(tmp_path: Path) ->
     assert f"no such board; there are {', '.join(board.names())}" in " ".join(done.stderr.split())
 
 
+FIRST = "X(STEP_1, A, 0, TIM5_CH1)"
+
+
 @pytest.mark.parametrize(
     ("old", "new", "complaint"),
     [
         ("X(DIR_2, A, 5, OUT)", "X(DIR_2, A, 4, OUT)", "PA4 is used twice: DIR_1 and DIR_2"),
-        ("X(STEP_1, A, 0, TIM2_CH1)", "X(STEP_1, C, 12, TIM2_CH1)", "PC12 has no TIM2_CH1"),
-        ("X(STEP_1, A, 0, TIM2_CH1)", "X(STEP_1, A, 0, OUT)", "STEP_1 must be TIM2_CH1, not OUT"),
-        ("X(STEP_1, A, 0, TIM2_CH1)", "X(STEP_1, A, 0, TIM2_CH2)", "STEP_1 must be TIM2_CH1"),
+        (FIRST, "X(STEP_1, C, 12, TIM5_CH1)", "PC12 has no TIM5_CH1"),
+        (FIRST, "X(STEP_1, B, 10, TIM5_CH3)", "PB10 has no TIM5_CH3"),
+        (FIRST, "X(STEP_1, A, 0, OUT)", "STEP_1 must be one of TIM2_CH1, TIM2_CH2, TIM2_CH3, TIM5"),
+        (FIRST, "X(STEP_1, A, 3, TIM2_CH4)", "STEP_1 must be one of"),
+        (FIRST, "X(STEP_1, A, 1, TIM5_CH2)", "STEP_2 and STEP_1 are both TIM5_CH2"),
+        (FIRST, "X(STEP_1, C, 12, TIM5_CH2)", "PC12 has no TIM5_CH2"),
         ("X(LINE_TX, A, 9, USART1)", "X(LINE_TX, B, 7, USART1)", "PB7 has no USART1_TX"),
         ("X(LINE_RX, A, 10, USART1)", "X(LINE_RX, A, 10, IN)", "LINE_RX must be USART1"),
         ("#define BOARD_USART 1", "#define BOARD_USART 3", "must be USART3, as BOARD_USART says"),
@@ -108,7 +121,7 @@ def test_a_build_for_an_unknown_board_is_told_which_there_are(tmp_path: Path) ->
         ("X(BO_1, B, 8, OUT)", "X(BO_1, A, 13, OUT)", "BO_1: PA13 belongs to SWDIO"),
         ("X(BO_1, B, 8, OUT)", "X(BO_1, B, 8, IN)", "BO_1 cannot be IN"),
         ("X(BO_1, B, 8, OUT)", "X(BO_1, B, 4, OUT)", "BO_1: PB4 is pulled up at reset as NJTRST"),
-        ("X(STEP_1, A, 0, TIM2_CH1)", "X(STEP_1, A, 15, TIM2_CH1)", "STEP_1: PA15 is pulled up"),
+        (FIRST, "X(STEP_1, A, 15, TIM2_CH1)", "STEP_1: PA15 is pulled up"),
         ("X(BI_1, C, 0, IN_UP)", "X(BI_1, C, 0, OUT)", "BI_1 cannot be OUT"),
         ("X(BI_1, C, 0, IN_UP)", "", "BI_1 has no pin"),
         ("X(BI_1, C, 0, IN_UP)", "X(BI_1, B, 3, IN_UP)", "BI_1 and BI_4 share line 3 for edges"),
@@ -122,6 +135,15 @@ def test_a_planted_fault_is_found(old: str, new: str, complaint: str) -> None:
     errors = list(board_pins.find_errors(GOOD.replace(old, new)))
 
     assert any(complaint in error for error in errors), errors
+
+
+@pytest.mark.parametrize(
+    "pin", ["A, 5, TIM2_CH1", "B, 3, TIM2_CH2", "A, 0, TIM2_CH1", "B, 10, TIM2_CH3"]
+)
+def test_a_step_pin_may_be_a_channel_of_either_timer(pin: str) -> None:
+    errors = list(board_pins.find_errors(GOOD.replace(FIRST, f"X(STEP_1, {pin})")))
+
+    assert [e for e in errors if "STEP_1" in e and "used twice" not in e] == []
 
 
 def test_a_pin_that_a_part_of_the_board_takes_is_found() -> None:

@@ -1,7 +1,7 @@
 """Our register header says what the vendor's description of the family says.
 
-pyOCD's package carries the description of the STM32F429, whose timer, USART, GPIO, RCC, flash,
-watchdog, SYSCFG, EXTI and interrupt controller are those of the STM32F405 (both are in RM0090).
+pyOCD's package carries the description of the STM32F429, whose timers, DMA, USART, GPIO, RCC,
+flash, watchdog, SYSCFG, EXTI and interrupt controller are those of the STM32F405 (both are in RM0090).
 """
 
 from __future__ import annotations
@@ -31,8 +31,13 @@ INTERRUPT = re.compile(r"^#define (\w+)_IRQ (\d+)U", re.MULTILINE)
 
 # Where the description has another name than the reference manual.
 REGISTERS = {
-    ("TIM2", "CCMR1"): "CCMR1_Output",
-    ("TIM2", "CCMR2"): "CCMR2_Output",
+    ("TIM", "CCMR1"): "CCMR1_Output",
+    ("TIM", "CCMR2"): "CCMR2_Output",
+    ("DMA", "CR"): "S0CR",
+    ("DMA", "NDTR"): "S0NDTR",
+    ("DMA", "PAR"): "S0PAR",
+    ("DMA", "M0AR"): "S0M0AR",
+    ("DMA", "FCR"): "S0FCR",
     ("TIM5", "CCMR2"): "CCMR2_Input",
     ("NVIC", "ISER"): "ISER0",
     ("NVIC", "ICER"): "ICER0",
@@ -50,7 +55,8 @@ FIELDS = {
     "PLLN": "PLLN0",
     "PLLQ": "PLLQ0",
 }
-INSTANCES = {"GPIO": "GPIOA", "USART": "USART1"}
+INSTANCES = {"GPIO": "GPIOA", "USART": "USART1", "TIM": "TIM2", "DMA": "DMA1"}
+STREAM = re.compile(r"DMA1_STREAM\(n\) \(DMA1_BASE \+ (0x\w+)U \+ (0x\w+)U \* \(n\)\)")
 CORE = {"STK", "SCB", "DWT"}  # blocks of the processor, which the description does not have
 
 
@@ -106,6 +112,11 @@ def described(block: str, register: str) -> Register:
     return peripherals()[INSTANCES.get(block, block)].registers[name]
 
 
+def stream_offset(number: int) -> int:
+    """Of the first register of a stream of DMA1."""
+    return peripherals()["DMA1"].registers[f"S{number}CR"].offset
+
+
 TEXT = HEADER.read_text()
 BASES = [m.groups() for m in BASE.finditer(TEXT)]
 REGISTER_ROWS = [(m[1], m[2], m[4]) for m in REGISTER.finditer(TEXT) if m[1] not in CORE]
@@ -120,7 +131,9 @@ def test_a_block_is_at_its_address(block: str, address: str) -> None:
 
 @pytest.mark.parametrize(("block", "register", "offset"), REGISTER_ROWS)
 def test_a_register_is_at_its_offset(block: str, register: str, offset: str) -> None:
-    assert int(offset, 16) == described(block, register).offset
+    begin = stream_offset(0) if block == "DMA" else 0
+
+    assert begin + int(offset, 16) == described(block, register).offset
 
 
 @pytest.mark.parametrize(("block", "register", "field", "place"), BIT_ROWS)
@@ -141,6 +154,42 @@ def test_the_ports_are_one_stride_apart() -> None:
     assert [b - a for a, b in itertools.pairwise(ports)] == [int(match[1], 16)] * 4
 
 
+def test_the_streams_are_one_stride_apart_and_alike() -> None:
+    match = STREAM.search(TEXT)
+    assert match
+    first, stride = (int(number, 16) for number in match.groups())
+    registers = peripherals()["DMA1"].registers
+    for number in range(8):
+        assert stream_offset(number) == first + stride * number
+        for row in ("CR", "NDTR", "PAR", "M0AR", "FCR"):
+            mine, other = registers[f"S{number}{row}"], registers[f"S0{row}"]
+            assert mine.offset - stream_offset(number) == other.offset - first
+            assert mine.fields.items() >= other.fields.items()
+
+
+@pytest.mark.parametrize("register", sorted({r for block, r, _ in REGISTER_ROWS if block == "TIM"}))
+def test_both_timers_have_the_registers_that_they_share(register: str) -> None:
+    name = REGISTERS.get(("TIM", register), register)
+    one, other = (peripherals()[timer].registers[name] for timer in ("TIM2", "TIM5"))
+
+    assert (one.offset, one.fields) == (other.offset, other.fields)
+
+
+@pytest.mark.parametrize("channel", range(1, 5))
+def test_the_channels_of_a_timer_are_a_stride_apart(channel: int) -> None:
+    registers = peripherals()["TIM2"].registers
+    places = {
+        "CCER": (f"CC{channel}E", 4),
+        "SR": (f"CC{channel}IF", 1),
+        "DIER": (f"CC{channel}DE", 1),
+    }
+
+    assert registers[f"CCR{channel}"].offset == registers["CCR1"].offset + 4 * (channel - 1)
+    for register, (field, stride) in places.items():
+        fields = registers[register].fields
+        assert fields[field] == fields[field.replace(str(channel), "1", 1)] + stride * (channel - 1)
+
+
 def test_every_definition_of_the_header_is_read() -> None:
     definitions = re.findall(r"^#define (\w+)", TEXT, re.MULTILINE)
     other = {
@@ -148,6 +197,7 @@ def test_every_definition_of_the_header_is_read() -> None:
         "STM32_REGISTER",
         "GPIO_STRIDE",
         "GPIO_REGISTER",
+        "DMA1_STREAM",
         "FLASH_KEY_1",
         "FLASH_KEY_2",
     }

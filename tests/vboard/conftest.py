@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 from rkm04_tools import board
+from step_acts import SHORT, Acts, MakeActs
 from virtual_board import VirtualBoard
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -128,3 +129,13 @@ def unit(
     """The reference board on the virtual board."""
     monkeypatch.setenv("RKM04_BUILD", str(program.parents[1]))
     return VirtualBoard(program, image, tmp_path)
+
+
+@pytest.fixture
+def make_acts(program: Path, tmp_path: Path) -> MakeActs:
+    """Make a list of acts for the step driver of a board whose counter begins somewhere."""
+
+    def make(name: str = SHORT, start: int = 0) -> Acts:
+        return Acts(program, tmp_path, name, start)
+
+    return make

@@ -27,9 +27,10 @@ target_link_libraries(bringup_image PRIVATE base)
 target_include_directories(bringup_image PRIVATE ${PROJECT_SOURCE_DIR}/hal/stm32/boards/${FIRMWARE_BOARD})
 target_compile_definitions(bringup_image PRIVATE BRINGUP_BOARD="${FIRMWARE_BOARD}")
 
-# For a test that asks for it.
+# For the tests that ask for them.
 firmware_add_image(take_back_image ${image}-take-back firmware_inside tests/vboard/images/take_back_main.c)
-set_target_properties(take_back_image PROPERTIES EXCLUDE_FROM_ALL ON)
+firmware_add_image(step_acts_image ${image}-step-acts firmware_inside tests/vboard/images/step_acts_main.c)
+set_target_properties(take_back_image step_acts_image PROPERTIES EXCLUDE_FROM_ALL ON)
 
 set(checks ${PROJECT_SOURCE_DIR}/tools/checks)
 set(board_header ${PROJECT_SOURCE_DIR}/hal/stm32/boards/${FIRMWARE_BOARD}/board.h)

@@ -1,0 +1,221 @@
+/*
+ * The real step driver, of the image of a board, with a main that does what a list in the flash says: it fills step
+ * channels, holds interrupts off, waits, halts, and notes how things are. Put in from outside are the acts; what was
+ * noted stands in `notes`; what the pins have shown is known to the virtual board. Built with the image (target
+ * step_acts_image).
+ */
+#include "base_limits.h"
+#include "hal_board.h"
+#include "hal_run.h"
+#include "hal_step.h"
+#include "step_channel.h"
+#include "stm32_private.h"
+#include "stm32f4.h"
+
+enum {
+    ACTS = 1500,
+    NOTES = 400,
+    STREAMS = 8,
+};
+
+enum what {
+    ACTS_END,
+    ACT_BEGIN,   /* of a move, backward if `steps` is 1 */
+    ACT_PUSH,    /* a segment, as soon as there is room; marked if `marked` is 1 */
+    ACT_RUN,     /* the channel */
+    ACT_HALT,    /* the channel */
+    ACT_REST,    /* until the channel rests */
+    ACT_WAIT,    /* until `tick` */
+    ACT_HOLD,    /* all interrupts off */
+    ACT_RELEASE, /* and on again */
+    ACT_CONNECT, /* STEP and DIR if `steps` is 1 */
+    ACT_DIRECT,  /* DIR, backward if `steps` is 1 */
+    ACT_BACK,    /* takes `steps` pulses back; the channel knows nothing of that */
+    ACT_QUIET,   /* the clock of the milliseconds stands still from now on */
+    ACT_NOTE,
+};
+
+struct act {
+    uint32_t what;  /* and motor << 8, marked << 16 */
+    uint32_t tick;  /* of the counter */
+    uint64_t slope; /* as in struct step_segment, like the others */
+    uint32_t pace_ticks;
+    uint32_t steps;
+};
+
+struct note {
+    uint32_t tick;
+    uint32_t running;
+    uint32_t pulses;  /* with interrupts on */
+    uint32_t told;    /* main, since the last note */
+    uint32_t stuck;   /* as the watchdog asks for */
+    uint32_t asks;    /* requests to streams: of TIM2, and of TIM5 in the upper half */
+    uint32_t streams; /* that are enabled, a bit each */
+    uint32_t marked;  /* a marked segment has begun since the last note */
+    uint32_t waiting;
+    uint32_t back; /* what the last ACT_BACK told */
+};
+
+extern const struct act acts[ACTS];
+const struct act acts[ACTS] = {{.what = ACTS_END}};
+
+extern struct note notes[NOTES];
+struct note notes[NOTES];
+
+void acts_done(void);
+
+static struct step_channel channels[UNIT_MOTORS];
+static unsigned noted;
+static uint32_t back;
+
+static unsigned lay_isr(void *context, unsigned motor, struct hal_step_room *room)
+{
+    (void)context;
+    return step_channel_lay_isr(&channels[motor], room);
+}
+
+static void tick_isr(void *context, uint64_t since_tick)
+{
+    (void)context;
+    (void)since_tick;
+}
+
+static void plan_isr(void *context)
+{
+    (void)context;
+}
+
+__attribute__((noinline)) void acts_done(void)
+{
+    __asm__ volatile("nop" ::: "memory");
+}
+
+static void wait_until(uint32_t tick)
+{
+    while ((int32_t)(TIM2_CNT - tick) < 0) {
+        stm32_watchdog_main_lives();
+    }
+}
+
+static void push(struct step_channel *channel, const struct act *act)
+{
+    const struct step_segment segment = {.slope = act->slope,
+                                         .tick = act->tick,
+                                         .pace_ticks = act->pace_ticks,
+                                         .steps = act->steps,
+                                         .marked = act->what >> 16 != 0};
+    while (step_channel_room(channel) == 0) {
+    }
+    (void)step_channel_push(channel, &segment);
+}
+
+static void rest(const struct step_channel *channel)
+{
+    while (step_channel_is_running(channel)) {
+        stm32_watchdog_main_lives();
+    }
+}
+
+static uint32_t enabled_streams(void)
+{
+    uint32_t streams = 0;
+    for (unsigned i = 0; i < STREAMS; i++) {
+        streams |= (DMA_CR(DMA1_STREAM(i)) & DMA_CR_EN) << i;
+    }
+    return streams;
+}
+
+static void note(struct step_channel *channel)
+{
+    uint32_t mask = stm32_mask();
+    notes[noted] = (struct note){
+        .tick = TIM2_CNT,
+        .running = step_channel_is_running(channel),
+        .told = stm32_event_take(),
+        .stuck = stm32_step_is_stuck(),
+        .asks = TIM_DIER(TIM2_BASE) >> 9 | TIM_DIER(TIM5_BASE) >> 9 << 16,
+        .streams = enabled_streams(),
+        .marked = step_channel_take_mark(channel),
+        .waiting = hal_step_waiting(channel->motor),
+        .back = back,
+    };
+    stm32_unmask(mask);
+    notes[noted].pulses = mask == 0 ? (uint32_t)step_channel_pulses(channel) : 0;
+    noted++;
+}
+
+static void do_channel(const struct act *act, unsigned motor)
+{
+    struct step_channel *channel = &channels[motor];
+    switch (act->what & 0xFFU) {
+    case ACT_BEGIN:
+        step_channel_begin(channel, act->tick, act->steps != 0);
+        break;
+    case ACT_PUSH:
+        push(channel, act);
+        break;
+    case ACT_RUN:
+        step_channel_run(channel);
+        break;
+    case ACT_HALT:
+        step_channel_halt(channel);
+        break;
+    case ACT_REST:
+        rest(channel);
+        break;
+    case ACT_NOTE:
+        note(channel);
+        break;
+    default:
+        break;
+    }
+}
+
+static void do_driver(const struct act *act, unsigned motor)
+{
+    switch (act->what & 0xFFU) {
+    case ACT_WAIT:
+        wait_until(act->tick);
+        break;
+    case ACT_HOLD:
+        hal_step_hold();
+        break;
+    case ACT_RELEASE:
+        hal_step_release();
+        break;
+    case ACT_CONNECT:
+        hal_step_connect(motor, act->steps != 0);
+        break;
+    case ACT_DIRECT:
+        hal_step_set_direction(motor, act->steps != 0);
+        break;
+    case ACT_BACK:
+        back = hal_step_take_back(motor, act->steps);
+        break;
+    case ACT_QUIET:
+        STK_CTRL = 0;
+        break;
+    default:
+        break;
+    }
+}
+
+int main(void)
+{
+    static const struct hal_client client = {.lay_isr = lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+    const struct act *act = acts;
+    __asm__ volatile("" : "+r"(act)); /* as in the flash, not as the compiler knows it */
+    hal_board_init();
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        step_channel_init(&channels[motor], motor);
+    }
+    hal_run_start(&client);
+    for (; act->what != ACTS_END; act++) {
+        do_channel(act, act->what >> 8 & 0xFFU);
+        do_driver(act, act->what >> 8 & 0xFFU);
+    }
+    acts_done();
+    for (;;) {
+        hal_board_idle(0);
+    }
+}
