@@ -38,7 +38,7 @@ enum {
 
     /* The interrupt comes LEAD_TICKS before the last pulse laid at the latest. That leaves time for what holds it off
      * and for a portion of each of the other three motors. */
-    LEAD_TICKS = 48 * TICKS_PER_US,
+    LEAD_TICKS = 60 * TICKS_PER_US,
     LAY_MAX = 8,
     LAY_FAST_MAX = 16,
     FAST_TICKS = 10 * TICKS_PER_US,

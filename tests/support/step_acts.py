@@ -26,7 +26,7 @@ WRAP = 1 << 32
 READY = 300_000
 """By this tick all is set up."""
 QUANTA = 2 * TICK_HZ * TICK_HZ << 7  # of a step: firmware/engine/step/step_scale.h
-ACTS, ACT, NOTE_WORDS = 1500, struct.Struct("<IIQII"), 10
+ACTS, ACT, NOTE_WORDS = 1500, struct.Struct("<IIQII"), 9
 READY_SEGMENTS = 30  # of the 32 that a channel has room for
 ODD = ["--refill", "1", "--match-equal"]
 FAST_BUS = ["--apb-wait", "3", "--pwm-at-once"]
@@ -35,9 +35,22 @@ FAST_BUS = ["--apb-wait", "3", "--pwm-at-once"]
 class What(IntEnum):
     """As enum what."""
 
-    END, BEGIN, PUSH, RUN, HALT, REST, WAIT, HOLD, RELEASE, CONNECT, DIRECT, BACK, QUIET, NOTE = (
-        range(14)
-    )
+    (
+        END,
+        BEGIN,
+        PUSH,
+        RUN,
+        HALT,
+        REST,
+        WAIT,
+        HOLD,
+        RELEASE,
+        CONNECT,
+        DIRECT,
+        QUIET,
+        NOTE,
+        REPLACE,
+    ) = range(14)
 
 
 @dataclass(frozen=True)
@@ -53,7 +66,6 @@ class Note:
     streams: int
     marked: int
     waiting: int
-    back: int
 
 
 @dataclass
@@ -159,6 +171,12 @@ class Acts:
         self.noted += 1
         return self.noted - 1
 
+    def replace(self, motor: int, ahead: int, pace: int, steps: int) -> int:
+        """The number of the note: `running` if it was in time, `pulses` up to the one before."""
+        self.add(What.REPLACE, motor, ahead - self.start, QUANTA // pace, pace, steps)
+        self.noted += 1
+        return self.noted - 1
+
     def show(self, *options: str) -> Shown:
         """Run it."""
         assert len(self.rows) < ACTS
@@ -186,7 +204,6 @@ class Acts:
         falls, directions = self._levels(rises)
         words = summary["watch"]["notes"]
         notes = [Note(*words[i * NOTE_WORDS :][:NOTE_WORDS]) for i in range(self.noted)]
-        assert all((note.tick - self.start) % WRAP > 0 for note in notes)
         late = summary["watch"]["stm32_late_steps"]
         return Shown(rises, falls, directions, positions, late, notes, summary)
 

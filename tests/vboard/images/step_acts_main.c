@@ -30,9 +30,9 @@ enum what {
     ACT_RELEASE, /* and on again */
     ACT_CONNECT, /* STEP and DIR if `steps` is 1 */
     ACT_DIRECT,  /* DIR, backward if `steps` is 1 */
-    ACT_BACK,    /* takes `steps` pulses back; the channel knows nothing of that */
     ACT_QUIET,   /* the clock of the milliseconds stands still from now on */
     ACT_NOTE,
+    ACT_REPLACE, /* what comes after the first pulse that is due `tick` from now or later by a segment; notes that */
 };
 
 struct act {
@@ -53,7 +53,6 @@ struct note {
     uint32_t streams; /* that are enabled, a bit each */
     uint32_t marked;  /* a marked segment has begun since the last note */
     uint32_t waiting;
-    uint32_t back; /* what the last ACT_BACK told */
 };
 
 extern const struct act acts[ACTS];
@@ -66,7 +65,6 @@ void acts_done(void);
 
 static struct step_channel channels[UNIT_MOTORS];
 static unsigned noted;
-static uint32_t back;
 
 static unsigned lay_isr(void *context, unsigned motor, struct hal_step_room *room)
 {
@@ -137,11 +135,26 @@ static void note(struct step_channel *channel)
         .streams = enabled_streams(),
         .marked = step_channel_take_mark(channel),
         .waiting = hal_step_waiting(channel->motor),
-        .back = back,
     };
     stm32_unmask(mask);
     notes[noted].pulses = mask == 0 ? (uint32_t)step_channel_pulses(channel) : 0;
     noted++;
+}
+
+/* Notes whether it was in time, the pulse that is the last on the old way, and its tick. */
+static void replace(struct step_channel *channel, const struct act *act)
+{
+    struct step_cursor at = {.end = 0};
+    bool replaced = false;
+    if (step_channel_look_ahead(channel, TIM2_CNT + act->tick, &at)) {
+        const struct step_segment segment = {.slope = act->slope,
+                                             .tick = at.generator.tick + act->pace_ticks,
+                                             .pace_ticks = act->pace_ticks,
+                                             .steps = act->steps};
+        replaced = step_channel_replace(channel, &at, &segment, 1);
+    }
+    notes[noted++] =
+        (struct note){.running = replaced, .pulses = (uint32_t)step_cursor_pulse(&at), .tick = at.generator.tick};
 }
 
 static void do_channel(const struct act *act, unsigned motor)
@@ -166,6 +179,9 @@ static void do_channel(const struct act *act, unsigned motor)
     case ACT_NOTE:
         note(channel);
         break;
+    case ACT_REPLACE:
+        replace(channel, act);
+        break;
     default:
         break;
     }
@@ -188,9 +204,6 @@ static void do_driver(const struct act *act, unsigned motor)
         break;
     case ACT_DIRECT:
         hal_step_set_direction(motor, act->steps != 0);
-        break;
-    case ACT_BACK:
-        back = hal_step_take_back(motor, act->steps);
         break;
     case ACT_QUIET:
         STK_CTRL = 0;
