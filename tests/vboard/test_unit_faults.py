@@ -180,6 +180,22 @@ def test_what_goes_astray_is_caught_with_the_outputs_safe_and_the_cause_kept(
     assert_stands_until_told(unit, modelled, told, "fault")
 
 
+@pytest.mark.parametrize("stream", [2, 4, 0, 3])
+def test_a_step_output_that_fails_is_caught_with_the_outputs_safe_and_the_cause_kept(unit, stream):
+    told = FAULT_MS + RESTART_MS + TOLD_MS
+
+    modelled = run(unit, told / 1000 + 0.1, ask_ms=FAULT_MS + RESTART_MS, fault=f"dma={stream}")
+
+    kept = fault_record(modelled)
+    assert modelled.summary["resets"] == {"power": 1, "software": 1, "watchdog": 0}
+    assert reset_ms(modelled) < FAULT_MS + 2
+    assert modelled.summary["last_reset"]["steps"] == 0
+    assert modelled.summary["last_reset"]["outputs"] == 0
+    assert (kept["cause"], kept["exception"], kept["count"]) == (CAUSE_FAULT, TIM2, 1)
+    assert (kept["status"], kept["hard"]) == (0, 0)
+    assert_stands_until_told(unit, modelled, told, "fault")
+
+
 def assert_refuses_motion(
     unit: VirtualBoard, modelled: Modelled, from_ms: float, cause: str
 ) -> None:

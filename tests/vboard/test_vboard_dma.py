@@ -51,6 +51,15 @@ def test_a_circular_stream_reloads_its_number_and_stays_enabled(run_image):
     assert result[3:6] == [8, 1, FAR]  # 10.3.8
 
 
+def test_a_stream_that_is_led_astray_stops_by_itself(run_image):
+    whole = run_image("dma_ring", pins=PINS)
+    fault_ms = whole.summary["microseconds"] / 1000 - 0.02
+    run = run_image("dma_ring", "--fault", f"{fault_ms:.4f}:dma=5", pins=PINS)
+
+    assert run.result[4] == 0  # 10.3.18
+    assert 20 < run.summary["motors"][0]["pulses"] < 25  # of 40
+
+
 def late(run_image, count: int, distance: int, *options: str, defines: tuple[str, ...] = ()):
     """Transfers that were not made, by channel."""
     arguments = [*word("channels", count), *word("distance", distance), *options]

@@ -135,6 +135,7 @@ static void wire_surroundings(struct board *board)
     faults_init(&board->faults, (struct faults_wires){.clock = clock,
                                                       .cpu = &board->cpu,
                                                       .memory = &board->memory,
+                                                      .dma = &board->dma,
                                                       .flash = &board->flash,
                                                       .nvic = &board->nvic,
                                                       .reset = &board->reset,

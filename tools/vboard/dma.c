@@ -43,6 +43,11 @@ static void fail_transfer(struct dma_stream *stream)
     dma_stream_end(stream);
 }
 
+void dma_lead_astray(struct dma *dma, unsigned number)
+{
+    dma->stream[number].source = 0;
+}
+
 static void begin_load(struct dma *dma, struct dma_stream *stream, uint64_t cycle)
 {
     if (!stream->stopping && stream->load_due == VTIME_NEVER && dma_stream_wants_load(stream)) {

@@ -49,4 +49,7 @@ void dma_enable(struct dma *dma, unsigned number);
 void dma_disable(struct dma *dma, unsigned number);
 void dma_update_interrupts(struct dma *dma);
 
+/* The next load of a stream goes to an address where nothing is, as after an upset of the controller. */
+void dma_lead_astray(struct dma *dma, unsigned number);
+
 #endif

@@ -68,6 +68,18 @@ static bool read_loss(struct faults *faults, const char *at, const char *end, st
     return true;
 }
 
+/* dma=STREAM */
+static bool read_stream(struct faults *faults, const char *at, const char *end, struct fault fault)
+{
+    uint64_t number = 0;
+    if (!line_read_fixed(&at, end, 0, DMA_STREAMS - 1, &number) || at != end) {
+        return false;
+    }
+    fault.address = (uint32_t)number;
+    insert(faults, fault);
+    return true;
+}
+
 /* word=ADDRESS:VALUE */
 static bool read_word(struct faults *faults, const char *at, const char *end, struct fault fault)
 {
@@ -96,9 +108,9 @@ static bool read_fault(struct faults *faults, const char *at)
         enum fault_kind kind;
         bool (*read)(struct faults *faults, const char *at, const char *end, struct fault fault);
     } kinds[] = {
-        {"jump=", FAULT_JUMP, read_place},  {"sp=", FAULT_STACK, read_place}, {"word=", FAULT_WORD, read_word},
-        {"hold=", FAULT_HOLD, read_place},  {"lose=", FAULT_LOSE, read_loss}, {"power", FAULT_POWER, read_place},
-        {"reset", FAULT_RESET, read_place},
+        {"jump=", FAULT_JUMP, read_place},  {"sp=", FAULT_STACK, read_place},   {"word=", FAULT_WORD, read_word},
+        {"hold=", FAULT_HOLD, read_place},  {"lose=", FAULT_LOSE, read_loss},   {"dma=", FAULT_DMA, read_stream},
+        {"power", FAULT_POWER, read_place}, {"reset", FAULT_RESET, read_place},
     };
     const char *end = at + strlen(at);
     uint64_t ps = 0;
@@ -172,6 +184,9 @@ static void apply(struct faults *faults, const struct fault *fault)
     case FAULT_LOSE:
     case FAULT_FIND:
         nvic_lose(faults->wires.nvic, fault->address, fault->kind == FAULT_LOSE);
+        break;
+    case FAULT_DMA:
+        dma_lead_astray(faults->wires.dma, fault->address);
         break;
     case FAULT_RESET:
         reset_request(faults->wires.reset, RESET_PIN);

@@ -9,6 +9,7 @@
 
 #include "clock.h"
 #include "cpu.h"
+#include "dma.h"
 #include "flash.h"
 #include "image.h"
 #include "memory.h"
@@ -26,6 +27,7 @@ enum fault_kind {
     FAULT_HOLD,  /* the processor does not get past an instruction; interrupts are served */
     FAULT_LOSE,  /* an exception is not taken any more */
     FAULT_FIND,  /* it is taken again */
+    FAULT_DMA,   /* a stream of DMA1 loads from nowhere */
     FAULT_POWER, /* power goes, and comes back at once */
     FAULT_RESET, /* the reset pin is pulled low, for a moment */
 };
@@ -33,7 +35,7 @@ enum fault_kind {
 struct fault {
     uint64_t ps;
     enum fault_kind kind;
-    uint32_t address; /* FAULT_LOSE, FAULT_FIND: the exception */
+    uint32_t address; /* FAULT_LOSE, FAULT_FIND: the exception; FAULT_DMA: the stream */
     uint32_t value;
 };
 
@@ -41,6 +43,7 @@ struct faults_wires {
     struct clock *clock;
     struct cpu *cpu;
     struct memory *memory;
+    struct dma *dma;
     struct flash *flash;
     struct nvic *nvic;
     struct reset *reset;

@@ -20,7 +20,7 @@
  *    `done`, no `done` before the last pulse
  *  7 DIR stands still around each pulse, STEP  DIR edges against pulses; on the host machine not how soon after one,
  *    high and low long enough                  and not the width of STEP: the board's driver has both in
- *                                              hal/stm32/stm32_step_setup.c, tests/tools/test_stm32_step.py shows them.
+ *                                              hal/stm32/stm32_step_setup.c, tests/vboard/test_step_pins.py shows them.
  *                                              STEP low is what is left of the interval, bounded by 2. Both are
  *                                              disconnected and connected while the motor stands: judge_connect
  *  8 no gap inside a move                      intervals against the slowest place of the plan (or the lowest speed),
