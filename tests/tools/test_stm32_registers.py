@@ -1,7 +1,8 @@
 """Our register header says what the vendor's description of the family says.
 
 pyOCD's package carries the description of the STM32F429, whose timers, DMA, USART, GPIO, RCC,
-flash, watchdog, SYSCFG, EXTI and interrupt controller are those of the STM32F405 (both are in RM0090).
+flash, watchdog, SYSCFG, EXTI and interrupt controller are those of the STM32F405 (both are in
+RM0090).
 """
 
 from __future__ import annotations

@@ -36,7 +36,8 @@ def assert_whole(shown: Shown, ticks: list[list[int]], width: int) -> None:
 @pytest.mark.parametrize("wrap", [False, True])
 def test_a_first_tick_that_is_past_is_made_good_at_once_and_counted(make_acts, name, options, wrap):
     acts: Acts = make_acts(name, WRAP - READY - 40_000 if wrap else 0)
-    ticks, looks = [], []
+    ticks: list[int] = []
+    looks: list[int] = []
     for after in (0, 1, 42, 500, 3000, 100_000):
         at = READY + 10_000 * (1 + len(ticks))
         acts.wait(at)
@@ -151,9 +152,9 @@ def test_what_is_taken_back_at_any_time_gives_way_to_what_is_laid_instead(
             at += chance.randrange(20_000)
             acts.wait(at)
             pace, steps = chance.randrange(least, 4000), chance.randrange(20, 60)
-            note = acts.replace(motor, chance.randrange(IN_TIME, 12_000), pace, steps)
+            number = acts.replace(motor, chance.randrange(IN_TIME, 12_000), pace, steps)
             move = max(i for i, (mine, _) in enumerate(moves) if mine == motor)
-            changes.append((move, note, pace, steps))
+            changes.append((move, number, pace, steps))
         acts.rest()
         at += 400 * 4000
 

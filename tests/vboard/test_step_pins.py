@@ -201,5 +201,6 @@ def test_without_the_crystal_nothing_is_ever_connected(make_acts, name):
 
     shown = acts.show("--no-crystal")
 
-    assert shown.rises == shown.falls == shown.directions == [[], [], [], []]
+    assert shown.rises == shown.falls == [[], [], [], []]
+    assert shown.directions == [[], [], [], []]
     assert shown.notes[0].pulses == 5
