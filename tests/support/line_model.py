@@ -43,7 +43,12 @@ HOLD = (
         "executed once, answered by its own answer, if answers come late", ("ACTIONS=2", "LATE")
     ),
     Variant("the master comes to an end", ("ACTIONS=2",), cycles=True),
-    Variant("each segment taken once, in order, whole; all of them in the end", model=RING),
+    Variant("each pulse made once, in order; a way back; a stop; rest in the end", model=RING),
+    Variant(
+        "the same without stops, with more segments and replacements",
+        ("PUSHES=4", "REPLACEMENTS=2", "STOPS=0"),
+        model=RING,
+    ),
 )
 FAIL = (
     Variant("planted: a unit that has started refuses nothing", ("ACTIONS=1", "PLANT_NO_REFUSAL")),
@@ -63,14 +68,22 @@ FAIL = (
     Variant("planted: room for one more", ("PLANT_ROOM_FOR_ONE_MORE",), model=RING),
     Variant(
         "planted: seen before it is written",
-        ("BRAKES=0", "PLANT_PUSH_WITHOUT_HOLD", "PLANT_SEEN_BEFORE_WRITTEN"),
+        ("STOPS=0", "PLANT_PUSH_WITHOUT_HOLD", "PLANT_SEEN_BEFORE_WRITTEN"),
         model=RING,
     ),
-    Variant(
-        "planted: taken before it is read",
-        ("BRAKES=0", "PLANT_PUSH_WITHOUT_HOLD", "PLANT_TAKEN_TOO_SOON"),
-        model=RING,
-    ),
+    Variant("planted: room from the younger place", ("PLANT_TAKEN_FROM_YOUNGER",), model=RING),
+    Variant("planted: a place kept that is not passed", ("PLANT_KEPT_TOO_SOON",), model=RING),
+    Variant("planted: taken back under a kept place", ("PLANT_KEPT_NOT_MOVED",), model=RING),
+    Variant("planted: a way back past what was cut", ("PLANT_QUEUED_COPY_KEPT",), model=RING),
+    Variant("planted: a way back over a brake", ("PLANT_WAY_BACK_OVER_BRAKE",), model=RING),
+    Variant("planted: all taken for taken back", ("PLANT_ALL_TAKEN_BACK",), model=RING),
+    Variant("planted: laid pulses counted as made", ("PLANT_WAITING_COUNTED",), model=RING),
+    Variant("planted: a rest while pulses wait", ("PLANT_REST_WHILE_WAITING",), model=RING),
+    Variant("planted: a brake that leaves the queue", ("PLANT_LAID_AFTER_CLOSE",), model=RING),
+    Variant("planted: a halt that leaves the queue", ("PLANT_HALT_KEEPS_QUEUE",), model=RING),
+    Variant("planted: a halt too late that rests", ("PLANT_HALT_RESTS",), model=RING),
+    Variant("planted: a halt too late, and nobody asks", ("PLANT_HALT_NOT_RUN",), model=RING),
+    Variant("planted: taken back, and nobody asks", ("PLANT_BACK_NOT_RUN",), model=RING),
     Variant("planted: a replacement without hold", ("PLANT_REPLACED_WITHOUT_HOLD",), model=RING),
     Variant("planted: a replacement in the past", ("PLANT_NOT_LOOKED_AGAIN",), model=RING),
     Variant("planted: not started again", ("PLANT_NOT_STARTED_AGAIN",), model=RING),
