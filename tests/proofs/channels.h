@@ -1,6 +1,6 @@
 /*
- * Contracts of the step channel: proved with step_channel.acsl (the ring, and what goes along it) and
- * step_channel_replace.acsl (what ends or changes a move).
+ * Contracts of the step channel: proved with step_channel.acsl (the ring, and what is laid from it),
+ * step_channel_replace.acsl (ways back, and what changes a move) and step_channel_stop.acsl (what ends it).
  */
 #ifndef CHANNELS_H
 #define CHANNELS_H
@@ -11,64 +11,83 @@
 #include "base_tick.h"
 #include "hal_step.h"
 #include "step_channel.h"
+#include "step_lay.h"
 
-/* Counters wrap after 2^32, which the size of the ring divides. */
+/* Counters wrap after 2^32, which the size of the ring divides. A count is in a ring if it lies between the counts of
+ * its two ends. */
 /*@ logic integer distance(integer head, integer tail) = (uint32_t)(head - tail);
-    logic integer slot(integer tail, integer i) = (tail + i) % 32;
     predicate is_count(integer x) = 0 <= x <= 0xFFFFFFFF;
+    predicate in_ring(integer head, integer tail, integer x) =
+        is_count(x) && distance(x, tail) + distance(head, x) == distance(head, tail);
 
-    lemma part: \forall integer x; 0 <= x ==> 0 <= x % 32 < 32;
-    lemma index: \forall integer x; 0 <= x ==> (uint32_t)(x % 32) == x % 32;
+    lemma index: \forall integer x; 0 <= x ==> 0 <= x % 32 < 32 && (uint32_t)(x % 32) == x % 32;
     lemma distance_plain: \forall integer x, y; is_count(x) && is_count(y) ==>
         distance(x, y) == (x >= y ? x - y : x - y + 0x100000000);
-    lemma distance_up: \forall integer x, y; is_count(x) && is_count(y) && distance(x, y) < 0xFFFFFFFF ==>
-        distance((uint32_t)(x + 1), y) == distance(x, y) + 1;
-    lemma distance_down: \forall integer x, y; is_count(x) && is_count(y) && distance(x, y) > 0 ==>
-        distance(x, (uint32_t)(y + 1)) == distance(x, y) - 1;
-    lemma distance_none: \forall integer x, y; is_count(x) && is_count(y) && distance(x, y) == 0 ==> x == y;
-    lemma slot_range: \forall integer tail, i; 0 <= tail && 0 <= i ==> 0 <= slot(tail, i) < 32;
-    lemma slot_first: \forall integer tail; slot(tail, 0) == tail % 32;
-    lemma slot_last: \forall integer x, y; is_count(x) && is_count(y) ==> slot(y, distance(x, y)) == x % 32;
-    lemma slot_next: \forall integer tail, i; is_count(tail) && 0 <= i ==>
-        slot((uint32_t)(tail + 1), i) == slot(tail, i + 1);
-    lemma slot_other: \forall integer tail, i, j; 0 <= tail && 0 <= i < 32 && 0 <= j < 32 && i != j ==>
-        slot(tail, i) != slot(tail, j);
+    lemma count_next: \forall integer x; is_count(x) ==>
+        (uint32_t)(x + 1) == (x == 0xFFFFFFFF ? 0 : x + 1);
+    lemma ring_next: \forall integer h, t, x; is_count(h) && is_count(t) && in_ring(h, t, x) && x != h ==>
+        in_ring(h, t, (uint32_t)(x + 1)) && distance(h, (uint32_t)(x + 1)) == distance(h, x) - 1;
+    lemma ring_ends: \forall integer h, t; is_count(h) && is_count(t) ==> in_ring(h, t, t) && in_ring(h, t, h);
+    lemma ring_after: \forall integer h, t, c, y; is_count(h) && is_count(t) && in_ring(h, t, c) && in_ring(c, t, y) ==>
+        in_ring(h, y, c) && in_ring(h, t, y) && distance(h, y) <= distance(h, t);
+    lemma ring_above: \forall integer h, t, y, x; is_count(h) && is_count(t) && in_ring(h, t, y) && in_ring(h, y, x) ==>
+        in_ring(h, t, x);
+    lemma ring_below: \forall integer h, t, y, x; is_count(h) && is_count(t) && in_ring(h, t, y) && in_ring(y, t, x) ==>
+        in_ring(h, t, x) && distance(h, y) <= distance(h, x);
+    lemma ring_grown: \forall integer h, t, x; is_count(h) && is_count(t) && distance(h, t) < 0xFFFFFFFF ==>
+        distance((uint32_t)(h + 1), t) == distance(h, t) + 1 &&
+        (in_ring(h, t, x) ==> in_ring((uint32_t)(h + 1), t, x) &&
+            distance((uint32_t)(h + 1), x) == distance(h, x) + 1);
+    lemma ring_grown_back: \forall integer h, t, x; is_count(h) && is_count(t) && distance(h, t) < 0xFFFFFFFF &&
+        in_ring((uint32_t)(h + 1), t, x) && x != (uint32_t)(h + 1) ==> in_ring(h, t, x);
+    lemma ring_apart: \forall integer h, t, x; is_count(h) && is_count(t) && distance(h, t) < 32 && in_ring(h, t, x) &&
+        x != h ==> x % 32 != h % 32;
 */
 
 /* A sound channel. As each segment has less than 2^32 pulses, a move whose end is not in sight stays finite. */
-/*@ logic integer queued(struct step_channel *channel) = distance(channel->head, channel->cursor.tail);
+/*@ logic integer queued(struct step_channel *channel) = distance(channel->head, channel->taken);
+    logic integer to_come(struct step_channel *channel) = distance(channel->head, channel->cursor.tail);
     logic integer pulse_of(struct step_cursor *cursor) = cursor->end - cursor->left;
-    logic integer made_by(struct step_channel *channel) =
-        pulse_of(&channel->cursor) - (channel->running ? 1 : 0);
-    predicate ring_is_sound(struct step_channel *channel) =
-        \valid(channel) && channel->taken == channel->cursor.tail && queued(channel) <= STEP_QUEUE_SEGMENTS;
-    predicate is_filled(struct step_segment *queue, integer tail, integer count) =
-        \forall integer i; 0 <= i < count ==> queue[slot(tail, i)].steps >= 1;
-    predicate cursor_is_sound(struct step_cursor *cursor) = cursor->left <= cursor->end;
     predicate fits(integer end, integer segments) = end + segments * 0x100000000 <= 0x1000000000000000;
+    predicate is_filled(struct step_channel *channel) =
+        \forall integer x; in_ring(channel->head, channel->taken, x) && x != channel->head ==>
+            channel->queue[x % 32].steps >= 1;
+    predicate ring_is_sound(struct step_channel *channel) =
+        \valid(channel) && queued(channel) <= STEP_QUEUE_SEGMENTS && is_filled(channel) &&
+        in_ring(channel->head, channel->taken, channel->cursor.tail);
+    predicate is_kept(struct step_channel *channel, struct step_cursor *kept) =
+        in_ring(channel->cursor.tail, channel->taken, kept->tail) && kept->left <= kept->end &&
+        kept->end <= channel->cursor.end && pulse_of(kept) <= pulse_of(&channel->cursor);
     predicate is_sound(struct step_channel *channel) =
-        ring_is_sound(channel) && cursor_is_sound(&channel->cursor) && channel->cursor.left < UINT32_MAX &&
-        fits(channel->cursor.end, queued(channel)) &&
-        is_filled(&channel->queue[0], channel->cursor.tail, queued(channel));
-    predicate is_moving(struct step_channel *channel) =
-        is_sound(channel) && (channel->running ==> pulse_of(&channel->cursor) >= 1);
+        ring_is_sound(channel) && channel->cursor.left <= channel->cursor.end &&
+        fits(channel->cursor.end, to_come(channel)) && channel->young <= 1 &&
+        is_kept(channel, &channel->kept[0]) && is_kept(channel, &channel->kept[1]);
+    predicate keeps_nothing(struct step_channel *channel) =
+        channel->taken == channel->cursor.tail && channel->kept[0].tail == channel->cursor.tail &&
+        channel->kept[1].tail == channel->cursor.tail && channel->kept[0].end == channel->cursor.end &&
+        channel->kept[1].end == channel->cursor.end && channel->kept[0].left == channel->cursor.left &&
+        channel->kept[1].left == channel->cursor.left;
     predicate is_pushable(struct step_channel *channel, struct step_segment *segment) =
-        queued(channel) < STEP_QUEUE_SEGMENTS && fits(channel->cursor.end, queued(channel) + 1) &&
+        queued(channel) < STEP_QUEUE_SEGMENTS && fits(channel->cursor.end, to_come(channel) + 1) &&
         \valid_read(segment) && \separated(segment, channel) && segment->steps >= 1;
 */
 
-/* The ordinal of the last pulse on a segment: 0 is the present one, 1 the first in the queue. Nothing is said of it
- * but in is_numbered, so what is proved holds for whatever is queued. */
-/*@ axiomatic Last { logic integer last_on(integer segment); }
+/* The ordinal of the last pulse before the segment with a count: the end of each cursor with that count. Nothing is
+ * said of it but in is_numbered, so what is proved holds for whatever is queued. */
+/*@ axiomatic Last { logic integer last_at(integer count); }
+    predicate queue_is_numbered(struct step_channel *channel) =
+        \forall integer x; in_ring(channel->head, channel->taken, x) && x != channel->head ==>
+            last_at((uint32_t)(x + 1)) == last_at(x) + channel->queue[x % 32].steps;
     predicate is_numbered(struct step_channel *channel) =
-        last_on(0) == channel->cursor.end &&
-        \forall integer i; 0 <= i < queued(channel) ==>
-            last_on(i + 1) == last_on(i) + channel->queue[slot(channel->cursor.tail, i)].steps;
-    predicate is_within(struct step_channel *channel, integer pulse, integer segment) =
-        0 <= segment <= queued(channel) && pulse <= last_on(segment);
+        queue_is_numbered(channel) && channel->cursor.end == last_at(channel->cursor.tail) &&
+        channel->kept[0].end == last_at(channel->kept[0].tail) &&
+        channel->kept[1].end == last_at(channel->kept[1].tail);
+    predicate is_on_way(struct step_channel *channel, struct step_cursor *cursor) =
+        in_ring(channel->head, channel->taken, cursor->tail) && cursor->left <= cursor->end &&
+        cursor->end == last_at(cursor->tail) && fits(cursor->end, distance(channel->head, cursor->tail));
 */
 
-/* Proved in step_generator.acsl and base_tick.acsl; what the generator finds does not matter here. */
+/* Proved in step_generator.acsl, step_lay.acsl and base_tick.acsl; what the generator finds does not matter here. */
 /*@ requires \valid(generator);
     assigns *generator;
 */
@@ -85,18 +104,37 @@ void step_generator_start(struct step_generator *generator, uint32_t tick);
     assigns *generator;
 */
 void step_generator_join(struct step_generator *generator, const struct step_segment *segment, uint32_t made);
-/*@ requires \valid(generator);
-    assigns *generator;
+/*@ requires \valid(generator) && \valid_read(room) && 1 <= count && first + count <= UINT32_MAX;
+    requires \valid(&room->pulse[first .. first + count - 1]);
+    requires \separated(generator, &room->pulse[first .. first + count - 1]) && \separated(generator, room) &&
+        \separated(room, &room->pulse[first .. first + count - 1]);
+    assigns *generator, room->pulse[first .. first + count - 1];
+    ensures 1 <= \result <= count;
 */
-void step_generator_back(struct step_generator *generator);
+unsigned step_lay(struct step_generator *generator, const struct hal_step_room *room, unsigned first, unsigned count);
+/*@ requires \valid_read(generator) && \valid_read(room) && \valid(&room->pulse[place]);
+    requires \separated(generator, &room->pulse[place]) && \separated(room, &room->pulse[place]);
+    assigns room->pulse[place];
+*/
+static inline void step_lay_pulse(const struct step_generator *generator, const struct hal_step_room *room,
+                                  unsigned place);
 /*@ assigns \nothing; */
 bool tick_is_before(uint32_t a, uint32_t b);
 
-/* The seam: it does not touch the channel. */
+/* The seam. That hal_step_run lays pulses is left out here: step_channel_lay_isr keeps a channel sound. */
+/*@ axiomatic Waiting { logic integer most_waiting; }
+    predicate waits(struct step_channel *channel) = 0 <= most_waiting <= pulse_of(&channel->cursor);
+*/
 /*@ assigns \nothing; */
-void hal_step_arm(unsigned motor, uint32_t tick);
-/*@ assigns \nothing; */
-bool hal_step_disarm(unsigned motor);
+void hal_step_run(unsigned motor);
+/*@ assigns \nothing;
+    ensures \result <= most_waiting;
+*/
+unsigned hal_step_waiting(unsigned motor);
+/*@ assigns \nothing;
+    ensures \result <= count && \result <= most_waiting;
+*/
+unsigned hal_step_take_back(unsigned motor, unsigned count);
 /*@ assigns \nothing; */
 void hal_step_set_direction(unsigned motor, bool backward);
 /*@ assigns \nothing; */
@@ -104,24 +142,11 @@ void hal_step_hold(void);
 /*@ assigns \nothing; */
 void hal_step_release(void);
 
-/*@ requires \valid_read(cursor) && cursor_is_sound(cursor);
+/*@ requires \valid_read(cursor) && cursor->left <= cursor->end;
     assigns \nothing;
     ensures \result == pulse_of(cursor);
 */
 static inline uint64_t step_cursor_pulse(const struct step_cursor *cursor);
-
-/*@ requires is_sound(channel);
-    assigns channel->cursor, channel->running, channel->marked, channel->taken;
-    ensures is_sound(channel);
-    ensures \result == STEP_CHANNEL_ARM || \result == STEP_CHANNEL_WAKE || \result == 3;
-    ensures \result == STEP_CHANNEL_WAKE ==> !channel->running &&
-        pulse_of(&channel->cursor) == \old(pulse_of(&channel->cursor));
-    ensures \result != STEP_CHANNEL_WAKE ==> channel->running == \old(channel->running) &&
-        pulse_of(&channel->cursor) == \old(pulse_of(&channel->cursor)) + 1;
-    ensures queued(channel) <= \old(queued(channel));
-    ensures \old(queued(channel)) == 0 ==> channel->cursor.end == \old(channel->cursor.end);
-*/
-static inline unsigned step_channel_next(struct step_channel *channel);
 
 /*@ requires \valid_read(channel);
     assigns \nothing;
@@ -159,30 +184,33 @@ static inline bool cursor_begin_segment(struct step_cursor *cursor, const struct
 */
 static bool cursor_advance(struct step_cursor *cursor, const struct step_channel *channel, uint32_t head);
 
+/*@ requires ring_is_sound(channel) && queue_is_numbered(channel) && \valid(cursor) && is_on_way(channel, cursor);
+    requires \separated(cursor, &channel->queue[0 .. 31]) && \separated(cursor, &channel->head) &&
+        \separated(cursor, &channel->taken);
+    assigns *cursor;
+    ensures is_on_way(channel, cursor);
+    ensures \old(pulse_of(cursor)) <= pulse_of(cursor);
+    ensures pulse_of(cursor) <= pulse || pulse_of(cursor) == \old(pulse_of(cursor));
+    ensures there: \old(pulse_of(cursor)) <= pulse <= last_at(channel->head) ==> pulse_of(cursor) == pulse;
+*/
+static void cursor_advance_to(struct step_cursor *cursor, const struct step_channel *channel, uint64_t pulse);
+
+/*@ requires ring_is_sound(channel) && channel->cursor.left <= channel->cursor.end && channel->young <= 1 &&
+        fits(channel->cursor.end, to_come(channel));
+    assigns channel->kept[0 .. 1], channel->taken;
+    ensures is_sound(channel) && keeps_nothing(channel);
+*/
+static void channel_keep_nothing(struct step_channel *channel);
+
 /*@ requires is_sound(channel) && is_pushable(channel, segment);
     assigns channel->queue[channel->head % 32], channel->head;
     ensures is_sound(channel) && queued(channel) == \old(queued(channel)) + 1;
     ensures channel->head == (uint32_t)(\old(channel->head) + 1);
-    ensures channel->cursor.tail == \old(channel->cursor.tail) && channel->cursor.left == \old(channel->cursor.left) &&
-        channel->cursor.end == \old(channel->cursor.end);
     ensures channel->queue[\old(channel->head) % 32].steps == \old(segment->steps);
-    ensures slot(channel->cursor.tail, \old(queued(channel))) == \old(channel->head) % 32;
-    ensures \forall integer i; 0 <= i < \old(queued(channel)) ==>
-        slot(channel->cursor.tail, i) != \old(channel->head) % 32;
-    ensures kept: \forall integer i; 0 <= i < \old(queued(channel)) ==>
-        channel->queue[slot(channel->cursor.tail, i)].steps ==
-            \old(channel->queue[slot(channel->cursor.tail, i)].steps);
+    ensures kept: \forall integer x; in_ring(\old(channel->head), channel->taken, x) && x != \old(channel->head) ==>
+        channel->queue[x % 32].steps == \old(channel->queue[x % 32].steps);
 */
 static void channel_push(struct step_channel *channel, const struct step_segment *segment);
-
-/*@ requires is_sound(channel);
-    assigns channel->cursor, channel->running, channel->marked, channel->taken;
-    ensures is_moving(channel);
-    ensures made_by(channel) == \old(pulse_of(&channel->cursor));
-    ensures queued(channel) <= \old(queued(channel));
-    ensures \old(queued(channel)) == 0 ==> channel->cursor.end == \old(channel->cursor.end);
-*/
-void step_channel_run(struct step_channel *channel);
 
 /*@ requires \valid_read(channel);
     assigns \nothing;
@@ -190,45 +218,17 @@ void step_channel_run(struct step_channel *channel);
 */
 bool step_channel_is_running(const struct step_channel *channel);
 
-/*@ requires \valid_read(cursor) && cursor_is_sound(cursor);
+/*@ requires is_sound(channel) && waits(channel);
     assigns \nothing;
-    ensures \result ==> pulse_of(cursor) > 1;
+    ensures pulse_of(&channel->cursor) - most_waiting <= \result <= pulse_of(&channel->cursor);
+    ensures !channel->running ==> \result == pulse_of(&channel->cursor);
 */
-static bool cursor_can_go_back(const struct step_cursor *cursor);
+static uint64_t channel_pulses(const struct step_channel *channel);
 
-/*@ requires \valid(cursor) && cursor_is_sound(cursor);
-    requires pulse_of(cursor) > 1 && cursor->left < UINT32_MAX;
-    assigns *cursor;
-    ensures cursor_is_sound(cursor) && pulse_of(cursor) == \old(pulse_of(cursor)) - 1;
-    ensures cursor->left == \old(cursor->left) + 1 && cursor->end == \old(cursor->end);
-    ensures cursor->tail == \old(cursor->tail);
+/*@ requires \valid_read(channel) && channel->young <= 1;
+    assigns \nothing;
+    ensures \result == &channel->kept[1 - channel->young];
 */
-static void cursor_go_back(struct step_cursor *cursor);
-
-/*@ requires is_moving(channel) && \valid(cursor) && \separated(cursor, channel);
-    assigns *cursor;
-    ensures \result <==> channel->running;
-    ensures cursor_is_sound(cursor) && cursor->end == channel->cursor.end && cursor->tail == channel->cursor.tail;
-    ensures pulse_of(cursor) == pulse_of(&channel->cursor) ||
-        (\result && pulse_of(cursor) == pulse_of(&channel->cursor) - 1);
-    ensures \result ==> pulse_of(cursor) >= 1;
-*/
-bool step_channel_find_pulse(const struct step_channel *channel, uint32_t since, struct step_cursor *cursor);
-
-/*@ requires is_sound(channel) && is_numbered(channel) && pulse_of(&channel->cursor) <= pulse;
-    requires \exists integer i; is_within(channel, pulse, i);
-    assigns channel->cursor.left, channel->cursor.end, channel->queue[0 .. 31].steps, channel->head;
-    ensures is_sound(channel) && pulse_of(&channel->cursor) == \old(pulse_of(&channel->cursor));
-    ensures queued(channel) <= \old(queued(channel));
-    ensures first: \forall integer i; 0 <= i <= \old(queued(channel)) && pulse <= last_on(i) ==> queued(channel) <= i;
-    ensures present: queued(channel) == 0 ==> channel->cursor.end == pulse;
-    ensures others: queued(channel) > 0 ==> channel->cursor.end == \old(channel->cursor.end);
-    ensures kept: \forall integer i; 0 <= i < queued(channel) - 1 ==>
-        channel->queue[slot(channel->cursor.tail, i)].steps ==
-            \old(channel->queue[slot(channel->cursor.tail, i)].steps);
-    ensures last: queued(channel) > 0 ==>
-        channel->queue[slot(channel->cursor.tail, queued(channel) - 1)].steps == pulse - last_on(queued(channel) - 1);
-*/
-static void channel_truncate(struct step_channel *channel, uint64_t pulse);
+static const struct step_cursor *channel_base(const struct step_channel *channel);
 
 #endif

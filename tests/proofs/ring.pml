@@ -387,23 +387,20 @@ inline brake(found, so_far)
 inline halt()
 {
     hold();
+    atomic {
+        if
+        :: running -> laid = waiting
+        :: else
+        fi
+    };
     if
-    :: running ->
-        laid = waiting;
-        hal_step_take_back(laid);
-        atomic {
-            cursor.pulse = cursor.pulse - back;
-            cursor.left = 0;
-            cursor.place = 0;
-#ifdef PLANT_HALT_RESTS
-            running = false
-#else
-            running = laid != back
-#endif
-        }
+    :: laid > 0 -> hal_step_take_back(laid)
     :: else
     fi;
     atomic {
+        cursor.pulse = cursor.pulse - back;
+        cursor.left = 0;
+        cursor.place = 0;
 #ifndef PLANT_HALT_KEEPS_QUEUE
         head = cursor.tail;
 #endif
@@ -412,8 +409,12 @@ inline halt()
         closed = true
     };
     if
+#ifdef PLANT_HALT_RESTS
+    :: laid > 0 -> running = false
+#else
 #ifndef PLANT_HALT_NOT_RUN
-    :: running -> hal_step_run()
+    :: laid > 0 -> hal_step_run()
+#endif
 #endif
     :: else
     fi;
