@@ -262,11 +262,11 @@ inline find_pulse(c, found, so_far, since)
         !held -> found = running;
         so_far = cursor.pulse - waiting;
         if
-        :: running ->
-            assert(kept[1 - young].pulse <= so_far || kept[1 - young].pulse == anew);
-            copy(c, kept[1 - young])
-        :: else -> copy(c, cursor)
-        fi
+        :: running && kept[young].pulse <= so_far -> copy(c, kept[young])
+        :: running && kept[young].pulse > so_far -> copy(c, kept[1 - young])
+        :: !running -> copy(c, cursor)
+        fi;
+        assert(!running || c.pulse <= so_far || c.pulse == anew)
     };
     atomic { advance_to(c, so_far) };
     atomic {

@@ -64,7 +64,10 @@ MODULES = (
     ),
     Module(
         "step", "engine/step",
-        ("step_generator.c", "step_generator.h", "step_channel.c", "step_channel.h"), (),
+        (
+            "step_generator.c", "step_generator.h", "step_lay.c", "step_lay.h", "step_channel.c",
+            "step_channel.h",
+        ), (),
     ),
     Module(
         "motion", "engine/motion",
