@@ -225,10 +225,11 @@ bool step_channel_is_running(const struct step_channel *channel);
 */
 static uint64_t channel_pulses(const struct step_channel *channel);
 
-/*@ requires \valid_read(channel) && channel->young <= 1;
+/*@ requires is_sound(channel);
     assigns \nothing;
-    ensures \result == &channel->kept[1 - channel->young];
+    ensures \result == &channel->kept[0] || \result == &channel->kept[1];
+    ensures pulse_of(\result) <= pulse || \result == &channel->kept[1 - channel->young];
 */
-static const struct step_cursor *channel_base(const struct step_channel *channel);
+static const struct step_cursor *channel_base(const struct step_channel *channel, uint64_t pulse);
 
 #endif

@@ -86,8 +86,8 @@ PLANTED = [
         "search->interval -= ticks;", "search->interval -= ticks + 1U;",
     ),
     (
-        "step_generator", "step_generator_ramp", "firmware/engine/step/step_generator.h",
-        "uint64_t slope = middle + gain;", "uint64_t slope = middle;",
+        "step_generator", "step_generator_guess", "firmware/engine/step/step_generator.h",
+        ".slope = middle + gain", ".slope = middle",
     ),
 ]  # fmt: skip
 """Each takes provers up to a minute and a half: the first alone where the run is not a long one."""
