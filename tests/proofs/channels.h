@@ -34,6 +34,8 @@
         in_ring(h, t, x);
     lemma ring_below: \forall integer h, t, y, x; is_count(h) && is_count(t) && in_ring(h, t, y) && in_ring(y, t, x) ==>
         in_ring(h, t, x) && distance(h, y) <= distance(h, x);
+    lemma distance_up: \forall integer h, t; is_count(h) && is_count(t) && distance(h, t) < 0xFFFFFFFF ==>
+        distance((uint32_t)(h + 1), t) == distance(h, t) + 1;
     lemma ring_grown: \forall integer h, t, x; is_count(h) && is_count(t) && distance(h, t) < 0xFFFFFFFF ==>
         distance((uint32_t)(h + 1), t) == distance(h, t) + 1 &&
         (in_ring(h, t, x) ==> in_ring((uint32_t)(h + 1), t, x) &&
@@ -84,7 +86,8 @@
         channel->kept[1].end == last_at(channel->kept[1].tail);
     predicate is_on_way(struct step_channel *channel, struct step_cursor *cursor) =
         in_ring(channel->head, channel->taken, cursor->tail) && cursor->left <= cursor->end &&
-        cursor->end == last_at(cursor->tail) && fits(cursor->end, distance(channel->head, cursor->tail));
+        cursor->end == last_at(cursor->tail) &&
+        cursor->end + distance(channel->head, cursor->tail) * 0x100000000 <= 0x2000000000000000;
 */
 
 /* Proved in step_generator.acsl, step_lay.acsl and base_tick.acsl; what the generator finds does not matter here. */
@@ -162,7 +165,7 @@ static const struct step_segment *queue_slot(const struct step_channel *channel,
         cursor->end == \old(cursor->end);
     ensures \result ==> cursor->tail == (uint32_t)(\old(cursor->tail) + 1);
     ensures \result ==> cursor->left == channel->queue[\old(cursor->tail) % 32].steps - 1;
-    ensures \result && \old(cursor->end) <= 0x1000000000000000 ==>
+    ensures \result && \old(cursor->end) <= 0x2000000000000000 ==>
         cursor->end == \old(cursor->end) + channel->queue[\old(cursor->tail) % 32].steps;
 */
 static inline bool cursor_begin_segment(struct step_cursor *cursor, const struct step_channel *channel, uint32_t head);
@@ -177,9 +180,9 @@ static inline bool cursor_begin_segment(struct step_cursor *cursor, const struct
         cursor->end == \old(cursor->end);
     ensures \result && \old(cursor->left) == 0 ==> cursor->tail == (uint32_t)(\old(cursor->tail) + 1) &&
         cursor->left == channel->queue[\old(cursor->tail) % 32].steps - 1;
-    ensures \result && \old(cursor->left) == 0 && \old(cursor->end) <= 0x1000000000000000 ==>
+    ensures \result && \old(cursor->left) == 0 && \old(cursor->end) <= 0x2000000000000000 ==>
         cursor->end == \old(cursor->end) + channel->queue[\old(cursor->tail) % 32].steps;
-    ensures one_pulse: \result && \old(cursor->left <= cursor->end <= 0x1000000000000000) ==>
+    ensures one_pulse: \result && \old(cursor->left <= cursor->end <= 0x2000000000000000) ==>
         pulse_of(cursor) == \old(pulse_of(cursor)) + 1;
 */
 static bool cursor_advance(struct step_cursor *cursor, const struct step_channel *channel, uint32_t head);
