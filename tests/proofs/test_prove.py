@@ -139,6 +139,16 @@ def test_contracts_that_contradict_themselves_prove_nothing() -> None:
     assert any("smoke" in complaint for complaint in result.complaints)
 
 
+# Of step_channel.c: ring.pml has a model of them, and there is no proof for all inputs.
+ONLY_MODELLED = {
+    "channel_join", "channel_keep", "channel_keep_nothing", "channel_lay", "channel_lay_first",
+    "channel_push", "channel_slow_down", "channel_take_back", "channel_tick_of",
+    "channel_truncate", "cursor_advance_to", "step_channel_begin", "step_channel_brake",
+    "step_channel_find_pulse", "step_channel_halt", "step_channel_lay_isr",
+    "step_channel_look_ahead", "step_channel_replace", "step_channel_replace_brake",
+}  # fmt: skip
+
+
 def test_every_function_of_a_source_is_proved_in_some_file() -> None:
     sources: dict[str, set[str]] = {}
     for path in PROOFS.glob("*.acsl"):
@@ -151,7 +161,7 @@ def test_every_function_of_a_source_is_proved_in_some_file() -> None:
         for name in set(source((ROOT / path).read_text()).functions()) - proved
     }
 
-    assert left == {"link_count_text", "step_channel_init"}
+    assert left == {"link_count_text", "step_channel_init", *ONLY_MODELLED}
 
 
 def test_the_lemmas_of_a_header_are_left_to_the_header() -> None:
