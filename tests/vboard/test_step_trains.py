@@ -25,6 +25,8 @@ from step_acts import (
 
 LEAD, MANY_LEAD = 20_000, 80_000
 """Ticks that main has to ready what four motors do; with some thirty segments each."""
+FASTEST = 210
+"""Ticks between pulses at STEP_SPEED_MAX."""
 KINDS = [(SHORT, []), (SHORT, ODD), (SHORT, FAST_BUS), (LONG, [])]
 AROUND_WRAP = [-300, -211, -210, -43, -42, -41, -1, 0, 1, 2, 42, 300]
 MakeActs = Callable[..., Acts]
@@ -55,7 +57,7 @@ def test_every_edge_of_steady_trains_comes_at_its_tick(make_acts, name, options,
         chosen = chance.sample(MOTORS, count)
         for motor in chosen:
             first = at + LEAD + chance.choice([0, 0, 0, 1, 7, 500])
-            slope = round(QUANTA / chance.uniform(2 * WIDTH[name] + 10, 9000))
+            slope = round(QUANTA / chance.uniform(max(2 * WIDTH[name] + 10, FASTEST), 9000))
             acts.begin(motor, first - 1000)
             ticks[motor] += acts.push_train(motor, first, slope, chance.randrange(1, 90))
         for motor in chance.sample(chosen, count):
@@ -227,8 +229,9 @@ def test_main_is_told_of_the_begin_of_a_marked_segment(make_acts):
 
     notes = acts.show().notes
 
-    assert [note.marked for note in notes] == [0, 1, 0, 0]  # it is laid when one is left
-    assert notes[1].told
+    (told,) = (note for note in notes if note.marked)
+    assert told in notes[1:3]  # laid ahead, but not before the pulse before it is the next one
+    assert told.told
 
 
 def test_a_rested_channel_goes_on_with_what_was_queued_late(make_acts):
