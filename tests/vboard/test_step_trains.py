@@ -230,7 +230,7 @@ def test_main_is_told_of_the_begin_of_a_marked_segment(make_acts):
     notes = acts.show().notes
 
     (told,) = (note for note in notes if note.marked)
-    assert told in notes[1:3]  # laid ahead, but not before the pulse before it is the next one
+    assert told == notes[2]  # by when the pulse before it has been made, and not before
     assert told.told
 
 

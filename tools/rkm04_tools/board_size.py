@@ -17,7 +17,7 @@ BUDGETS = Path(__file__).resolve().parents[2] / "hal/stm32/budgets.json"
 
 # Calls through a pointer, which the compiler does not see: who calls, and what.
 POINTER_CALLS = {
-    "ask": {"rkm04_lay_isr"},
+    **{function: {"rkm04_lay_isr"} for function in ("ask", "append", "begin", "refill")},
     "stm32_tick_interrupt": {"rkm04_tick_isr"},
     "stm32_edge_interrupt": {"rkm04_tick_isr"},
     "look_at_inputs": {"rkm04_tick_isr"},

@@ -282,16 +282,14 @@ void step_channel_replace_brake(struct step_channel *channel, const struct step_
     hal_step_release();
 }
 
-/* The tick of a pulse that has been made, and that none follows: the one before the place from which the way leads on,
- * if no way leads back to it. */
-static uint32_t channel_tick_of(const struct step_channel *channel, uint64_t pulse)
+/* The tick of a pulse that has been made, and that none follows; `way` leads to it, or else it is the one before. */
+static uint32_t channel_tick_of(const struct step_channel *channel, uint64_t pulse, struct step_cursor *way)
 {
-    struct step_cursor cursor = *channel_base(channel, pulse);
-    if (pulse < step_cursor_pulse(&cursor)) {
-        return cursor.generator.tick - cursor.generator.interval;
+    if (pulse < step_cursor_pulse(way)) {
+        return way->generator.tick - way->generator.interval;
     }
-    cursor_advance_to(&cursor, channel, pulse);
-    return cursor.generator.tick;
+    cursor_advance_to(way, channel, pulse);
+    return way->generator.tick;
 }
 
 void step_channel_halt(struct step_channel *channel)
@@ -300,11 +298,10 @@ void step_channel_halt(struct step_channel *channel)
     struct step_cursor *cursor = &channel->cursor;
     unsigned waiting = step_channel_is_running(channel) ? hal_step_waiting(channel->motor) : 0;
     unsigned back = waiting != 0 ? hal_step_take_back(channel->motor, waiting) : 0;
-    cursor->end = step_cursor_pulse(cursor) - back;
+    uint64_t pulse = step_cursor_pulse(cursor) - back;
+    struct step_cursor way = *channel_base(channel, pulse);
+    cursor->end = pulse;
     cursor->left = 0;
-    if (back != 0) {
-        cursor->generator.tick = channel_tick_of(channel, cursor->end);
-    }
     atomic_store_explicit(&channel->head, cursor->tail, memory_order_relaxed);
     channel_keep_nothing(channel);
     channel->closed = true;
@@ -312,6 +309,9 @@ void step_channel_halt(struct step_channel *channel)
         hal_step_run(channel->motor);
     }
     hal_step_release();
+    if (back != 0) {
+        cursor->generator.tick = channel_tick_of(channel, pulse, &way);
+    }
 }
 
 uint64_t step_channel_pulses(const struct step_channel *channel)

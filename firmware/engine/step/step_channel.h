@@ -53,7 +53,7 @@ struct step_channel {
     _Atomic uint32_t head;  /* count of segments put into the queue; written by main */
     _Atomic uint32_t taken; /* count of segments that no way back leads over: what main may overwrite */
     _Atomic bool running;   /* a pulse is to come */
-    _Atomic bool marked;    /* a marked segment has been laid; main clears it */
+    _Atomic bool marked;    /* a marked segment has begun; main clears it */
     bool closed;            /* the motor brakes or has been halted: what was planned before is not wanted any more */
     uint8_t young;          /* which of `kept` is the younger one */
     int8_t direction;       /* +1 or -1 */
@@ -120,7 +120,8 @@ void step_channel_set_position(struct step_channel *channel, int64_t position_st
 /* The tick of the last pulse; of the start of the move if there was none. Not while running. */
 uint32_t step_channel_end_tick(const struct step_channel *channel);
 
-/* Whether the first pulse of a marked segment has been laid since the last call; main alone. */
+/* Whether a marked segment has begun since the last call: all pulses before it have been made, and its first ones are
+ * laid. Main alone. */
 bool step_channel_take_mark(struct step_channel *channel);
 
 /* Lays what is due next: what lay_isr of hal_run.h is for one motor. Wakes main where the move has ended, a marked

@@ -241,7 +241,7 @@ void test_a_queue_that_was_fed_too_late_goes_on_from_the_last_pulse(void)
     TEST_ASSERT_EQUAL_UINT64(5, step_channel_pulses(&channel));
 }
 
-/* The segment's first pulse is laid when `MARKED - LAID_AHEAD` others have been made. */
+/* The segment's first pulse; however far ahead pulses are laid, it is laid when those before it have been made. */
 enum {
     MARKED = LAID_AHEAD + 2
 };
@@ -256,20 +256,20 @@ static void begin_marked(void)
     step_channel_run(&channel);
 }
 
-void test_a_mark_is_not_seen_before_its_segment_is_laid(void)
+void test_a_mark_is_not_seen_before_its_segment_begins(void)
 {
     begin_marked();
 
-    make_pulses(1);
+    make_pulses(MARKED - 2);
 
     TEST_ASSERT_FALSE(step_channel_take_mark(&channel));
 }
 
-void test_a_mark_is_seen_once_when_its_segment_is_laid(void)
+void test_a_mark_is_seen_once_when_its_segment_begins(void)
 {
     begin_marked();
 
-    make_pulses(2);
+    make_pulses(MARKED - 1);
 
     TEST_ASSERT_TRUE(laid.main_has_work);
     TEST_ASSERT_TRUE(step_channel_take_mark(&channel));
