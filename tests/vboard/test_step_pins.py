@@ -43,6 +43,24 @@ def test_dir_stands_still_after_the_last_pulse_and_before_the_next(make_acts, na
         assert after - before < 6000
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_dir_does_not_turn_before_its_hold_time_is_over(make_acts, name):
+    acts: Acts = make_acts(name)
+    ticks = [READY + 20_000 * (i + 1) for i in range(10)]
+    for number, tick in enumerate(ticks):
+        acts.move(3, tick, backward=number % 2 != 0)
+        acts.wait(tick + 4 * number)
+        direct(acts, 3, number % 2 == 0)
+        acts.rest(3)
+
+    shown = acts.show()
+
+    holds = [at - tick for tick, (at, _) in zip(ticks, shown.directions[3], strict=True)]
+    assert shown.rises[3] == ticks
+    assert min(holds) >= HOLD_TICKS
+    assert max(holds) < HOLD_TICKS + 500
+
+
 def test_dir_turns_forth_and_back_and_pulses_count_so(make_acts):
     acts: Acts = make_acts()
     for number, backward in enumerate((False, True, True, False)):
