@@ -92,9 +92,9 @@ FAST = Train(trials=3000, pace_ticks=420, pulses=60, halt_ticks=30_000)
         (LONG, HALTS, []),
         (SHORT, FAST, []),
         (SHORT, replace(FAST, pace_ticks=110, pulses=200, trials=1000), []),
-        (SHORT, replace(FAST, together=4, lead_ticks=8000, trials=1000), []),
-        (SHORT, replace(FAST, together=4, lead_ticks=8000, trials=1000), ODD),
-        (LONG, replace(FAST, pace_ticks=440, together=4, lead_ticks=8000, trials=1000), []),
+        (SHORT, replace(FAST, together=4, lead_ticks=16_000, halt_ticks=40_000, trials=1000), []),
+        (SHORT, replace(FAST, together=4, lead_ticks=16_000, halt_ticks=40_000, trials=1000), ODD),
+        (LONG, replace(FAST, pace_ticks=440, together=4, lead_ticks=16_000, halt_ticks=40_000, trials=1000), []),
     ],
 )
 def test_pulses_that_are_taken_back_at_any_time_are_made_and_counted_or_neither(
