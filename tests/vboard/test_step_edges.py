@@ -94,7 +94,13 @@ FAST = Train(trials=3000, pace_ticks=420, pulses=60, halt_ticks=30_000)
         (SHORT, replace(FAST, pace_ticks=110, pulses=200, trials=1000), []),
         (SHORT, replace(FAST, together=4, lead_ticks=16_000, halt_ticks=40_000, trials=1000), []),
         (SHORT, replace(FAST, together=4, lead_ticks=16_000, halt_ticks=40_000, trials=1000), ODD),
-        (LONG, replace(FAST, pace_ticks=440, together=4, lead_ticks=16_000, halt_ticks=40_000, trials=1000), []),
+        (
+            LONG,
+            replace(
+                FAST, pace_ticks=440, together=4, lead_ticks=16_000, halt_ticks=40_000, trials=1000
+            ),
+            [],
+        ),
     ],
 )
 def test_pulses_that_are_taken_back_at_any_time_are_made_and_counted_or_neither(
@@ -129,7 +135,9 @@ def test_pulses_that_are_laid_just_in_time_or_late_are_whole_and_none_is_lost(
 
 @pytest.mark.parametrize("options", [[], ODD, FAST_BUS])
 def test_four_motors_that_are_late_together_lose_no_pulse(try_trains, options):
-    tried = try_trains(SHORT, replace(FAST, lead_ticks=500, trials=300, halt_ticks=0, together=4), *options)
+    tried = try_trains(
+        SHORT, replace(FAST, lead_ticks=500, trials=300, halt_ticks=0, together=4), *options
+    )
 
     assert tried.counted == tried.shown == [300 * FAST.pulses] * 4
     assert tried.late > 0

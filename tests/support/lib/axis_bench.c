@@ -74,8 +74,7 @@ static uint64_t main_pass(void *context)
 
 void axis_bench_init(struct axis_bench *bench)
 {
-    const struct hal_client client = {
-        .context = bench, .lay_isr = lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
+    const struct hal_client client = {.context = bench, .lay_isr = lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     host_machine_init(&bench->machine, epoch_random());
     bench->machine.listener = (struct host_listener){.context = bench, .trace = traced, .step = stepped};
     host_machine_select(&bench->machine);
