@@ -104,12 +104,12 @@ static void make_edge(struct host_machine *machine, unsigned motor)
     const struct host_listener *listener = &machine->listener;
     struct host_laid *laid = &machine->laid[motor];
     void (*tell)(void *, uint64_t, unsigned, bool) = machine->connected[motor] ? listener->step : listener->simulated;
-    laid->first++;
-    laid->count--;
     machine->pulses++;
     if (tell != NULL) {
         tell(listener->context, machine->now, motor, machine->backward[motor]);
     }
+    laid->first++;
+    laid->count--;
 }
 
 /* The interrupt comes with the edge, unless it is late. */

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -33,7 +34,7 @@ def test_the_table_tells_pulses_load_and_cycles(board_tool, write):
     assert (result.status, result.err) == (0, "")
     assert result.out.splitlines()[1].split()[-3:] == ["600", "600", "0"]
     assert "late steps: 0" in result.out
-    assert "step interrupt: 600 times, cycles" in result.out
+    assert re.search(r"step interrupt: [\d ]+ times, cycles \d+ at least", result.out)
     assert result.out.endswith("modelled: P = 3, 5 wait states\n")
 
 
