@@ -140,7 +140,9 @@ bool step_channel_find_pulse(const struct step_channel *channel, uint32_t since,
     bool came_after = made == step_cursor_pulse(cursor) && made > 0 && tick_is_before(since, cursor->generator.tick);
     if (running && made == step_cursor_pulse(cursor)) {
         cursor_advance_to(&next, channel, made + 1U);
-        *cursor = came_after && next.generator.interval >= (uint32_t)BACK_INTERVAL_TICKS ? *cursor : next;
+        if (!came_after || next.generator.interval < (uint32_t)BACK_INTERVAL_TICKS) {
+            *cursor = next;
+        }
     }
     return running;
 }

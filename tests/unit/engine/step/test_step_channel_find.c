@@ -142,3 +142,15 @@ void test_a_search_at_faster_pulses_tells_the_next_one(void)
 
     TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&cursor));
 }
+
+void test_a_search_after_the_last_pulse_of_which_the_channel_has_not_heard_tells_that_one(void)
+{
+    struct step_cursor cursor;
+    begin_move(3);
+    make_pulses(2);
+    laid.made++;
+
+    TEST_ASSERT_TRUE(step_channel_find_pulse(&channel, START + 3 * INTERVAL, &cursor));
+
+    TEST_ASSERT_EQUAL_UINT64(3, step_cursor_pulse(&cursor));
+}
