@@ -27,9 +27,9 @@ struct hal_step_room {
     bool main_has_work;           /* set by the client where main is to be woken */
 };
 
-/* Lays what is due of a motor that has none waiting, or of which some were taken back, and begins to ask for more. A
- * pulse is due less than 25 s ahead; one whose tick has gone by is made good at once and counted as late. Only while
- * hal_step_hold is in force. */
+/* Lays what is due of a motor, and goes on asking for more: where it begins, where pulses were taken back, and where
+ * what follows has changed. What lay_isr says of main is not looked at. A pulse is due less than 25 s ahead; one whose
+ * tick has gone by is made good at once and counted as late. Only while hal_step_hold is in force. */
 void hal_step_run(unsigned motor);
 
 /* Pulses laid that have not been made. Only while hal_step_hold is in force. */

@@ -1,7 +1,8 @@
 /*
  * What the files of this backend share. Who runs where:
  *
- *   priority 0  TIM2     stm32_step.c   masked only with all interrupts (PRIMASK), for less than 15 us
+ *   priority 0  TIM2     stm32_step.c   masked only with all interrupts (PRIMASK), for less than 2 us; for some 30 us
+ *                                       where pulses are taken back and others laid
  *   priority 1  USART    stm32_line.c
  *   priority 2  SysTick  stm32_tick.c   held off by main through BASEPRI, for less than 2 us
  *               EXTI     stm32_tick.c   likewise

@@ -17,6 +17,7 @@ from pathlib import Path
 
 from rkm04_tools.failure import Failure, reading_failed
 
+PROGRAM = "a program (.rks)"
 FILE_BYTES_MAX = 4_000_000
 """Far more than 700 commands with comments; a larger file is no program."""
 
@@ -81,17 +82,22 @@ class Source:
 
 
 def read_source(name: str | Path) -> Source:
-    """Read a program file, or standard input for `-`: UTF-8, or else Windows-1250, as the manual's
-    own programs are."""
+    """Read a program file, or standard input for `-`."""
+    return read_text(name, FILE_BYTES_MAX, "so it is not a program", PROGRAM)
+
+
+def read_text(name: str | Path, bytes_max: int, too_large: str, kind: str) -> Source:
+    """Read a file of a kind, or standard input for `-`: UTF-8, or else Windows-1250, as the
+    manual's own programs are."""
     path = named(str(name))
     try:
         with sys.stdin.buffer if is_standard_input(path) else path.open("rb") as file:
-            content = file.read(FILE_BYTES_MAX + 1)
+            content = file.read(bytes_max + 1)
     except OSError as error:
         raise reading_failed(path, error) from None
-    if len(content) > FILE_BYTES_MAX:
-        raise Failure(f"{path}: larger than {FILE_BYTES_MAX} bytes, so it is not a program")
-    if wrong := why_no_text(content):
+    if len(content) > bytes_max:
+        raise Failure(f"{path}: larger than {bytes_max} bytes, {too_large}")
+    if wrong := why_no_text(content, kind):
         raise Failure(f"{path}: {wrong}")
     return Source(str(path), decode(content))
 
@@ -108,7 +114,7 @@ def is_standard_input(path: Path) -> bool:
     return str(path) == STANDARD_INPUT
 
 
-def why_no_text(content: bytes) -> str:
+def why_no_text(content: bytes, kind: str = PROGRAM) -> str:
     """What a file is that is no text of 8-bit characters; empty for one that is."""
     if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return "this is UTF-16; save it as UTF-8 or ANSI"
@@ -117,7 +123,7 @@ def why_no_text(content: bytes) -> str:
         return "this is UTF-16 without a mark; save it as UTF-8 or ANSI"
     controls = len(content.translate(None, bytes(range(32, 256)) + TEXT_CONTROLS))
     if even or odd or controls > max(CONTROLS_MIN, len(content) // CONTROLS_PER_BYTES):
-        return "is not a text file; name a program (.rks)"
+        return f"is not a text file; name {kind}"
     return ""
 
 

@@ -30,7 +30,7 @@ struct axis_guards {
 };
 
 /*
- * One motor, about 1.7 kB. Who may call:
+ * One motor, about 1.8 kB. Who may call:
  *   step interrupt   axis_lay_isr
  *   tick interrupt   axis_sense_isr, also main before the interrupts start
  *   plan interrupt   axis_plan_isr

@@ -9,8 +9,8 @@
 
 static_assert((STEP_QUEUE_SEGMENTS & (STEP_QUEUE_SEGMENTS - 1)) == 0, "the ring's counters wrap with its size");
 
-/* No pulse is taken back where they come faster: half of that goes by until the last of four motors
- * has its turn. */
+/* Where pulses come faster, a stop is not looked for at one that has been made: half of that goes by until the last of
+ * four motors has its turn. */
 enum {
     BACK_INTERVAL_TICKS = 40 * TICKS_PER_US
 };

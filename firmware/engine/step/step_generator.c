@@ -100,15 +100,6 @@ uint32_t step_generator_search(struct step_generator *generator, uint32_t interv
                                                    : search_from(generator, interval);
 }
 
-void step_generator_back(struct step_generator *generator)
-{
-    struct search search = {.residual = generator->residual + STEP_QUANTA, .slope = generator->slope};
-    search_shorten(&search, generator->interval, generator->accel);
-    generator->residual = search.residual;
-    generator->slope = search.slope;
-    generator->tick -= generator->interval;
-}
-
 void step_generator_aim(struct step_segment *segment, uint32_t interval_ticks)
 {
     struct step_generator generator = {

@@ -45,10 +45,6 @@ void step_generator_start(struct step_generator *generator, uint32_t tick);
  * made. */
 void step_generator_join(struct step_generator *generator, const struct step_segment *segment, uint32_t made);
 
-/* Goes back to the pulse before, which must lie on the same segment. `interval` stays: a guess for
- * the next. */
-void step_generator_back(struct step_generator *generator);
-
 /* Moves a segment to its first pulse from a moment up to 25 s before it: coming in, residual and
  * slope are those at `tick`, and no pulse has been made. The first pulse comes about
  * `interval_ticks` later; nearer is found faster. */

@@ -4,11 +4,9 @@
  * noted stands in `notes`; what the pins have shown is known to the virtual board. Built with the image (target
  * step_acts_image).
  */
-#include "base_limits.h"
+#include "driver.h"
 #include "hal_board.h"
-#include "hal_run.h"
 #include "hal_step.h"
-#include "step_channel.h"
 #include "stm32_private.h"
 #include "stm32f4.h"
 
@@ -63,25 +61,7 @@ struct note notes[NOTES];
 
 void acts_done(void);
 
-static struct step_channel channels[UNIT_MOTORS];
 static unsigned noted;
-
-static unsigned lay_isr(void *context, unsigned motor, struct hal_step_room *room)
-{
-    (void)context;
-    return step_channel_lay_isr(&channels[motor], room);
-}
-
-static void tick_isr(void *context, uint64_t since_tick)
-{
-    (void)context;
-    (void)since_tick;
-}
-
-static void plan_isr(void *context)
-{
-    (void)context;
-}
 
 __attribute__((noinline)) void acts_done(void)
 {
@@ -215,14 +195,10 @@ static void do_driver(const struct act *act, unsigned motor)
 
 int main(void)
 {
-    static const struct hal_client client = {.lay_isr = lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     const struct act *act = acts;
     __asm__ volatile("" : "+r"(act)); /* as in the flash, not as the compiler knows it */
     hal_board_init();
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        step_channel_init(&channels[motor], motor);
-    }
-    hal_run_start(&client);
+    driver_start();
     for (; act->what != ACTS_END; act++) {
         do_channel(act, act->what >> 8 & 0xFFU);
         do_driver(act, act->what >> 8 & 0xFFU);

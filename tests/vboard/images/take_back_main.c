@@ -4,10 +4,8 @@
  * the channel is halted somewhere in it. What the channels have counted stands in `take_back_report`; what the pins
  * have shown is known to the virtual board. Built with the image (target take_back_image).
  */
-#include "base_limits.h"
+#include "driver.h"
 #include "hal_board.h"
-#include "hal_run.h"
-#include "step_channel.h"
 #include "step_scale.h"
 #include "stm32f4.h"
 
@@ -39,25 +37,6 @@ extern struct take_back_report take_back_report;
 struct take_back_report take_back_report;
 
 void take_back_done(void);
-
-static struct step_channel channels[UNIT_MOTORS];
-
-static unsigned lay_isr(void *context, unsigned motor, struct hal_step_room *room)
-{
-    (void)context;
-    return step_channel_lay_isr(&channels[motor], room);
-}
-
-static void tick_isr(void *context, uint64_t since_tick)
-{
-    (void)context;
-    (void)since_tick;
-}
-
-static void plan_isr(void *context)
-{
-    (void)context;
-}
 
 __attribute__((noinline)) void take_back_done(void)
 {
@@ -145,13 +124,9 @@ static void try_train(unsigned first, uint32_t *state)
 
 int main(void)
 {
-    static const struct hal_client client = {.lay_isr = lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     uint32_t state = setting()->seed;
     hal_board_init();
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        step_channel_init(&channels[motor], motor);
-    }
-    hal_run_start(&client);
+    driver_start();
     for (uint32_t trial = 0; trial < setting()->trials; trial++) {
         try_train(trial, &state);
         if (trial % FEED_TRIALS == 0) {

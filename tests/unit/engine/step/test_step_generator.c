@@ -382,33 +382,6 @@ void test_intervals_of_a_constant_speed_are_the_whole_ticks_of_a_step_or_one_mor
     TEST_ASSERT_EQUAL_UINT(TICK_HZ % 15999U, longer);
 }
 
-static void assert_goes_back(const struct motion *motion, uint32_t interval_ticks)
-{
-    begin(motion, interval_ticks);
-    (void)next_pulse();
-    for (unsigned k = 0; k < 1000; k++) {
-        struct step_generator before = generator;
-        (void)next_pulse();
-        struct step_generator back = generator;
-        step_generator_back(&back);
-        TEST_ASSERT_EQUAL_UINT64(before.residual, back.residual);
-        TEST_ASSERT_EQUAL_UINT64(before.slope, back.slope);
-        TEST_ASSERT_EQUAL_UINT32(before.tick, back.tick);
-        TEST_ASSERT_EQUAL_UINT32(generator.tick, step_generator_next(&back));
-    }
-}
-
-void test_a_step_back_leads_to_the_pulse_before_and_on_again(void)
-{
-    const struct motion up = {.speed_steps_per_s = 100, .accel_steps_per_s2 = 60000};
-    const struct motion down = {.speed_steps_per_s = 16000, .accel_steps_per_s2 = -60000};
-    const struct motion cruise = {.start_tick = UINT32_MAX - 1000U, .speed_steps_per_s = 15999};
-
-    assert_goes_back(&up, TICK_HZ / 200U);
-    assert_goes_back(&down, TICK_HZ / 16000U);
-    assert_goes_back(&cruise, TICK_HZ / 15999U);
-}
-
 void test_a_copy_goes_on_like_the_original(void)
 {
     const struct motion motion = {.speed_steps_per_s = 7, .accel_steps_per_s2 = 777};
