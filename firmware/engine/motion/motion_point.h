@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 #include "motion_time.h"
-#include "../step/step_channel.h"
+#include "../step/step_cursor.h"
 
 struct motion_point {
     struct motion_time time;

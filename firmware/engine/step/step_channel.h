@@ -16,7 +16,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "step_generator.h"
+#include "step_cursor.h"
 #include "step_segment.h"
 
 struct hal_step_room;
@@ -25,20 +25,6 @@ struct hal_step_room;
 enum {
     STEP_QUEUE_SEGMENTS = 32
 };
-
-/* How far the pulses have come: enough to look ahead at the pulses that follow. */
-struct step_cursor {
-    struct step_generator generator;
-    uint64_t end;  /* ordinal in the move of the last pulse on the present segment */
-    uint32_t left; /* pulses still to come on the present segment */
-    uint32_t tail; /* count of segments taken from the queue */
-};
-
-/* The ordinal in the move of the pulse that a cursor stands on; 0 before the first. */
-static inline uint64_t step_cursor_pulse(const struct step_cursor *cursor)
-{
-    return cursor->end - cursor->left;
-}
 
 /*
  * The way back from the pulse that was laid last is the way on from one before it, pulse by pulse, as exact as the
