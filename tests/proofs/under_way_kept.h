@@ -7,7 +7,15 @@
 #include "kept.h"
 #include "under_way.h"
 
-/*@ lemma keeps_short{A, B}: \forall struct motion_plan *plan;
+/*@ lemma keeps_limit{A, B}: \forall struct motion_order *order, integer i;
+        keeps_speeds{A, B}(order) && 0 <= i < MOTION_SECTIONS ==> limit_of{A}(order, i) == limit_of{B}(order, i);
+    lemma keeps_short_in{A, B}: \forall struct motion_order *order, integer i, speed2;
+        keeps_accel{A, B}(order) && 0 <= i < MOTION_SECTIONS && is_short_in{A}(order, i, speed2) ==>
+            is_short_in{B}(order, i, speed2);
+    lemma keeps_short_at{A, B}: \forall struct motion_plan *plan, integer i;
+        keeps_plan{A, B}(plan) && 0 <= \at(plan->first, A) <= i < MOTION_SECTIONS && is_short_ramped_at{A}(plan, i) ==>
+            is_short_ramped_at{B}(plan, i);
+    lemma keeps_short{A, B}: \forall struct motion_plan *plan;
         keeps_plan{A, B}(plan) && 0 <= \at(plan->first, A) && \at(plan->order.sections, A) <= MOTION_SECTIONS &&
         is_short_ramped{A}(plan) ==> is_short_ramped{B}(plan);
     lemma keeps_known{A, B}: \forall struct motion_plan *plan;
