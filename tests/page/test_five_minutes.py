@@ -76,7 +76,9 @@ def zoom_and_unzoom(page: ServicePage) -> None:
 
 
 def send(page: ServicePage) -> None:
+    before = page.answers.count()
     page.page.get_by_role("button", name="Send", exact=True).click()
+    expect(page.answers).to_have_count(before + 1)
 
 
 def see_it_run(page: ServicePage) -> None:
@@ -93,6 +95,7 @@ def see_it_run(page: ServicePage) -> None:
 
 def stop(page: ServicePage) -> None:
     page.page.keyboard.press("Escape")
+    expect(page.alarm).to_have_attribute("data-kind", "done")
     assert 0 < page.expect_standing() < 1500
 
 

@@ -9,6 +9,10 @@ from page_looks import AXE, CUT, OUTSIDE, OVER, SIZES, VIOLATIONS
 from playwright.sync_api import Browser, expect
 from service_page import Service, ServicePage, shown
 
+DRAWN = """() => new Promise((take) =>
+    requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(take))))"""
+"""Waits until what follows a new size is done, too."""
+
 
 @pytest.fixture(scope="module")
 def busy_page(browser: Browser, service: Service) -> Iterator[ServicePage]:
@@ -42,7 +46,7 @@ def test_nothing_is_cut_off_or_lies_over_something_else(busy_page, size, languag
     page = busy_page.page
     page.locator("#language").select_option(language)
     page.set_viewport_size({"width": size[0], "height": size[1]})
-    page.wait_for_timeout(150)
+    page.evaluate(DRAWN)
     assert page.evaluate(OUTSIDE) == []
     assert page.evaluate(OVER) == []
     assert page.evaluate(CUT) == []

@@ -49,7 +49,7 @@ def test_stop_goes_ahead_of_what_waits(page):
         page.page.locator("#send").click()
     page.page.locator("#stop").click()
     page.expect_standing()
-    assert page.sent.count("stop") == 1
+    page.expect_sent("stop", 1)
 
 
 def test_a_reload_in_the_middle_leaves_the_motion_alone_and_sends_nothing(page):

@@ -1,6 +1,7 @@
 // A stand-in for navigator.serial: one USB adapter, whose bytes go to a bridge (serial_bridge.py) over a WebSocket.
-// Tests change it by window.fakeSerial: `busy` lets open() fail, pull() pulls the cable, damage() is a character with a
-// framing error, `opened` are the options that it was opened with.
+// Tests change it by window.fakeSerial: `busy` lets open() fail, pull() pulls the cable, `lastWords` does so as soon as
+// these characters were sent, damage() is a character with a framing error, `opened` are the options that it was opened
+// with.
 (() => {
     const place = "PLACE";
 
@@ -9,6 +10,7 @@
         writable = null;
         busy = false;
         opened = [];
+        lastWords = null;
         #reader = null;
         #socket = null;
 
@@ -30,7 +32,7 @@
             socket.onmessage = ({ data }) => this.#reader?.enqueue(new Uint8Array(data));
             this.#socket = socket;
             this.#begin();
-            this.writable = new WritableStream({ write: (data) => socket.send(data) });
+            this.writable = new WritableStream({ write: (data) => this.#send(socket, data) });
         }
 
         async close() {
@@ -51,6 +53,14 @@
             const reader = this.#reader;
             this.#begin();
             reader.error(new DOMException("A framing error was detected.", "FramingError"));
+        }
+
+        #send(socket, data) {
+            socket.send(data);
+            if (this.lastWords !== null && String.fromCharCode(...data).includes(this.lastWords)) {
+                this.lastWords = null;
+                this.pull();
+            }
         }
 
         #begin() {

@@ -14,6 +14,7 @@ from websockets.sync.server import Server, ServerConnection, serve
 
 FAKE = Path(__file__).with_name("fake_serial.js")
 POLL_SECONDS = 0.01
+PATIENCE_SECONDS = 30
 
 
 class SerialBridge:
@@ -23,6 +24,8 @@ class SerialBridge:
         self.place = place
         self.silent = False
         self.sent = b""
+        self._is_free = threading.Event()
+        self._is_free.set()
         self._server: Server = serve(self._carry, "127.0.0.1", 0)
         self._thread = threading.Thread(target=self._server.serve_forever)
         self._thread.start()
@@ -38,8 +41,14 @@ class SerialBridge:
         self._server.shutdown()
         self._thread.join()
 
+    def wait_until_free(self) -> None:
+        """Wait until the page has let go, and all that it has said was passed on."""
+        assert self._is_free.wait(PATIENCE_SECONDS)
+
     def _carry(self, page: ServerConnection) -> None:
+        self._is_free.clear()
         with contextlib.ExitStack() as stack:
+            stack.callback(self._is_free.set)
             if self.place.startswith("socket://"):
                 line = stack.enter_context(connect(self.place)).fileno()
             else:

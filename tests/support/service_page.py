@@ -170,8 +170,20 @@ class ServicePage:
             self.page.wait_for_timeout(100)
         raise AssertionError(f"motor {motor} stays at {self.steps(motor)}, wanted beyond {steps}")
 
+    def expect_sent(self, kind: str, count: int) -> None:
+        """Wait until the page has sent so many of a type, and see that it sends no more."""
+        for _ in range(10 * PATIENCE_SECONDS):
+            if self.sent.count(kind) >= count:
+                break
+            self.page.wait_for_timeout(100)
+        self.page.wait_for_timeout(100)
+        assert self.sent.count(kind) == count
+
     def expect_standing(self, motor: int = 1) -> int:
-        """Wait until a motor stands; return where."""
+        """Wait until a motor is known to stand, and stays where it is; return where."""
+        expect(self.page.locator("#live")).to_have_attribute("data-fresh", "true")
+        card = self.page.locator(".card").nth(motor - 1)
+        expect(card).to_have_attribute("data-moving", "false")
         before = self.steps(motor)
         for _ in range(2 * PATIENCE_SECONDS):
             self.page.wait_for_timeout(500)

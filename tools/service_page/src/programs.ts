@@ -91,10 +91,14 @@ export class Programs {
             const isCommand = (event.ctrlKey || event.metaKey) && !event.altKey && !event.shiftKey;
             if (isCommand && event.key === "s") {
                 event.preventDefault();
-                void this.#save();
+                if (!event.repeat) {
+                    void this.#save();
+                }
             } else if (isCommand && event.key === "o") {
                 event.preventDefault();
-                file.click();
+                if (!event.repeat) {
+                    file.click();
+                }
             }
         });
         this.#examples.addEventListener("change", () => (this.#examples.selectedIndex = 0));
