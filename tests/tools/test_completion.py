@@ -24,14 +24,14 @@ def at(words: str) -> list[str]:
 def test_every_command_is_offered():
     names = {name for name, _ in LISTED}
 
-    assert set(at("")) | set(at("board ")) == names
+    assert set(at("")) | set(at("board ")) | set(at("machine ")) == names
     assert {"check", "sim", "send", "board", "completion"} <= set(at(""))
 
 
-@pytest.mark.parametrize(("name", "command"), LISTED, ids=[name for name, _ in LISTED])
-def test_every_option_is_offered(name, command):
+@pytest.mark.parametrize("command", [command for _, command in LISTED], ids=lambda c: c.prog)
+def test_every_option_is_offered(command):
     options = {o for action in command._actions for o in action.option_strings if o[:2] == "--"}
-    words = f"board {name}" if name in ("build", "size", "flash", "options") else name
+    words = command.prog.removeprefix(PARSER.prog).lstrip()
 
     assert set(at(f"{words} --")) == options
 

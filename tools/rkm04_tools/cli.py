@@ -15,6 +15,7 @@ from rkm04_tools.bringup import options as bringup_options
 from rkm04_tools.client_options import NODE_HELP, PORT_HELP, add_client_commands
 from rkm04_tools.compare import options as compare_options
 from rkm04_tools.failure import DONE, INTERRUPTED, NOT_SO, Failure
+from rkm04_tools.machine import options as machine_options
 from rkm04_tools.source import named
 
 SIM_NOTES = """\
@@ -178,6 +179,7 @@ def make_parser() -> Parser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_check(commands)
     _add_sim(commands)
+    machine_options.add_arguments(commands, add_command)
     _add_compare(commands)
     _add_bench(commands)
     _add_board(commands)
@@ -232,7 +234,10 @@ def _add_sim(commands: Commands) -> None:
     )
     command = _add(commands, "sim", _sim, title, f"{example}\n\n{SIM_NOTES.rstrip()}")
     command.add_argument(
-        "file", nargs="?", metavar="FILE", help="the program of motor 1; -: standard input"
+        "file",
+        nargs="?",
+        metavar="FILE",
+        help="the program of motor 1, or a machine file (.rkm); -: standard input",
     )
     options = [
         ("--motor", "N=FILE", "the program of motor N (1 to 4); may be repeated"),

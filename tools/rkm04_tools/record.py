@@ -100,6 +100,13 @@ def read_record(steps: Path, trace: Path, inputs: Path | None, seconds: float) -
     )
 
 
+def read_extremes(steps: Path) -> dict[int, tuple[int, int]]:
+    """The lowest and the highest position of each motor that has moved."""
+    _, table = _read_steps(steps)
+    found = {int(m): table[table[:, 1] == m, 2] for m in np.unique(table[:, 1])}
+    return {motor: (int(at.min()), int(at.max())) for motor, at in found.items()}
+
+
 def _read_steps(path: Path) -> tuple[int, Ints]:
     """Rate of the ticks, and rows of tick, motor, position."""
     try:

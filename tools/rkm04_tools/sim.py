@@ -8,7 +8,7 @@ import re
 import sys
 from argparse import Namespace
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -16,6 +16,7 @@ from typing import Any
 from rkm04_tools import host, sim_board
 from rkm04_tools.check import Checked, check_source, show_all
 from rkm04_tools.failure import DONE, NOT_SO, Failure, reading_failed, writing_failed
+from rkm04_tools.machine.simulation import Simulated, is_machine, read_simulated
 from rkm04_tools.plot import draw, require_format
 from rkm04_tools.record import read_record
 from rkm04_tools.report import Run, summary
@@ -50,22 +51,53 @@ class Outputs:
 def run(options: Namespace) -> int:
     """Check the programs, run them, and report."""
     outputs = Outputs(*(_path(options, name) for name in ("steps", "trace", "vcd", "plot")))
-    programs = _programs(options)
+    is_of_machine = is_machine(options.file)
+    programs = {} if is_of_machine else _programs(options)
     inputs = _path(options, "inputs")
     _require_seconds(options.seconds)
     _require_inputs(inputs)
-    _require_outputs(outputs, [*programs.values(), *([inputs] if inputs else [])])
+    read = [named(options.file)] if is_of_machine else [*programs.values()]
+    _require_outputs(outputs, [*read, *([inputs] if inputs else [])])
     if options.target == "stm32":
         _require_board_has(outputs)
+    if is_of_machine:
+        machine = read_simulated(options)
+        return _run_machine(machine, inputs, outputs, options) if machine else NOT_SO
     checked = {motor: check_source(read_source(path)) for motor, path in programs.items()}
     if not _all_good(checked.values()):
         return NOT_SO
     with TemporaryDirectory(prefix="rkm04-") as folder:
-        inputs = _plain(inputs, Path(folder))
-        if options.target == "stm32":
-            files = sim_board.Files(inputs, outputs.steps, outputs.vcd)
-            return _on_board(checked, files, options, Path(folder))
-        answer = _simulate(checked, inputs, options.seconds, outputs, Path(folder))
+        return _run(checked, inputs, outputs, options, Path(folder))
+
+
+def _run_machine(
+    machine: Simulated, inputs: Path | None, outputs: Outputs, options: Namespace
+) -> int:
+    """Run the programs of a machine with its inputs, unless others are named; see its limits."""
+    with TemporaryDirectory(prefix="rkm04-") as name:
+        folder = Path(name)
+        inputs = inputs or machine.inputs(folder)
+        if not machine.has_limits:
+            return _run(machine.programs, inputs, outputs, options, folder)
+        steps = outputs.steps or folder / "limits.csv"
+        _require_plain(steps, "the limits of the machine are looked for in it")
+        status = _run(machine.programs, inputs, replace(outputs, steps=steps), options, folder)
+        return max(status, machine.judge(steps))
+
+
+def _run(
+    checked: dict[int, Checked],
+    inputs: Path | None,
+    outputs: Outputs,
+    options: Namespace,
+    folder: Path,
+) -> int:
+    """Run programs without errors, and report."""
+    inputs = _plain(inputs, folder)
+    if options.target == "stm32":
+        files = sim_board.Files(inputs, outputs.steps, outputs.vcd)
+        return _on_board(checked, files, options, folder)
+    answer = _simulate(checked, inputs, options.seconds, outputs, folder)
     return _report(answer, checked, options)
 
 
@@ -137,8 +169,8 @@ def _require_outputs(outputs: Outputs, read: Sequence[Path]) -> None:
     if outputs.plot:
         require_format(outputs.plot)
     for path in filter(None, (outputs.steps, outputs.trace)):
-        if outputs.plot and path.exists() and not path.is_file():
-            raise Failure(f"{path}: --plot reads it back, so it must be a plain file")
+        if outputs.plot:
+            _require_plain(path, "--plot reads it back")
     known = {path.resolve(): "is read by this very command" for path in read}
     for path in outputs.wanted:
         if path.is_dir():
@@ -152,6 +184,11 @@ def _require_outputs(outputs: Outputs, read: Sequence[Path]) -> None:
         if path.resolve() in known:
             raise Failure(f"{path}: {known[path.resolve()]}; choose another name")
         known[path.resolve()] = "is named for two outputs"
+
+
+def _require_plain(path: Path, why: str) -> None:
+    if path.exists() and not path.is_file():
+        raise Failure(f"{path}: {why}, so it must be a plain file")
 
 
 def _require_board_has(outputs: Outputs) -> None:

@@ -18,6 +18,7 @@ from pathlib import Path
 from rkm04_tools.failure import Failure, reading_failed
 
 PROGRAM = "a program (.rks)"
+MACHINE_SUFFIX = ".rkm"
 FILE_BYTES_MAX = 4_000_000
 """Far more than 700 commands with comments; a larger file is no program."""
 
@@ -90,6 +91,8 @@ def read_text(name: str | Path, bytes_max: int, too_large: str, kind: str) -> So
     """Read a file of a kind, or standard input for `-`: UTF-8, or else Windows-1250, as the
     manual's own programs are."""
     path = named(str(name))
+    if kind == PROGRAM and path.suffix == MACHINE_SUFFIX:
+        raise Failure(f"{path}: is a machine file; rkm04 machine --help tells what is done with it")
     try:
         with sys.stdin.buffer if is_standard_input(path) else path.open("rb") as file:
             content = file.read(bytes_max + 1)
