@@ -127,6 +127,7 @@ struct host_machine {
     bool backward[UNIT_MOTORS]; /* DIR as set; the pin shows it while connected */
     bool led[UNIT_MOTORS];
     bool connected[UNIT_MOTORS]; /* STEP and DIR reach their pins; so they do at the start */
+    uint64_t enabled_tick;       /* when a motion has last switched the drivers on; TICK_NEVER: none has */
     bool step_held;
     bool plan_held;
     uint8_t inputs;

@@ -1,6 +1,7 @@
 #include "hal_step.h"
 
 #include "base_tick.h"
+#include "hal_driver.h"
 #include "host_private.h"
 
 /* Sets DIR and the connection of a motor; tells of what changes. */
@@ -21,6 +22,7 @@ static void set_pins(struct host_machine *machine, unsigned motor, bool backward
 
 void host_step_reset(struct host_machine *machine)
 {
+    machine->enabled_tick = TICK_NEVER;
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         machine->armed[motor] = TICK_NEVER;
         machine->step[motor] = TICK_NEVER;
@@ -173,6 +175,12 @@ void hal_step_connect(unsigned motor, bool connected)
     assert(motor < UNIT_MOTORS);
     assert(machine->armed[motor] == TICK_NEVER);
     set_pins(machine, motor, machine->backward[motor], connected);
+}
+
+void hal_driver_enable(void)
+{
+    struct host_machine *machine = host_current();
+    machine->enabled_tick = machine->now;
 }
 
 uint32_t hal_step_lead_ticks(void)

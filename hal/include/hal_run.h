@@ -17,7 +17,8 @@ struct hal_client {
     unsigned (*lay_isr)(void *context, unsigned motor, struct hal_step_room *room);
 
     /* Tick interrupt, every millisecond and whenever an input changes: senses the inputs for guards and stops. They had
-     * not changed before `since_tick`, the unit's time. */
+     * not changed before `since_tick`, the unit's time; an input that a board looks at every millisecond only has
+     * changed in the last one. */
     void (*tick_isr)(void *context, uint64_t since_tick);
 
     /* Plan interrupt, below the tick interrupt and above main: whenever hal_run_plan has asked for it. Plans, which

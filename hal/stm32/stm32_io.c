@@ -1,18 +1,20 @@
 #include "hal_io.h"
 
-#include <assert.h>
-
 #include "base_limits.h"
 #include "stm32_pins.h"
 #include "stm32_private.h"
 
-/* Eight pins in a row of one port: one look shows all inputs at the same moment. */
-static_assert(STM32_PIN_BI_2 == STM32_PIN_BI_1 + 1 && STM32_PIN_BI_3 == STM32_PIN_BI_1 + 2 &&
-                  STM32_PIN_BI_4 == STM32_PIN_BI_1 + 3 && STM32_PIN_BI_5 == STM32_PIN_BI_1 + 4 &&
-                  STM32_PIN_BI_6 == STM32_PIN_BI_1 + 5 && STM32_PIN_BI_7 == STM32_PIN_BI_1 + 6 &&
-                  STM32_PIN_BI_8 == STM32_PIN_BI_1 + 7 && STM32_PIN_BI_1 / 16 == STM32_PIN_BI_8 / 16,
-              "the inputs must be pins in a row of one port");
+/* Whether the inputs are eight pins in a row of one port, which one look shows, all at the same moment. */
+#define IN_A_ROW                                                                                                       \
+    (STM32_PIN_BI_2 == STM32_PIN_BI_1 + 1 && STM32_PIN_BI_3 == STM32_PIN_BI_1 + 2 &&                                   \
+     STM32_PIN_BI_4 == STM32_PIN_BI_1 + 3 && STM32_PIN_BI_5 == STM32_PIN_BI_1 + 4 &&                                   \
+     STM32_PIN_BI_6 == STM32_PIN_BI_1 + 5 && STM32_PIN_BI_7 == STM32_PIN_BI_1 + 6 &&                                   \
+     STM32_PIN_BI_8 == STM32_PIN_BI_1 + 7 && STM32_PIN_BI_1 / 16 == STM32_PIN_BI_8 / 16)
 
+static const uint8_t input_pins[UNIT_INPUTS] = {
+    STM32_PIN_BI_1, STM32_PIN_BI_2, STM32_PIN_BI_3, STM32_PIN_BI_4,
+    STM32_PIN_BI_5, STM32_PIN_BI_6, STM32_PIN_BI_7, STM32_PIN_BI_8,
+};
 static const uint8_t output_pins[UNIT_OUTPUTS] = {
     STM32_PIN_BO_1, STM32_PIN_BO_2, STM32_PIN_BO_3, STM32_PIN_BO_4,
     STM32_PIN_BO_5, STM32_PIN_BO_6, STM32_PIN_BO_7, STM32_PIN_BO_8,
@@ -23,9 +25,19 @@ static const uint8_t switch_pins[4] = {STM32_PIN_S1_1, STM32_PIN_S1_2, STM32_PIN
 /* All LEDs blink together: no crystal. What the unit says of them is not shown then. */
 static bool blinking;
 
+/* One pin after the other, within a microsecond. */
+static uint32_t gather_levels(void)
+{
+    uint32_t levels = 0;
+    for (unsigned i = 0; i < UNIT_INPUTS; i++) {
+        levels |= stm32_pin_read(input_pins[i]) ? UINT32_C(1) << i : 0U;
+    }
+    return levels;
+}
+
 uint8_t hal_io_read_inputs(void)
 {
-    uint32_t levels = GPIO_IDR(STM32_PIN_BI_1 / 16U) >> (STM32_PIN_BI_1 % 16U);
+    uint32_t levels = IN_A_ROW ? GPIO_IDR(STM32_PIN_BI_1 / 16U) >> (STM32_PIN_BI_1 % 16U) : gather_levels();
     return (uint8_t)(BOARD_BI_LEVEL == 1U ? levels : ~levels);
 }
 

@@ -33,7 +33,7 @@ struct use {
 
 static const struct use uses[] = {
 #define X(signal, port, pin, use) {(uint8_t)STM32_PIN_##signal, (uint8_t)USE_##use},
-    BOARD_PINS(X)
+    BOARD_PINS(X) BOARD_ENABLE_PINS(X)
 #undef X
 #define X(port, pin, what) {(uint8_t)(16 * STM32_PORT_##port + (pin)), (uint8_t)USE_IN_UP},
         BOARD_PULLED_UP(X)
@@ -81,6 +81,7 @@ void stm32_pins_make_safe(void)
 {
     start_ports();
     stm32_pin_write(STM32_PIN_LINE_DE, false);
+    stm32_driver_disable();
     for (unsigned i = 0; i < sizeof outputs; i++) {
         stm32_pin_write(outputs[i], BOARD_BO_LEVEL == 0U);
     }

@@ -15,12 +15,22 @@ enum {
     STM32_PORT_B,
     STM32_PORT_C,
     STM32_PORT_D,
-    STM32_PORT_E
+    STM32_PORT_E,
+    STM32_PORT_F,
+    STM32_PORT_G
 };
+
+/* A board without ENABLE outputs says nothing of them. */
+#ifndef BOARD_ENABLE_PINS
+#define BOARD_ENABLE_PINS(X)
+#define BOARD_ENABLE_LEVEL 0U
+#define BOARD_ENABLE_READY_US 0U
+#define BOARD_ENABLE_IDLE_MS 0U
+#endif
 
 enum stm32_pin {
 #define X(signal, port, pin, use) STM32_PIN_##signal = 16 * STM32_PORT_##port + (pin),
-    BOARD_PINS(X)
+    BOARD_PINS(X) BOARD_ENABLE_PINS(X)
 #undef X
 };
 

@@ -68,7 +68,11 @@ struct stm32_clock stm32_clock_start(void);
 /* stm32_board.c. Set at the start. */
 extern struct stm32_clock stm32_board_clock;
 
-/* stm32_pins.c. Safe: outputs off, the bus let go; before the start, too. */
+/* stm32_driver.c. Off, before the start, too; every millisecond: off where no motor has moved for long. */
+void stm32_driver_disable(void);
+void stm32_driver_tick(void);
+
+/* stm32_pins.c. Safe: outputs and motor drivers off, the bus let go; before the start, too. */
 void stm32_pins_start(void);
 void stm32_pins_make_safe(void);
 
@@ -82,6 +86,8 @@ void stm32_step_set_client(const struct hal_client *client);
 void stm32_step_make_safe(void);
 /* What the step interrupt has to do is more than 5 ms overdue: it does not run. */
 bool stm32_step_is_stuck(void);
+/* Nothing is laid, for any motor. */
+bool stm32_step_is_quiet(void);
 /* Pulses that were made later than asked for. */
 extern uint32_t stm32_late_steps;
 void stm32_step_interrupt(void);

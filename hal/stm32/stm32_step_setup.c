@@ -217,3 +217,12 @@ bool stm32_step_is_stuck(void)
     }
     return false;
 }
+
+bool stm32_step_is_quiet(void)
+{
+    bool quiet = true;
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        quiet = quiet && !stm32_step.channel[motor].active;
+    }
+    return quiet;
+}

@@ -58,6 +58,7 @@ static void every_millisecond(void)
     tick.time = time_now();
     tick.milliseconds++;
     stm32_line_tick();
+    stm32_driver_tick();
     stm32_watchdog_tick();
     if (!tick.crystal) {
         stm32_io_blink(tick.milliseconds / BLINK_MS % 2U != 0);

@@ -124,7 +124,7 @@ FIRST = "X(STEP_1, A, 0, TIM5_CH1)"
         (FIRST, "X(STEP_1, A, 15, TIM2_CH1)", "STEP_1: PA15 is pulled up"),
         ("X(BI_1, C, 0, IN_UP)", "X(BI_1, C, 0, OUT)", "BI_1 cannot be OUT"),
         ("X(BI_1, C, 0, IN_UP)", "", "BI_1 has no pin"),
-        ("X(BI_1, C, 0, IN_UP)", "X(BI_1, B, 3, IN_UP)", "BI_1 and BI_4 share line 3 for edges"),
+        ("X(S1_1, B, 0, IN_UP)", "X(S1_1, B, 0, IN_UP) X(EN_1, B, 6, OUT)", "ENABLE is EN_ALL, or"),
         ("X(BI_1, C, 0, IN_UP)", "X(BI_9, C, 0, IN_UP)", "BI_9 is not a signal"),
         ('"LQFP64"', '"LQFP65"', "BOARD_PACKAGE must be one of"),
     ],
@@ -144,6 +144,26 @@ def test_a_step_pin_may_be_a_channel_of_either_timer(pin: str) -> None:
     errors = list(board_pins.find_errors(GOOD.replace(FIRST, f"X(STEP_1, {pin})")))
 
     assert [e for e in errors if "STEP_1" in e and "used twice" not in e] == []
+
+
+def test_inputs_may_be_on_any_pins_and_the_first_of_those_that_share_a_line_has_it() -> None:
+    header = GOOD.replace("X(BI_5, C, 4, IN_UP)", "X(BI_5, B, 3, IN_UP)")
+
+    assert header != GOOD
+    assert list(board_pins.find_errors(header)) == []
+    assert board_header.inputs_without_edges(board_header.read_board(header).pins) == ["BI_5"]
+    assert board_header.inputs_without_edges(board_header.read_board(GOOD).pins) == []
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        "X(EN_ALL, B, 6, OUT)",
+        "X(EN_1, B, 6, OUT) X(EN_2, B, 7, OUT) X(EN_3, C, 12, OUT) X(EN_4, D, 2, OUT)",
+    ],
+)
+def test_enable_is_one_pin_or_one_of_each_motor(rows: str) -> None:
+    assert list(board_pins.find_errors(f"{GOOD}#define BOARD_ENABLE_PINS(X) {rows}\n")) == []
 
 
 def test_a_pin_that_a_part_of_the_board_takes_is_found() -> None:
@@ -187,3 +207,30 @@ def test_levels_that_do_not_fit_the_supply_do_not_compile(
 
     assert done.returncode == 1
     assert complaint in done.stderr
+
+
+def test_the_pins_of_a_board_are_shown_with_what_the_hardware_makes_of_them(
+    tool: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "odd").mkdir()
+    enables = (
+        "#define BOARD_ENABLE_PINS(X) X(EN_ALL, B, 6, OUT)\n#define BOARD_ENABLE_LEVEL 0U\n"
+        "#define BOARD_ENABLE_READY_US 150U\n#define BOARD_ENABLE_IDLE_MS 2500U\n"
+    )
+    header = GOOD.replace("X(BI_5, C, 4, IN_UP)", "X(BI_5, B, 3, IN_UP)")
+    (tmp_path / "odd" / "board.h").write_text(header + enables)
+    monkeypatch.setattr(board, "BOARDS", tmp_path)
+
+    rows = tool("board", "pins", "--board", "odd", "--json").json["pins"]
+    shown = {row["signal"]: (row["pin"], row["one"], row["what"]) for row in rows}
+    lines = tool("board", "pins", "--board", "odd").out.splitlines()
+
+    assert shown["STEP_1"] == ("PA0", "high", "TIM5 channel 1, class 1, each edge on its tick")
+    assert shown["BI_4"] == ("PC3", "low", "an edge acts at once")
+    assert shown["BI_5"][2] == "looked at every millisecond, as BI_4 has its line for edges"
+    assert shown["EN_ALL"][1] == "low"
+    assert shown["EN_ALL"][2] == (
+        "on 150 us before a motion's first pulse, off 2.5 s after the last motion"
+    )
+    assert len(lines) == 1 + len(rows)
+    assert lines[1].split()[:3] == ["STEP_1", "PA0", "high"]

@@ -32,9 +32,11 @@ LINE_PINS = {
 }
 
 PORT_A_TO_C = {f"{port}{pin}" for port in "ABC" for pin in range(16)}
+PORT_A_TO_G = {f"{port}{pin}" for port in "ABCDEFG" for pin in range(16)}
 PACKAGES = {
     "LQFP64": PORT_A_TO_C | {"D2"},
     "LQFP100": PORT_A_TO_C | {f"{port}{pin}" for port in "DE" for pin in range(16)},
+    "LQFP144": PORT_A_TO_G,
 }
 DEBUG = {"A13": "SWDIO", "A14": "SWCLK"}
 
@@ -43,6 +45,7 @@ SIGNALS = [
     *(f"{name}_{i}" for name in ("BI", "BO") for i in range(1, 9)),
     *("LINE_DE", "LINE_TX", "LINE_RX"),
 ]
+ENABLES = [["EN_ALL"], [f"EN_{i}" for i in range(1, 5)]]
 INPUTS = {"BI", "S1"}
 
 # RM0090 8.3.2: pins of the debug port that are pulled up from a reset on, until the firmware has
@@ -51,12 +54,15 @@ PULLED_UP = {"A15": "JTDI", "B4": "NJTRST"}
 SAFE_AT_RESET = {"STEP", "DIR", "BO", "LINE"}
 
 
-def use_errors(pin: Pin, line: str) -> Iterator[str]:
+def use_errors(pin: Pin, line: str, step_class: str) -> Iterator[str]:
     """Whether the pin can do what its signal needs."""
     kind, _, which = pin.signal.partition("_")
     if kind in SAFE_AT_RESET and pin.pin in PULLED_UP:
         yield f"{pin.signal}: P{pin.pin} is pulled up at reset as {PULLED_UP[pin.pin]}"
-    if kind == "STEP":
+    if kind == "STEP" and step_class == "2":
+        if pin.use != "GPIO":
+            yield f"{pin.signal} must be GPIO, as BOARD_STEP_CLASS says, not {pin.use}"
+    elif kind == "STEP":
         if pin.use not in TIMER_CHANNELS:
             yield f"{pin.signal} must be one of {', '.join(TIMER_CHANNELS)}, not {pin.use}"
         elif pin.pin not in TIMER_CHANNELS[pin.use]:
@@ -70,14 +76,11 @@ def use_errors(pin: Pin, line: str) -> Iterator[str]:
         yield f"{pin.signal} cannot be {pin.use}"
 
 
-def edge_errors(pins: list[Pin]) -> Iterator[str]:
-    """Pins with the same number on different ports share a line (RM0090 section 12.2.5)."""
-    owners: dict[str, Pin] = {}
-    for pin in pins:
-        if pin.signal.startswith("BI_"):
-            owner = owners.setdefault(pin.pin[1:], pin)
-            if owner.pin != pin.pin:
-                yield f"{owner.signal} and {pin.signal} share line {pin.pin[1:]} for edges"
+def enable_errors(names: list[str]) -> Iterator[str]:
+    """A board may switch the drivers on: all by one pin, or each by one of its own."""
+    found = sorted(name for name in names if name.startswith("EN_"))
+    if found and found not in ENABLES:
+        yield f"ENABLE is EN_ALL, or EN_1 to EN_4, not {', '.join(found)}"
 
 
 def channel_errors(pins: list[Pin]) -> Iterator[str]:
@@ -93,8 +96,13 @@ def find_errors(text: str) -> Iterator[str]:
     package = board.values.get("BOARD_PACKAGE", "")
     if package not in PACKAGES:
         yield f"BOARD_PACKAGE must be one of {', '.join(PACKAGES)}"
+    step_class = board.values.get("BOARD_STEP_CLASS", "1")
+    if step_class not in ("1", "2"):
+        yield "BOARD_STEP_CLASS must be 1 or 2"
     names = [pin.signal for pin in board.pins]
-    for name in sorted(set(names) ^ set(SIGNALS)):
+    yield from enable_errors(names)
+    own = {name for name in names if not name.startswith("EN_")}
+    for name in sorted(own ^ set(SIGNALS)):
         yield f"{name} {'is not a signal' if name in names else 'has no pin'}"
     owners: dict[str, str] = {}
     for pin in board.pins:
@@ -105,8 +113,7 @@ def find_errors(text: str) -> Iterator[str]:
             yield f"{pin.signal}: {package} has no P{pin.pin}"
         if occupant := board.taken.get(pin.pin) or DEBUG.get(pin.pin):
             yield f"{pin.signal}: P{pin.pin} belongs to {occupant}"
-        yield from use_errors(pin, f"USART{board.values.get('BOARD_USART')}")
-    yield from edge_errors(board.pins)
+        yield from use_errors(pin, f"USART{board.values.get('BOARD_USART')}", step_class)
     yield from channel_errors(board.pins)
 
 

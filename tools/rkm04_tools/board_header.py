@@ -28,6 +28,16 @@ class Board:
     values: dict[str, str]
 
 
+def inputs_without_edges(pins: list[Pin]) -> list[str]:
+    """Inputs whose line for edges another one has: pins with the same number on different ports
+    share one (RM0090 section 12.2.5), and the first has it."""
+    owners: dict[str, str] = {}
+    inputs = [pin for pin in pins if pin.signal.startswith("BI_")]
+    return [
+        pin.signal for pin in inputs if owners.setdefault(pin.pin[1:], pin.signal) != pin.signal
+    ]
+
+
 def read_board(text: str) -> Board:
     pins = [Pin(m[1], m[2] + m[3], m[4]) for m in PIN.finditer(text)]
     taken = {m[1] + m[2]: m[3] for m in TAKEN.finditer(text)}

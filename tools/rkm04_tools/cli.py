@@ -10,7 +10,7 @@ from difflib import get_close_matches
 from functools import partial
 from typing import Any, NoReturn, TypeAlias
 
-from rkm04_tools import bench, board, board_options, check, completion, serve
+from rkm04_tools import bench, board, board_options, board_wiring, check, completion, serve
 from rkm04_tools.bringup import options as bringup_options
 from rkm04_tools.client_options import NODE_HELP, PORT_HELP, add_client_commands
 from rkm04_tools.compare import options as compare_options
@@ -334,7 +334,7 @@ stm32flash does not tell it."""
 
 
 def _add_board(commands: Commands) -> None:
-    """The four of them."""
+    """The five of them."""
     title = "build, measure and flash the firmware of a board"
     command = commands.add_parser("board", help=title, description=title, allow_abbrev=False)
     actions = command.add_subparsers(metavar="ACTION", required=True)
@@ -348,6 +348,8 @@ def _add_board(commands: Commands) -> None:
         _add(actions, "options", board_options.run,
              "show the option bytes of the part, and set its brown-out reset",
              "rkm04 board options --board f407-discovery"),
+        _add(actions, "pins", board_wiring.run, "which signal is on which pin, and how exact it is",
+             "rkm04 board pins --board f407-discovery"),
     ]  # fmt: skip
     for part in parts:
         part.add_argument("--board", metavar="NAME", default=board.DEFAULT_BOARD,
@@ -356,8 +358,8 @@ def _add_board(commands: Commands) -> None:
         part.add_argument("--image", choices=board.IMAGES, default=board.UNIT,
                           help="that of the unit, or the one a new board is tried with "
                                f"(default: {board.UNIT})")  # fmt: skip
-    board_options.add_arguments(parts[-1])
-    flash = parts[-2]
+    board_options.add_arguments(parts[3])
+    flash = parts[2]
     flash.epilog = f"{BOOT0}\n\n{flash.epilog}"
     flash.add_argument("--small", action="store_true",
                        help="a part of less than 1 MB will do: no stored programs")  # fmt: skip

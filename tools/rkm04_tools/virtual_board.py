@@ -23,8 +23,11 @@ MODEL = "modelled: P = 3, 5 wait states"
 # The names of a board header, and those of the virtual board.
 NAMES = {
     "STEP": "m{}_step", "DIR": "m{}_dir", "LED": "m{}_led", "BI": "bi{}", "BO": "bo{}",
-    "S1": "s1_{}",
+    "S1": "s1_{}", "EN": "m{}_en",
 }  # fmt: skip
+
+LEVELS = {"EN": "ENABLE"}
+"""As a board header names the level of a kind, where not as its wires."""
 
 
 def pins(board: Board) -> str:
@@ -32,12 +35,13 @@ def pins(board: Board) -> str:
     lines = []
     for pin in board.pins:
         kind, _, which = pin.signal.partition("_")
-        level = board.values.get(f"BOARD_{kind}_LEVEL", "1U")
+        level = board.values.get(f"BOARD_{LEVELS.get(kind, kind)}_LEVEL", "1U")
         if pin.signal == "LINE_DE":
             lines.append(f"de P{pin.pin}")
         elif kind in NAMES:
             low = " low" if level == "0U" else ""
-            lines.append(f"{NAMES[kind].format(which)} P{pin.pin}{low}")
+            number = "1" if which == "ALL" else which
+            lines.append(f"{NAMES[kind].format(number)} P{pin.pin}{low}")
     usart = board.values["BOARD_USART"].rstrip("U")
     return "\n".join([*lines, f"line USART{usart}", ""])
 

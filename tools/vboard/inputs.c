@@ -112,6 +112,9 @@ bool inputs_open(struct inputs *inputs, unsigned node, const char *path)
     for (unsigned i = 0; i < PINS_INPUTS; i++) {
         set_signal(inputs, SIGNAL_INPUT + i, false, 0);
     }
+    for (unsigned i = 0; i < PINS_MOTORS; i++) {
+        set_signal(inputs, SIGNAL_ENABLE + i, false, 0); /* the pull of a driver; a pin that is an output wins */
+    }
     for (unsigned i = 0; i < PINS_SWITCHES; i++) {
         set_signal(inputs, SIGNAL_SWITCH + i, (node - 1U) >> i & 1U, 0);
     }

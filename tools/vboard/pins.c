@@ -19,10 +19,10 @@ struct group {
 };
 
 static const struct group groups[] = {
-    {"m", "_step", SIGNAL_STEP, PINS_MOTORS},  {"m", "_dir", SIGNAL_DIRECTION, PINS_MOTORS},
-    {"m", "_led", SIGNAL_LED, PINS_MOTORS},    {"bi", "", SIGNAL_INPUT, PINS_INPUTS},
-    {"bo", "", SIGNAL_OUTPUT, PINS_OUTPUTS},   {"de", "", SIGNAL_DRIVER, 0},
-    {"s1_", "", SIGNAL_SWITCH, PINS_SWITCHES},
+    {"m", "_step", SIGNAL_STEP, PINS_MOTORS}, {"m", "_dir", SIGNAL_DIRECTION, PINS_MOTORS},
+    {"m", "_led", SIGNAL_LED, PINS_MOTORS},   {"bi", "", SIGNAL_INPUT, PINS_INPUTS},
+    {"bo", "", SIGNAL_OUTPUT, PINS_OUTPUTS},  {"de", "", SIGNAL_DRIVER, 0},
+    {"m", "_en", SIGNAL_ENABLE, PINS_MOTORS}, {"s1_", "", SIGNAL_SWITCH, PINS_SWITCHES},
 };
 
 static const char *const usarts[] = {"USART1", "USART2", "USART3"};
@@ -91,7 +91,7 @@ static const char *take_line(struct pins *pins, const char *name, const char *pl
     }
     unsigned signal = find_signal(name);
     if (signal == SIGNAL_NONE) {
-        return "no such signal; m1_step, m1_dir, m1_led, bi1, bo1, de, s1_1 and line are known";
+        return "no such signal; m1_step, m1_dir, m1_led, m1_en, bi1, bo1, de, s1_1 and line are known";
     }
     struct pin pin;
     if (!pins_read_name(place, &pin)) {

@@ -26,7 +26,8 @@ enum signal {
     SIGNAL_INPUT = SIGNAL_LED + PINS_MOTORS,
     SIGNAL_OUTPUT = SIGNAL_INPUT + PINS_INPUTS,
     SIGNAL_DRIVER = SIGNAL_OUTPUT + PINS_OUTPUTS, /* of the line: 1 sends */
-    SIGNAL_SWITCH = SIGNAL_DRIVER + 1,            /* S1-1 to S1-4: 1 is closed */
+    SIGNAL_ENABLE = SIGNAL_DRIVER + 1,            /* of the motor drivers */
+    SIGNAL_SWITCH = SIGNAL_ENABLE + PINS_MOTORS,  /* S1-1 to S1-4: 1 is closed */
     SIGNALS = SIGNAL_SWITCH + PINS_SWITCHES,
     SIGNAL_NONE = SIGNALS,
 };

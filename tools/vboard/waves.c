@@ -28,6 +28,7 @@ static void declare_all(struct waves *waves)
         declare(waves, VCD_WIRE, SIGNAL_STEP + i, "m", i, "_step");
         declare(waves, VCD_WIRE, SIGNAL_DIRECTION + i, "m", i, "_dir");
         declare(waves, VCD_WIRE, SIGNAL_LED + i, "m", i, "_led");
+        declare(waves, VCD_WIRE, SIGNAL_ENABLE + i, "m", i, "_en");
     }
     for (unsigned i = 0; i < PINS_INPUTS; i++) {
         declare(waves, VCD_WIRE, SIGNAL_INPUT + i, "bi", i, "");

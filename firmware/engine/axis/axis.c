@@ -4,6 +4,7 @@
 
 #include "axis_private.h"
 #include "base_tick.h"
+#include "hal_driver.h"
 #include "hal_run.h"
 #include "hal_step.h"
 #include "hal_time.h"
@@ -69,6 +70,7 @@ static int64_t signed_steps(const struct axis *axis, uint64_t steps)
 /* An input that changes meanwhile finds the motor standing, and is looked at once more when it moves. */
 static void start(struct axis *axis, uint64_t start_tick)
 {
+    hal_driver_enable();
     motion_plan_begin(&axis->plan, &axis->order, start_tick);
     for (unsigned i = 0; i < START_SEGMENTS; i++) {
         (void)axis_feed_segment(axis);

@@ -45,6 +45,16 @@
     X(S1_3, E, 6, IN_UP)                                                                                               \
     X(S1_4, E, 7, IN_UP)
 
+/* ENABLE of the drivers: one for each, or EN_ALL. They go on so long before a first pulse, 200 us at most, and off when
+ * no motor has moved for the idle time; 0: never. */
+#define BOARD_ENABLE_PINS(X)                                                                                           \
+    X(EN_1, D, 0, OUT)                                                                                                 \
+    X(EN_2, D, 1, OUT)                                                                                                 \
+    X(EN_3, D, 2, OUT)                                                                                                 \
+    X(EN_4, D, 3, OUT)
+#define BOARD_ENABLE_READY_US 200U
+#define BOARD_ENABLE_IDLE_MS 60000U
+
 /* Pins that parts on the board drive or load; checked, not used. */
 #define BOARD_TAKEN(X)                                                                                                 \
     X(A, 0, "button B1")                                                                                               \
@@ -86,6 +96,7 @@
  * ground. */
 #define BOARD_STEP_LEVEL 1U
 #define BOARD_DIR_LEVEL 1U
+#define BOARD_ENABLE_LEVEL 0U
 #define BOARD_BI_LEVEL 0U
 #define BOARD_BO_LEVEL 1U
 #define BOARD_LED_LEVEL 1U

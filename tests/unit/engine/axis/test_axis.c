@@ -39,6 +39,17 @@ void test_a_move_makes_its_steps(void)
     axis_bench_assert_cause(&bench, AXIS_CAUSE_NONE);
 }
 
+void test_the_drivers_are_switched_on_when_a_move_begins(void)
+{
+    TEST_ASSERT_EQUAL_UINT64(TICK_NEVER, bench.machine.enabled_tick);
+
+    axis_bench_run_until(&bench, 5 * TICKS_PER_MS);
+    start(&axis_bench_trapezoid);
+    axis_bench_run(&bench);
+
+    TEST_ASSERT_EQUAL_UINT64(5 * TICKS_PER_MS, bench.machine.enabled_tick);
+}
+
 void test_a_move_is_started_with_its_first_segment_and_main_lays_the_others(void)
 {
     start(&axis_bench_trapezoid);

@@ -40,6 +40,7 @@ static void assert_no_step_at_start(struct axis_guards guards, uint8_t inputs, e
 
     axis_bench_assert_steps(&bench, 0);
     axis_bench_assert_cause(&bench, cause);
+    TEST_ASSERT_EQUAL_UINT64(TICK_NEVER, bench.machine.enabled_tick);
     TEST_ASSERT_EQUAL_UINT64(bench.machine.epoch, axis_end_tick(&bench.axis));
 }
 

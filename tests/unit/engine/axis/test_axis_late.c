@@ -1,4 +1,5 @@
 #include "base_tick.h"
+#include "mock_hal_driver.h"
 #include "mock_hal_run.h"
 #include "mock_hal_step.h"
 #include "mock_hal_time.h"
@@ -12,6 +13,7 @@
 
 void setUp(void)
 {
+    hal_driver_enable_Ignore();
     late_rig_init();
 }
 

@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "base_tick.h"
+#include "mock_hal_driver.h"
 #include "mock_hal_run.h"
 #include "mock_hal_step.h"
 #include "mock_hal_time.h"
@@ -21,6 +22,7 @@ static const struct motion_order ramped = {
 
 void setUp(void)
 {
+    hal_driver_enable_Ignore();
     late_rig_init();
 }
 

@@ -1,4 +1,5 @@
 #include "base_tick.h"
+#include "mock_hal_driver.h"
 #include "mock_hal_run.h"
 #include "mock_hal_step.h"
 #include "mock_hal_time.h"
@@ -64,6 +65,12 @@ static void call_seen(void)
     let_through();
 }
 
+static void enable_seen(int call)
+{
+    (void)call;
+    call_seen();
+}
+
 static void hold_seen(int count)
 {
     (void)count;
@@ -125,6 +132,7 @@ void setUp(void)
     stops_traced = 0;
     laid_init(0, (uint32_t)now, lay);
     hal_step_lead_ticks_IgnoreAndReturn(0);
+    hal_driver_enable_Stub(enable_seen);
     hal_step_hold_Stub(hold_seen);
     hal_step_release_Stub(release_seen);
     hal_run_hold_plan_Stub(hold_plan_seen);

@@ -54,7 +54,9 @@ static void pause_at(uint64_t ms)
 
 static void go_on(void)
 {
+    bench.machine.enabled_tick = TICK_NEVER;
     axis_go_on(&bench.axis, hal_time_now());
+    TEST_ASSERT_EQUAL_UINT64(bench.machine.now, bench.machine.enabled_tick);
 }
 
 void test_a_motion_that_is_gone_on_with_ends_where_it_would_have(void)
