@@ -25,6 +25,7 @@ LONG = "\\ C100 S1000 V1000 A1000 F1000000 R"
 NOT_KNOWN = "STATE NOT KNOWN: the line was lost. A STOP IS NOT CONFIRMED: use the emergency stop"
 SEED = 5
 SENDS_MAX = 3
+UNSENT = "the unit was not reached at that time, so this was not sent"
 SCANS_MAX = 3
 UNDER_WAY_MAX = 1
 """Frames that may be on their way when a stop is asked for; without haste there are three more."""
@@ -124,6 +125,18 @@ def send(page: Page, text: str) -> None:
         if "sent and accepted" in last_answer(page):
             return
     raise AssertionError(last_answer(page))
+
+
+def send_once(page: Page) -> None:
+    """Send what is shown; again only if it was not sent, as the machine was too busy for a look."""
+    for _ in range(SENDS_MAX):
+        expect(page.locator("#state")).to_have_attribute("data-kind", "good")
+        page.locator("#log-clear").click()
+        page.locator("#send").click()
+        expect(page.locator("#log .log-item")).to_have_count(1)
+        if UNSENT not in last_answer(page):
+            break
+    assert "sent and accepted" in last_answer(page), last_answer(page)
 
 
 def scan(page: Page, *nodes: int) -> None:
@@ -350,7 +363,7 @@ def test_a_stop_is_confirmed_by_every_unit_that_has_answered(open_page, tmp_path
         expect(page.locator("#alarm")).to_have_attribute("data-kind", "done")
         assert {"node 3", "node 5"} <= set(re.findall(r"node \d", page.inner_text("#alarm")))
         for node in (NODE, OTHER):
-            assert messages_to(node, bridge.sent) == [b"\x020K"]
+            assert set(messages_to(node, bridge.sent)) == {K.encode()}
     finally:
         bridge.close()
         units.end()
@@ -375,9 +388,7 @@ def test_noise_lost_bytes_and_echoes_are_made_good_by_repeats(open_page, tmp_pat
             sent += 1
             assert sent <= 10 * PIECES
             write(page, "\\ F3 R")
-            page.locator("#send").click()
-            expect(page.locator("#log .log-item")).to_have_count(sent + 2)
-            assert "sent and accepted" in last_answer(page), last_answer(page)
+            send_once(page)
             expect(page.locator("#position-1")).to_have_text(str(3 * sent))
     finally:
         bridge.close()
