@@ -1,10 +1,27 @@
 // Bundles the page into the directory $RKM04_SERVICE_OUT: index.html, page.js, page.css, engine.js (the
 // worker of a page without a service) and icon.svg, nothing else.
+import Ajv from "ajv/dist/2020.js";
+import standaloneCode from "ajv/dist/standalone/index.js";
 import { build } from "esbuild";
-import { copyFile, mkdir } from "node:fs/promises";
+import { copyFile, mkdir, readFile } from "node:fs/promises";
 import { join } from "node:path";
 
 const out = process.env.RKM04_SERVICE_OUT ?? "../../build/service";
+
+/** The schema of machine files as code: the page may not make code of a text itself. */
+async function machineRules() {
+    const ajv = new Ajv({ allErrors: true, verbose: true, code: { source: true, esm: true } });
+    const schema = JSON.parse(await readFile("src/machine.schema.json", "utf8"));
+    return { contents: standaloneCode(ajv, ajv.compile(schema)), resolveDir: process.cwd() };
+}
+
+const rules = {
+    name: "machine-rules",
+    setup(builder) {
+        builder.onResolve({ filter: /^machine-rules$/ }, () => ({ path: "machine-rules", namespace: "rules" }));
+        builder.onLoad({ filter: /./, namespace: "rules" }, machineRules);
+    },
+};
 
 await mkdir(out, { recursive: true });
 await build({
@@ -13,6 +30,7 @@ await build({
         { in: "style.css", out: "page" },
     ],
     outdir: out,
+    plugins: [rules],
     bundle: true,
     minify: true,
     format: "esm",

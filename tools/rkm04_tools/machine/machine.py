@@ -1,7 +1,7 @@
 """A machine file: reading, checking and writing it.
 
 What is not understood is refused as a whole, so that saving a machine never drops a part of it. The
-rules are in `schema.json`, for the page as well.
+rules are in the schema, which the page has been made with, too.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ FORMAT, VERSION = "rkm04-machine", 1
 FILE_BYTES_MAX = 2_000_000
 """Four programs, notes and inputs of the greatest length; a larger file is no machine."""
 PROBLEMS_MAX = 20
-SCHEMA = Path(__file__).with_name("schema.json")
+SCHEMA = Path(__file__).resolve().parents[2] / "service_page" / "src" / "machine.schema.json"
 
 
 @dataclass(frozen=True)

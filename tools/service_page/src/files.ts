@@ -3,7 +3,7 @@ import { make } from "./dom";
 
 /** Far more than 700 commands with comments need; what is larger is not read at all. */
 export const FILE_BYTES_MAX = 200_000;
-const TYPES = [{ description: "RKM04", accept: { "text/plain": [".rks" as const] } }];
+const TYPES = [{ description: "RKM04", accept: { "text/plain": [".rks"] } }];
 
 interface WritableHandle {
     name: string;
@@ -11,6 +11,7 @@ interface WritableHandle {
 }
 
 type Picker = (options: object) => Promise<WritableHandle>;
+type FileTypes = { description: string; accept: Record<string, string[]> }[];
 
 /** The text of a file and all that it takes to write the same bytes again, or why it is no program. */
 export async function readProgram(file: File): Promise<{ text: string; form: FileForm } | Unreadable | "tooLarge"> {
@@ -32,17 +33,25 @@ function download(name: string, bytes: Uint8Array<ArrayBuffer>): void {
  */
 export async function saveProgram(form: FileForm, text: string): Promise<FileForm | null> {
     const { bytes, form: written } = encodeProgram(form, text);
+    const name = await saveBytes(form.name, bytes, TYPES);
+    return name === null ? null : { ...written, name };
+}
+
+/** Saves a file in the same way. Returns its name, or null if the user changed their mind. */
+export async function saveBytes(
+    name: string, bytes: Uint8Array<ArrayBuffer>, types: FileTypes,
+): Promise<string | null> {
     const picker = (window as { showSaveFilePicker?: Picker }).showSaveFilePicker;
     if (picker === undefined) {
-        download(form.name, bytes);
-        return written;
+        download(name, bytes);
+        return name;
     }
     try {
-        const handle = await picker.call(window, { suggestedName: form.name, types: TYPES });
+        const handle = await picker.call(window, { suggestedName: name, types });
         const writable = await handle.createWritable();
         await writable.write(bytes);
         await writable.close();
-        return { ...written, name: handle.name };
+        return handle.name;
     } catch (error) {
         if (error instanceof DOMException && error.name === "AbortError") {
             return null;

@@ -20,6 +20,9 @@ interface Card {
     state: HTMLElement;
 }
 
+/** What is wired to inputs or outputs, by number. */
+type Names = Record<string, string>;
+
 type Sample = Pick<Live, "time_s" | "motors">;
 
 /**
@@ -41,6 +44,7 @@ export class LiveView {
     #last: Live | null = null;
     #came_ms = 0;
     #state: UnitState | null = null;
+    #names: { inputs: Names; outputs: Names } = { inputs: {}, outputs: {} };
 
     constructor(link: Link, presence: Presence) {
         this.#link = link;
@@ -57,6 +61,20 @@ export class LiveView {
         presence.isFresh.onChange(() => this.#show());
         presence.seconds.onChange(() => this.#show());
         language.watch(() => this.#show());
+    }
+
+    /** Says what is wired to inputs and outputs. */
+    setNames(inputs: Names = {}, outputs: Names = {}): void {
+        this.#names = { inputs, outputs };
+        for (const [lamps, names] of [[this.#inputs, inputs], [this.#outputs, outputs]] as const) {
+            lamps[0]?.closest(".lamps")?.classList.toggle("has-names", Object.keys(names).length > 0);
+            lamps.forEach((lamp, index) => {
+                const name = names[index + 1];
+                lamp.classList.toggle("is-named", name !== undefined);
+                lamp.replaceChildren(`${index + 1}`, ...(name === undefined ? [] : [" ", make("span", {}, name)]));
+            });
+        }
+        this.#show();
     }
 
     /** What is known now. */
@@ -168,12 +186,12 @@ export class LiveView {
         for (const [index, button] of this.#inputs.entries()) {
             const enabled = this.#state?.virtual === true && known?.inputs != null;
             (button as HTMLButtonElement).disabled = !enabled;
-            const label = t(enabled ? "live.inputToggle" : "live.input", { number: index + 1 });
+            const label = named(t(enabled ? "live.inputToggle" : "live.input", { number: index + 1 }), index + 1, this.#names.inputs);
             button.setAttribute("aria-label", label);
             button.title = label;
         }
         for (const [index, lamp] of this.#outputs.entries()) {
-            lamp.title = t("live.output", { number: index + 1 });
+            lamp.title = named(t("live.output", { number: index + 1 }), index + 1, this.#names.outputs);
         }
     }
 
@@ -212,3 +230,7 @@ export class LiveView {
         return lamp;
     }
 }
+
+/** What a lamp is, beginning with what stands on it. */
+const named = (words: string, number: number, names: Names): string =>
+    names[number] === undefined ? words : `${number} ${names[number]}: ${words}`;

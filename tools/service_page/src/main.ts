@@ -4,9 +4,11 @@ import { Connection } from "./connection";
 import { byId } from "./dom";
 import { engine } from "./engine";
 import { setUpLanguage, t } from "./i18n";
+import { parseInputs } from "./inputs_text";
 import { Link } from "./link";
 import { LiveView } from "./live";
 import { Log } from "./log";
+import { Machine } from "./machine";
 import { Plan } from "./plan";
 import { Presence } from "./presence";
 import { Programs } from "./programs";
@@ -42,7 +44,19 @@ new Scan(link, commands);
 const presence = new Presence(link);
 const stop = new Stop(link);
 new Connection(link, presence);
-new LiveView(link, presence);
+const live = new LiveView(link, presence);
+const machine = new Machine({
+    programs: () => programs.all(),
+    inputs: () => plan.inputs,
+    open: (four, inputs) => {
+        programs.replaceAll(four);
+        plan.setInputs(parseInputs(inputs) ?? []);
+    },
+});
+machine.content.watch((content) => {
+    programs.setNames((content?.motors ?? []).map(({ name }) => name ?? ""));
+    live.setNames(content?.input_names, content?.output_names);
+});
 
 stop.onPress(() => commands.forgetReset());
 link.onRefused((message) => {

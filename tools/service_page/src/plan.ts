@@ -74,6 +74,11 @@ export class Plan {
         this.#settingsChanged();
     }
 
+    /** What the inputs do, as it is written. */
+    get inputs(): string {
+        return this.#inputs.value;
+    }
+
     #settingsChanged(): void {
         keep("inputs", this.#inputs.value);
         keep("seconds", this.#seconds.value);

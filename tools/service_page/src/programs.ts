@@ -40,6 +40,7 @@ export class Programs {
     readonly #examples = byId("examples", HTMLSelectElement);
     readonly #checkSoon = debounced(CHECK_MS, () => void this.#checkAll());
     readonly #on: ProgramEvents;
+    #names: string[] = [];
 
     constructor(on: ProgramEvents) {
         this.#on = on;
@@ -61,6 +62,24 @@ export class Programs {
 
     text(motor: number): string {
         return this.#editor.text(motor - 1);
+    }
+
+    /** All four, as they would be saved. */
+    all(): { text: string; form: FileForm }[] {
+        return MOTORS.map((_, index) => ({ text: this.#editor.text(index), form: this.#editor.form(index) }));
+    }
+
+    /** Puts others in the place of all four; undo brings back each of the old ones. */
+    replaceAll(programs: { text: string; form: FileForm }[]): void {
+        programs.forEach(({ text, form }, index) => this.#editor.replace(index, text, form));
+        this.#sayOfFile("");
+        this.#on.replace();
+    }
+
+    /** What motors are called, by number; empty where there is no name. */
+    setNames(names: string[]): void {
+        this.#names = names;
+        this.#translate();
     }
 
     /** Puts another program in the place of one; without a form, one that is of no file yet. */
@@ -193,7 +212,8 @@ export class Programs {
         MOTORS.forEach((motor, index) => {
             const tab = this.#tabs[index];
             if (tab) {
-                tab.name.textContent = t("motor.one", { motor });
+                const name = this.#names[index] ?? "";
+                tab.name.textContent = [t("motor.one", { motor }), name].filter((part) => part !== "").join(" · ");
                 this.#editor.mark(index, tab.checked ?? "", tab.verdict.problems);
             }
         });

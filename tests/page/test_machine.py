@@ -1,0 +1,174 @@
+"""A machine file in the page: opened, shown, edited, saved, and refused in plain words."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from page_looks import AXE, CUT, OUTSIDE, OVER, SIZES, VIOLATIONS
+from playwright.sync_api import FilePayload, expect
+from rkm04_tools.machine.machine import parse_machine
+from service_page import ServicePage, shown
+
+FEED = "{ feed, žlutý }\r\n\\ C100 O03\r\nF400 R\r\n"
+CLAMP = "\\ C100 F50 R"
+INPUTS = "# the door\n500,3,1\n"
+
+
+def content(**more: Any) -> dict[str, Any]:
+    limits = {"position_max_steps": 60_000, "speed_max_steps_per_s": 1000}
+    return {
+        "format": "rkm04-machine",
+        "version": 1,
+        "name": "Podavač",
+        "notes": "grease it",
+        "motors": [
+            {"name": "feed", "program": FEED, "steps_per_mm": 200.5, "limits": limits},
+            {"program": CLAMP},
+            {"program": "{ nothing yet }"},
+            {"program": ""},
+        ],
+        "inputs": INPUTS,
+        "input_names": {"3": "door"},
+        "output_names": {"1": "lamp"},
+        **more,
+    }
+
+
+def open_bytes(page: ServicePage, data: bytes, name: str = "a.rkm") -> None:
+    file: FilePayload = {"name": name, "mimeType": "application/json", "buffer": data}
+    page.page.locator("#machine-file").set_input_files(file)
+
+
+def open_machine(page: ServicePage, told: dict[str, Any]) -> None:
+    open_bytes(page, json.dumps(told).encode())
+    expect(page.page.locator("#machine-shown")).to_have_text(told["name"])
+
+
+def save(page: ServicePage) -> tuple[str, dict[str, Any]]:
+    """Save the machine; return name and content of the file."""
+    page.page.evaluate("() => { delete window.showSaveFilePicker; }")
+    with page.page.expect_download() as download:
+        page.page.locator("#machine-save").click()
+    data = Path(download.value.path()).read_bytes()
+    return download.value.suggested_filename, parse_machine(data, "saved")
+
+
+def test_a_machine_brings_its_programs_inputs_and_names(page):
+    open_machine(page, content())
+
+    expect(page.page.locator(".cm-line")).to_have_text([*FEED.splitlines(), ""])
+    expect(page.page.locator("#tab-1")).to_contain_text("feed")
+    expect(page.page.locator("#live-inputs button").nth(2)).to_have_text("3 door")
+    output = page.page.locator("#live-outputs .lamp").first
+    expect(output).to_have_attribute("title", "1 lamp: Output 1")
+    expect(page.page.locator("#plan-inputs")).to_have_value("500,3,1")
+    page.expect_pulses(450)
+    page.page.locator("#machine summary").click()
+    expect(page.page.locator("#machine-notes")).to_have_value("grease it")
+    facts = page.page.locator("#machine-facts")
+    expect(facts).to_contain_text("Motor 1: feed, 200.5 steps per mm, highest position 60,000")
+    page.page.locator("#tab-2").click()
+    assert page.text() == CLAMP
+
+
+def test_a_machine_is_saved_as_it_was_opened(page):
+    open_machine(page, content())
+    assert save(page) == ("Podavač.rkm", content())
+
+
+def test_what_is_edited_is_saved_and_the_rest_stays(page):
+    open_machine(page, content())
+    page.page.locator("#tab-2").click()
+    page.write("F7 R")
+    page.page.locator("#machine summary").click()
+    page.page.locator("#machine-name").fill("Press / 2")
+    page.page.locator("#machine-notes").fill("oil")
+    page.page.locator("#plan-inputs").fill("500,3,1; 700,3,0")
+
+    name, saved = save(page)
+
+    assert name == "Press _ 2.rkm"
+    wanted = content(name="Press / 2", notes="oil", inputs="500,3,1\n700,3,0\n")
+    wanted["motors"][1]["program"] = "F7 R"
+    assert saved == wanted
+
+
+def test_programs_that_are_there_become_a_machine(page):
+    page.write("F11 R")
+    name, saved = save(page)
+
+    assert name == "Machine.rkm"
+    assert [motor["program"] for motor in saved["motors"]] == ["F11 R", "", "", ""]
+
+
+def test_undo_brings_back_the_programs_from_before(page):
+    page.write("F11 R")
+    open_machine(page, content())
+    page.page.locator(".cm-content").click()
+    page.page.keyboard.press("ControlOrMeta+z")
+    assert page.text() == "F11 R"
+
+
+def test_the_machine_survives_a_reload(page):
+    open_machine(page, content())
+    page.page.reload()
+    page.ready()
+    expect(page.page.locator("#machine-shown")).to_have_text("Podavač")
+    assert save(page)[1] == content()
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (b"{" * 10_000_000, "larger than 2,000,000 bytes"),
+        (
+            b'{"format": ',
+            "not JSON, perhaps it was cut off; not opened, what is here stays",
+        ),
+        (b"\xff\xfe{\0}\0", "is not UTF-8"),
+        (b"[]", "this is no machine file"),
+        (json.dumps(content(version=2)).encode(), "was written by later tools"),
+        (json.dumps(content(colour=1)).encode(), "nothing is known of colour"),
+        (json.dumps(content(name=5)).encode(), "name: must be a text"),
+        (json.dumps(content(motors=[{}] * 4)).encode(), "motor 1: lacks program"),
+        (json.dumps(content(motors=[])).encode(), "motors: must be a list of 4, one for each"),
+        (json.dumps(content(inputs="x")).encode(), "inputs: lines of milliseconds"),
+        (
+            json.dumps(content(motors=[{"program": "", "steps_per_mm": -1}] * 4)).encode(),
+            "motor 1, steps_per_mm: -1 must be more than 0",
+        ),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "file",
+)
+def test_what_is_no_machine_is_refused_in_words_and_all_stays(page, data, words):
+    page.write("F11 R")
+    open_bytes(page, data)
+
+    expect(page.page.locator("#machine-trouble")).to_contain_text(words)
+    assert page.text() == "F11 R"
+    expect(page.page.locator("#machine-shown")).to_have_text("none is open")
+    open_machine(page, content())
+    expect(page.page.locator("#machine-trouble")).to_be_hidden()
+
+
+def test_the_words_are_czech_too(browser, service):
+    with shown(browser, service.url, locale="cs-CZ") as page:
+        open_bytes(page, json.dumps(content(version=2)).encode())
+        trouble = page.page.locator("#machine-trouble")
+        expect(trouble).to_contain_text("soubor zapsaly novější nástroje")
+
+
+def test_long_names_cut_nothing_off_and_axe_finds_nothing_serious(page):
+    names = {str(number): f"input of a long name {number}" for number in range(1, 9)}
+    open_machine(page, content(input_names=names, output_names=names))
+    page.page.locator("#machine summary").click()
+    expect(page.page.locator("#machine-facts")).to_be_visible()
+    page.page.evaluate(AXE.read_text())
+    assert page.page.evaluate(VIOLATIONS) == []
+    for width, height in SIZES:
+        page.page.set_viewport_size({"width": width, "height": height})
+        for finds in (OUTSIDE, OVER, CUT):
+            assert page.page.evaluate(finds) == []
