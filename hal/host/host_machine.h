@@ -23,6 +23,11 @@
 /* Ticks from a STEP edge until the step interrupt has put the pin back low and main can run: 2.5 us. */
 #define HOST_PULSE_TICKS UINT32_C(210)
 
+/* DIR, after the rising edge of a pulse and before that of one the other way; and what it may take to change it. */
+#define HOST_HOLD_TICKS UINT32_C(420)
+#define HOST_SETUP_TICKS UINT32_C(420)
+#define HOST_TURN_US UINT32_C(12)
+
 /* Ticks of one pass of the main loop while there is more to run at once: 20 us. */
 #define HOST_PASS_TICKS UINT32_C(1680)
 
@@ -107,6 +112,9 @@ struct host_laid {
     uint64_t tick[HOST_LAID_MAX];
     uint32_t first;
     uint32_t count;
+    uint64_t last;   /* the rising edge of the last one laid */
+    uint64_t turn;   /* DIR changes, ticks from the start; TICK_NEVER: it does not */
+    uint32_t turned; /* pulses that wait for that */
 };
 
 struct host_machine {

@@ -26,7 +26,7 @@ void host_step_reset(struct host_machine *machine)
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         machine->armed[motor] = TICK_NEVER;
         machine->step[motor] = TICK_NEVER;
-        machine->laid[motor] = (struct host_laid){.count = 0};
+        machine->laid[motor] = (struct host_laid){.turn = TICK_NEVER};
         set_pins(machine, motor, false, true);
     }
 }
@@ -42,23 +42,43 @@ static void find_armed(struct host_machine *machine, unsigned motor)
     machine->armed[motor] = laid->count == 0 ? TICK_NEVER : *laid_slot(laid, 0);
 }
 
+/* The tick of a pulse that comes at `least` at the earliest. */
+static uint64_t make_good(struct host_machine *machine, int64_t tick, uint64_t least)
+{
+    bool late = tick < (int64_t)least;
+    machine->late_steps += late ? 1U : 0U;
+    return late ? least : (uint64_t)tick;
+}
+
+/* DIR changes as soon as the pulse laid last allows. */
+static void turn(struct host_machine *machine, unsigned motor)
+{
+    struct host_laid *laid = &machine->laid[motor];
+    uint64_t held = laid->last + HOST_HOLD_TICKS;
+    laid->turn = held > machine->now ? held : machine->now;
+    laid->turned = 0;
+}
+
 static void put(struct host_machine *machine, unsigned motor, const struct hal_step_pulse *pulse)
 {
     struct host_laid *laid = &machine->laid[motor];
     int32_t way = tick_difference(pulse->rise_tick, (uint32_t)host_unit_time(machine));
-    if (way < 0) {
-        machine->late_steps++;
-        way = 0;
-    }
-    *laid_slot(laid, laid->count) = machine->now + (uint32_t)way;
+    bool turns = laid->turn != TICK_NEVER;
+    uint64_t least = turns ? laid->turn + HOST_SETUP_TICKS : machine->now;
+    uint64_t tick = make_good(machine, (int64_t)machine->now + way, least);
+    laid->turned += turns ? 1U : 0U;
+    *laid_slot(laid, laid->count) = tick;
+    laid->last = tick;
     laid->count++;
 }
 
+/* Not while DIR is to change. */
 static bool wants_more(struct host_machine *machine, unsigned motor)
 {
     struct host_laid *laid = &machine->laid[motor];
-    return laid->count == 0 ||
-           (laid->count < HOST_LAID_MAX && *laid_slot(laid, laid->count - 1U) < machine->now + machine->ahead_ticks);
+    return laid->turn == TICK_NEVER &&
+           (laid->count == 0 ||
+            (laid->count < HOST_LAID_MAX && *laid_slot(laid, laid->count - 1U) < machine->now + machine->ahead_ticks));
 }
 
 /* Asks for a pulse at a time. True: main has something to do. */
@@ -74,9 +94,13 @@ static bool lay(struct host_machine *machine, unsigned motor)
             .waiting = machine->laid[motor].count,
             .until_tick = (uint32_t)host_unit_time(machine) + machine->ahead_ticks,
             .high_ticks = HOST_PULSE_TICKS,
+            .backward = machine->backward[motor],
         };
         more = machine->client.lay_isr(machine->client.context, motor, &room) != 0;
         main_has_work = main_has_work || room.main_has_work;
+        if (more && room.backward != machine->backward[motor]) {
+            turn(machine, motor);
+        }
         if (more) {
             put(machine, motor, &pulse);
         }
@@ -98,7 +122,9 @@ uint64_t host_step_next_tick(const struct host_machine *machine, unsigned motor)
 {
     uint64_t edge = machine->armed[motor];
     uint64_t step = machine->step[motor];
-    return edge < step ? edge : step;
+    uint64_t turn = machine->laid[motor].turn;
+    uint64_t next = edge < step ? edge : step;
+    return turn < next ? turn : next;
 }
 
 static void make_edge(struct host_machine *machine, unsigned motor)
@@ -118,6 +144,11 @@ static void make_edge(struct host_machine *machine, unsigned motor)
 void host_step_event(struct host_machine *machine, unsigned motor)
 {
     machine->now = host_step_next_tick(machine, motor);
+    if (machine->laid[motor].turn == machine->now) {
+        machine->laid[motor].turn = TICK_NEVER;
+        set_pins(machine, motor, !machine->backward[motor], machine->connected[motor]);
+        machine->step[motor] = machine->now;
+    }
     if (machine->armed[motor] == machine->now) {
         uint64_t step = machine->now + machine->faults.late_step_ticks;
         make_edge(machine, motor);
@@ -157,6 +188,10 @@ unsigned hal_step_take_back(unsigned motor, unsigned count)
     struct host_laid *laid = &machine->laid[motor];
     unsigned back = count < laid->count ? count : laid->count;
     laid->count -= back;
+    if (laid->turned <= back) {
+        laid->turn = TICK_NEVER;
+    }
+    laid->turned -= laid->turned < back ? laid->turned : back;
     find_armed(machine, motor);
     return back;
 }
@@ -181,6 +216,11 @@ void hal_driver_enable(void)
 {
     struct host_machine *machine = host_current();
     machine->enabled_tick = machine->now;
+}
+
+uint32_t hal_step_turn_us(void)
+{
+    return HOST_TURN_US;
 }
 
 uint32_t hal_step_lead_ticks(void)

@@ -13,7 +13,8 @@ struct hal_client {
     void *context;
 
     /* Step interrupt, and hal_step_run: writes the pulses of motor 0 to 3 that are due next into `room` and returns how
-     * many. 0: none is left. It is asked once more when all that were laid have been made, and then the motor rests. */
+     * many. 0: none is left. It is asked once more when all that were laid have been made, and then the motor rests. It
+     * is not asked while a change of DIR is to come between two pulses that it has laid. */
     unsigned (*lay_isr)(void *context, unsigned motor, struct hal_step_room *room);
 
     /* Tick interrupt, every millisecond and whenever an input changes: senses the inputs for guards and stops. They had

@@ -24,12 +24,14 @@ struct hal_step_room {
     unsigned waiting;             /* pulses laid before that have not been made */
     uint32_t until_tick;          /* no pulse is wanted after the first that is due at this tick or later */
     uint32_t high_ticks;          /* the width of a pulse */
+    bool backward;                /* DIR with these pulses; comes in as with those before */
     bool main_has_work;           /* set by the client where main is to be woken */
 };
 
 /* Lays what is due of a motor, and goes on asking for more: where it begins, where pulses were taken back, and where
- * what follows has changed. What lay_isr says of main is not looked at. A pulse is due less than 25 s ahead; one whose
- * tick has gone by is made good at once and counted as late. Only while hal_step_hold is in force. */
+ * what follows has changed, also if there was no more before. What lay_isr says of main is not looked at. A pulse is
+ * due less than 25 s ahead; one whose tick has gone by is made good at once and counted as late. Only while
+ * hal_step_hold is in force. */
 void hal_step_run(unsigned motor);
 
 /* Pulses laid that have not been made. Only while hal_step_hold is in force. */
@@ -38,6 +40,11 @@ unsigned hal_step_waiting(unsigned motor);
 /* Takes the last `count` pulses of those that wait back, or those of them for which it is not too late; tells how many.
  * If any were, hal_step_run has to follow for more to come. Only while hal_step_hold is in force. */
 unsigned hal_step_take_back(unsigned motor, unsigned count);
+
+/* DIR changes by itself between a pulse and the next one laid if that goes the other way: HOLD after the rising edge of
+ * the one, SETUP before that of the other. So long the two must be apart, else the other one is late. Microseconds; any
+ * context. */
+uint32_t hal_step_turn_us(void);
 
 /* Sets DIR: false forward, true backward. Called only while no pulse waits. Main. */
 void hal_step_set_direction(unsigned motor, bool backward);

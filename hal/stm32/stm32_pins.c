@@ -17,6 +17,10 @@ enum {
     USE_TIM2_CH1 = MODE_ALTERNATE | 1 << USE_ALTERNATE_PLACE,
     USE_TIM2_CH2 = USE_TIM2_CH1,
     USE_TIM2_CH3 = USE_TIM2_CH1,
+    USE_TIM3_CH1 = MODE_ALTERNATE | 2 << USE_ALTERNATE_PLACE,
+    USE_TIM3_CH2 = USE_TIM3_CH1,
+    USE_TIM3_CH3 = USE_TIM3_CH1,
+    USE_TIM3_CH4 = USE_TIM3_CH1,
     USE_TIM5_CH1 = MODE_ALTERNATE | 2 << USE_ALTERNATE_PLACE,
     USE_TIM5_CH2 = USE_TIM5_CH1,
     USE_TIM5_CH3 = USE_TIM5_CH1,
@@ -75,7 +79,6 @@ static const uint8_t outputs[] = {
     STM32_PIN_BO_5, STM32_PIN_BO_6, STM32_PIN_BO_7, STM32_PIN_BO_8,
 };
 static const uint8_t leds[] = {STM32_PIN_LED_1, STM32_PIN_LED_2, STM32_PIN_LED_3, STM32_PIN_LED_4};
-static const uint8_t directions[] = {STM32_PIN_DIR_1, STM32_PIN_DIR_2, STM32_PIN_DIR_3, STM32_PIN_DIR_4};
 
 void stm32_pins_make_safe(void)
 {
@@ -87,13 +90,12 @@ void stm32_pins_make_safe(void)
     }
 }
 
-/* The timers hold the STEP pins before they are handed over to them, see hal_board_init. */
+/* The timers hold the STEP and DIR pins before they are handed over to them, see hal_board_init. */
 void stm32_pins_start(void)
 {
     stm32_pins_make_safe();
     for (unsigned i = 0; i < sizeof leds; i++) {
         stm32_pin_write(leds[i], BOARD_LED_LEVEL == 0U);
-        stm32_pin_write(directions[i], BOARD_DIR_LEVEL == 0U);
     }
     for (unsigned i = 0; i < USES; i++) {
         set_up(&uses[i]);

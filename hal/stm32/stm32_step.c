@@ -11,6 +11,11 @@ static inline bool is_before(uint32_t tick, uint32_t other)
     return (int32_t)(tick - other) < 0;
 }
 
+static inline uint32_t later(uint32_t tick, uint32_t other)
+{
+    return is_before(tick, other) ? other : tick;
+}
+
 static inline struct hal_step_pulse *slot(struct stm32_channel *channel, uint32_t pulse)
 {
     return &channel->ring[pulse % RING_PULSES];
@@ -38,7 +43,7 @@ static void check_made(const struct stm32_channel *channel, uint32_t waiting)
 /* The pin is low and stays so. */
 static void stop(struct stm32_channel *channel)
 {
-    set_mode(channel, MODE_LOW);
+    set_mode(&channel->step, MODE_LOW);
     set_asking(channel, false);
     DMA_CR(channel->stream) &= ~DMA_CR_EN;
     while ((DMA_CR(channel->stream) & DMA_CR_EN) != 0) {
@@ -54,13 +59,13 @@ static void start(struct stm32_channel *channel, uint32_t now)
     *channel->clear = channel->flags;
     DMA_NDTR(channel->stream) = RING_EDGES;
     DMA_CR(channel->stream) |= DMA_CR_EN;
-    *channel->compare = now - TICKS_PER_MS;
+    *channel->step.compare = now - TICKS_PER_MS;
     TIM_SR(channel->timer) = ~channel->event;
     set_asking(channel, true);
     TIM_EGR(channel->timer) = channel->event;
     channel->active = true;
     if (channel->connected) {
-        set_mode(channel, MODE_TOGGLE);
+        set_mode(&channel->step, MODE_TOGGLE);
     }
 }
 
@@ -82,7 +87,36 @@ static uint32_t earliest(const struct stm32_channel *channel, uint32_t now)
 {
     uint32_t started = now + (uint32_t)START_TICKS;
     uint32_t low = channel->last_tick + (uint32_t)HIGH_TICKS + (uint32_t)LOW_TICKS;
-    return is_before(started, low) && !is_before(now, channel->last_tick) ? low : started;
+    uint32_t tick = is_before(started, low) && !is_before(now, channel->last_tick) ? low : started;
+    return channel->turns ? later(tick, channel->turn_tick + (uint32_t)TURN_SETUP_TICKS) : tick;
+}
+
+/* DIR changes as soon as the pulse laid last allows, which is near. The value comes before the mode, so that a match
+ * with the old value changes nothing. */
+static void turn(struct stm32_channel *channel)
+{
+    uint32_t held = channel->last_tick + (uint32_t)TURN_HOLD_TICKS;
+    uint32_t soon = TIM2_CNT + (uint32_t)TURN_TICKS;
+    channel->backward = !channel->backward;
+    channel->turn_tick = held - soon < (uint32_t)HORIZON_TICKS ? held : soon;
+    channel->turned = channel->laid;
+    channel->turns = true;
+    *channel->direction.compare = channel->turn_tick & UINT16_MAX;
+    set_mode(&channel->direction, direction_level(channel) ? MODE_HIGH_ON_MATCH : MODE_LOW_ON_MATCH);
+}
+
+/* All pulses from `pulse` on are taken back, as counted since the start. A turn before them stays undone, if it is not
+ * too late for that. */
+static void turn_back(struct stm32_channel *channel, uint32_t pulse, uint32_t now)
+{
+    if (!channel->turns || pulse > channel->turned) {
+        return;
+    }
+    channel->turns = false;
+    if (is_before(now + (uint32_t)TURN_TICKS, channel->turn_tick)) {
+        channel->backward = !channel->backward;
+        set_mode(&channel->direction, direction_level(channel) ? MODE_HIGH : MODE_LOW);
+    }
 }
 
 /* How many pulses at a time. Slow ones cost more, each. */
@@ -92,7 +126,7 @@ static inline uint32_t portion(struct stm32_channel *channel)
     return channel->laid > 1U && interval < (uint32_t)FAST_TICKS ? LAY_FAST_MAX : LAY_MAX;
 }
 
-/* Asks for pulses in one piece of the ring. */
+/* Asks for pulses in one piece of the ring; before they turn, DIR is told. */
 static inline uint32_t ask(unsigned motor, uint32_t waiting, uint32_t until)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
@@ -104,10 +138,14 @@ static inline uint32_t ask(unsigned motor, uint32_t waiting, uint32_t until)
         .waiting = waiting,
         .until_tick = until,
         .high_ticks = HIGH_TICKS,
+        .backward = channel->backward,
     };
     count = stm32_step.client.lay_isr(stm32_step.client.context, motor, &room);
     if (room.main_has_work) {
         stm32_event = true;
+    }
+    if (BASE_SELDOM(count != 0 && room.backward != channel->backward)) {
+        turn(channel);
     }
     return count;
 }
@@ -121,6 +159,10 @@ static void note_laid(struct stm32_channel *channel, uint32_t laid)
     channel->from_tick = channel->last_tick - (uint32_t)NEAR_TICKS;
     channel->due_tick = channel->last_tick - (uint32_t)LEAD_TICKS;
     channel->ends = false;
+    if (BASE_SELDOM(channel->turns)) {
+        channel->from_tick = later(channel->from_tick, channel->turn_tick);
+        channel->due_tick = later(channel->due_tick, channel->turn_tick);
+    }
 }
 
 /* What is laid comes to its end, and the pin to rest, before there is more. */
@@ -134,6 +176,7 @@ static void note_end(struct stm32_channel *channel)
 static void begin(unsigned motor, uint32_t ahead_ticks)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
+    channel->turns = false;
     uint32_t count = ask(motor, 0, TIM2_CNT + ahead_ticks);
     if (count != 0) {
         uint32_t now = TIM2_CNT;
@@ -156,12 +199,15 @@ static void append(unsigned motor, uint32_t now, uint32_t ahead_ticks)
         channel->from_tick = channel->due_tick;
         return;
     }
+    channel->turns = false;
     uint32_t count = in_time ? ask(motor, waiting, now + ahead_ticks) : 0;
     if (BASE_SELDOM(count == 0)) {
         note_end(channel);
         return;
     }
-    make_good(slot(channel, channel->laid), count, last + (uint32_t)(HIGH_TICKS + LOW_TICKS));
+    uint32_t least =
+        channel->turns ? channel->turn_tick + (uint32_t)TURN_SETUP_TICKS : last + (uint32_t)(HIGH_TICKS + LOW_TICKS);
+    make_good(slot(channel, channel->laid), count, least);
     note_laid(channel, channel->laid + count);
     if (!far && is_before(last, TIM2_CNT)) {
         stm32_fault_stop_output();
@@ -177,7 +223,7 @@ static void refill(unsigned motor, uint32_t now, uint32_t ahead_ticks)
     }
     if (BASE_SELDOM(!channel->active)) {
         begin(motor, ahead_ticks);
-    } else if (!channel->ends) {
+    } else if (!channel->ends && !is_before(now, channel->from_tick)) {
         append(motor, now, ahead_ticks);
     }
 }
@@ -226,6 +272,10 @@ void stm32_step_interrupt(void)
 /* The interrupt lays more as soon as it may. */
 void hal_step_run(unsigned motor)
 {
+    struct stm32_channel *channel = &stm32_step.channel[motor];
+    if (channel->active && channel->ends) {
+        note_laid(channel, channel->laid);
+    }
     refill(motor, TIM2_CNT, RUN_TICKS);
     TIM_EGR(TIM2_BASE) = TIM_EGR_CC4G;
 }
@@ -251,6 +301,7 @@ static bool stop_before(struct stm32_channel *channel, uint32_t pulse, uint32_t 
     while (is_before(TIM2_CNT, quiet)) {
     }
     check_made(channel, channel->laid - pulse);
+    turn_back(channel, pulse, quiet);
     if (pulse != 0) {
         channel->last_tick = slot(channel, pulse - 1U)->rise_tick;
     }
@@ -266,6 +317,7 @@ static bool cut_before(struct stm32_channel *channel, uint32_t pulse, uint32_t n
     if (is_before(before, now + (uint32_t)CUT_TICKS)) {
         return false;
     }
+    turn_back(channel, pulse, now);
     note_laid(channel, pulse);
     return true;
 }
@@ -283,6 +335,11 @@ unsigned hal_step_take_back(unsigned motor, unsigned count)
     }
     TIM_EGR(TIM2_BASE) = TIM_EGR_CC4G;
     return back;
+}
+
+uint32_t hal_step_turn_us(void)
+{
+    return TURN_US;
 }
 
 uint32_t hal_step_lead_ticks(void)

@@ -12,6 +12,9 @@
  * No code runs at an edge. After the last pulse laid comes an edge that is never, as the counter takes 25 s there. The
  * step interrupt comes while the last pulse is still LEAD_TICKS ahead, and lays what is due within HORIZON_TICKS.
  *
+ * A DIR pin is a channel of TIM3 that goes to a level at a match (18.3.7), so a turn between two pulses is laid ahead
+ * like they are. TIM3 counts the low half of the unit's time.
+ *
  * The word that the stream has loaded is beyond recall. So what comes after it is taken back by one store; to take back
  * the edge in the compare register, too, the pin is forced low and the stream stopped. It then begins anew at the
  * ring's start.
@@ -35,6 +38,12 @@ enum {
     LOW_TICKS = TICKS_OF_NS(BOARD_STEP_LOW_NS),
     SETUP_TICKS = TICKS_OF_NS(BOARD_DIR_SETUP_NS),
     HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS) + HIGH_TICKS,
+
+    /* A turn: after the rising edge of a pulse, and ahead of a look at the counter, while it is being written. */
+    TURN_HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS) + TICKS_PER_US,
+    TURN_TICKS = 2 * TICKS_PER_US,
+    TURN_SETUP_TICKS = SETUP_TICKS + 4, /* TIM3 may be a tick or two off */
+    TURN_US = (TICKS_OF_NS(BOARD_DIR_HOLD_NS) + SETUP_TICKS + 3 * TICKS_PER_US - 1) / TICKS_PER_US,
 
     /* The interrupt comes LEAD_TICKS before the last pulse laid at the latest. That leaves time for what holds it off
      * and for a portion of each of the other three motors. */
@@ -87,19 +96,28 @@ static_assert(HIGH_TICKS >= SETTLE_TICKS - 6 && LOW_TICKS >= SETTLE_TICKS - 6,
 
 /* What a channel does with its pin, RM0090 18.4.7. */
 enum {
+    MODE_HIGH_ON_MATCH = 1,
+    MODE_LOW_ON_MATCH = 2,
     MODE_TOGGLE = 3,
+    MODE_HIGH = 5,
     MODE_LOW = 4, /* forced inactive; matches are flagged, and ask for the next edge, all the same, 18.3.7 */
     MODE_MASK = 7,
+};
+
+/* A channel of a timer, which has a pin. */
+struct stm32_output {
+    volatile uint32_t *compare;
+    volatile uint32_t *mode; /* CCMR1 or CCMR2 */
+    uint32_t *modes;         /* what the register holds; two channels share it */
+    uint32_t mode_one;       /* mode 1 of this channel in the register */
 };
 
 struct stm32_channel {
     uintptr_t stream;
     uintptr_t timer;
-    volatile uint32_t *compare;
-    volatile uint32_t *mode;  /* CCMR1 or CCMR2 */
-    uint32_t *modes;          /* what the register holds; two channels share it */
+    struct stm32_output step;
+    struct stm32_output direction;
     uint32_t *asks;           /* what TIM_DIER holds */
-    uint32_t mode_one;        /* mode 1 of this channel in the register */
     uint32_t event;           /* its bit in TIM_SR and TIM_EGR; in TIM_DIER it is DE_PLACE further */
     volatile uint32_t *clear; /* DMA1_LIFCR or DMA1_HIFCR */
     uint32_t flags;           /* of the stream, there */
@@ -107,9 +125,12 @@ struct stm32_channel {
     uint32_t last_tick;       /* the rising edge of the last pulse laid */
     uint32_t from_tick;       /* the step interrupt has something to do for it from this tick on, */
     uint32_t due_tick;        /* and at this one at the latest */
+    uint32_t turn_tick;       /* while it turns: DIR changes, */
+    uint32_t turned;          /* before this pulse, counted since the stream was started */
     bool active;              /* the stream runs */
     bool ends;                /* nothing is laid any more before all has been made */
-    bool backward;
+    bool turns;               /* nothing is laid any more before DIR has changed */
+    bool backward;            /* DIR with the pulse laid last */
     bool connected;
     struct hal_step_pulse ring[RING_PULSES];
 };
@@ -122,17 +143,23 @@ enum {
 struct stm32_step {
     struct hal_client client;
     bool may_move;
-    uint32_t modes[2][2]; /* of TIM2 and TIM5 */
+    uint32_t modes[3][2]; /* of TIM2, TIM5 and TIM3 */
     uint32_t asks[2];
     struct stm32_channel channel[UNIT_MOTORS];
 };
 extern struct stm32_step stm32_step;
 
-static inline void set_mode(const struct stm32_channel *channel, uint32_t mode)
+static inline void set_mode(const struct stm32_output *output, uint32_t mode)
 {
-    uint32_t others = *channel->modes & ~(MODE_MASK * channel->mode_one);
-    *channel->modes = others | mode * channel->mode_one;
-    *channel->mode = *channel->modes;
+    uint32_t others = *output->modes & ~(MODE_MASK * output->mode_one);
+    *output->modes = others | mode * output->mode_one;
+    *output->mode = *output->modes;
+}
+
+/* The level of the DIR pin: 0 while it is not connected. */
+static inline bool direction_level(const struct stm32_channel *channel)
+{
+    return (channel->connected && channel->backward) == (BOARD_DIR_LEVEL == 1U);
 }
 
 /* Whether matches of the channel ask its stream for the next edge. */

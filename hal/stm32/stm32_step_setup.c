@@ -19,12 +19,22 @@
     X(TIM5_CH3, 1, 2, 0, 6)                                                                                            \
     X(TIM5_CH4, 1, 3, 3, 6)
 
+/* What turns a DIR pin. */
+#define TURNS(X)                                                                                                       \
+    X(TIM3_CH1, 0)                                                                                                     \
+    X(TIM3_CH2, 1)                                                                                                     \
+    X(TIM3_CH3, 2)                                                                                                     \
+    X(TIM3_CH4, 3)
+
 /* Also what a board's other pins are for, so that each pin has a number. */
 enum output {
 #define X(use, timer, channel, stream, request) OUTPUT_##use,
     OUTPUTS(X)
 #undef X
-    OUTPUT_IN,
+#define X(use, channel) OUTPUT_##use,
+    TURNS(X)
+#undef X
+        OUTPUT_IN,
     OUTPUT_IN_UP,
     OUTPUT_OUT,
     OUTPUT_USART1,
@@ -52,7 +62,9 @@ static const struct source sources[] = {
 };
 
 enum {
-    TIMERS = 2,
+    TIMERS = 3,
+    TURN_TIMER = 2,
+    TURN_CHANNELS = 4,
     SOURCES = sizeof sources / sizeof sources[0],
     TO_PERIPHERAL = 1, /* DMA_CR: direction, size of a word, priority (RM0090 10.5.5) */
     WORDS = 2,
@@ -62,17 +74,14 @@ enum {
 static_assert((unsigned)OUTPUT_OF_STEP_1 < (unsigned)SOURCES && (unsigned)OUTPUT_OF_STEP_2 < (unsigned)SOURCES &&
                   (unsigned)OUTPUT_OF_STEP_3 < (unsigned)SOURCES && (unsigned)OUTPUT_OF_STEP_4 < (unsigned)SOURCES,
               "a timer makes the edges of every STEP pin");
+#define IS_TURN(use) ((unsigned)(use) - (unsigned)OUTPUT_TIM3_CH1 < (unsigned)TURN_CHANNELS)
+static_assert(IS_TURN(OUTPUT_OF_DIR_1) && IS_TURN(OUTPUT_OF_DIR_2) && IS_TURN(OUTPUT_OF_DIR_3) &&
+                  IS_TURN(OUTPUT_OF_DIR_4),
+              "TIM3 turns every DIR pin");
 
-static const uintptr_t timers[TIMERS] = {TIM2_BASE, TIM5_BASE};
+static const uintptr_t timers[TIMERS] = {TIM2_BASE, TIM5_BASE, TIM3_BASE};
 static const uint8_t outputs[UNIT_MOTORS] = {OUTPUT_OF_STEP_1, OUTPUT_OF_STEP_2, OUTPUT_OF_STEP_3, OUTPUT_OF_STEP_4};
-static const uint8_t direction_pins[UNIT_MOTORS] = {STM32_PIN_DIR_1, STM32_PIN_DIR_2, STM32_PIN_DIR_3, STM32_PIN_DIR_4};
-
-static void write_direction(unsigned motor)
-{
-    const struct stm32_channel *channel = &stm32_step.channel[motor];
-    bool high = channel->connected && channel->backward;
-    stm32_pin_write(direction_pins[motor], high == (BOARD_DIR_LEVEL == 1U));
-}
+static const uint8_t turns[UNIT_MOTORS] = {OUTPUT_OF_DIR_1, OUTPUT_OF_DIR_2, OUTPUT_OF_DIR_3, OUTPUT_OF_DIR_4};
 
 static void wait_until_past(uint32_t start, uint32_t ticks)
 {
@@ -90,7 +99,9 @@ static void set_pins(unsigned motor, bool backward, bool connected)
     wait_until_past(channel->last_tick, HOLD_TICKS);
     channel->backward = backward;
     channel->connected = connected;
-    write_direction(motor);
+    hal_step_hold();
+    set_mode(&channel->direction, direction_level(channel) ? MODE_HIGH : MODE_LOW);
+    hal_step_release();
     wait_until_past(TIM2_CNT, SETUP_TICKS);
 }
 
@@ -106,13 +117,18 @@ void hal_step_connect(unsigned motor, bool connected)
     set_pins(motor, stm32_step.channel[motor].backward, connected && stm32_step.may_move);
 }
 
+static uint32_t both(uint32_t mode)
+{
+    return TIM_CCMR1_OC1M(mode) | TIM_CCMR1_OC2M(mode);
+}
+
 static void start_timer(unsigned timer)
 {
     uintptr_t base = timers[timer];
-    uint32_t low = TIM_CCMR1_OC1M((uint32_t)MODE_LOW) | TIM_CCMR1_OC2M((uint32_t)MODE_LOW);
+    uint32_t low = both(timer == (unsigned)TURN_TIMER && BOARD_DIR_LEVEL == 0U ? MODE_HIGH : MODE_LOW);
     TIM_CR1(base) = 0;
     TIM_PSC(base) = 0;
-    TIM_ARR(base) = UINT32_MAX;
+    TIM_ARR(base) = timer == (unsigned)TURN_TIMER ? UINT16_MAX : UINT32_MAX;
     TIM_EGR(base) = TIM_EGR_UG;
     TIM_CCMR1(base) = low;
     TIM_CCMR2(base) = low;
@@ -122,17 +138,28 @@ static void start_timer(unsigned timer)
     TIM_CR1(base) = TIM_CR1_CEN;
 }
 
-/* Both timers count the same. Looks at their counters take the same time each, so the middle one lies half-way. */
-static void align_timers(void)
+/* A timer counts what TIM2 does, as far as its bits go. Looks at their counters take the same time each, so the middle
+ * one lies half-way; with the addresses known, that is to the tick. */
+__attribute__((always_inline)) static inline void align_timer(uintptr_t base, uint32_t bits)
 {
     uint32_t lead = 0;
     for (unsigned i = 0; i < (unsigned)ALIGN_TRIES; i++) {
-        TIM_CNT(TIM5_BASE) = TIM2_CNT + lead;
+        TIM_CNT(base) = (TIM2_CNT + lead) & bits;
         uint32_t before = TIM2_CNT;
-        uint32_t other = TIM_CNT(TIM5_BASE);
+        uint32_t other = TIM_CNT(base);
         uint32_t after = TIM2_CNT;
-        lead -= other - before - (after - before) / 2U;
+        lead -= (other - before - (after - before) / 2U) & bits;
     }
+}
+
+static struct stm32_output output_of(unsigned timer, unsigned channel)
+{
+    return (struct stm32_output){
+        .compare = &TIM_CCR1(timers[timer]) + channel,
+        .mode = &TIM_CCMR1(timers[timer]) + channel / 2U,
+        .modes = &stm32_step.modes[timer][channel / 2U],
+        .mode_one = channel % 2U == 0 ? TIM_CCMR1_OC1M(1U) : TIM_CCMR1_OC2M(1U),
+    };
 }
 
 static void set_up_stream(const struct stm32_channel *channel, uint32_t request)
@@ -141,7 +168,7 @@ static void set_up_stream(const struct stm32_channel *channel, uint32_t request)
                               DMA_CR_PSIZE((uint32_t)WORDS) | DMA_CR_MSIZE((uint32_t)WORDS) |
                               DMA_CR_PL((uint32_t)VERY_HIGH) | DMA_CR_CHSEL(request);
     DMA_FCR(channel->stream) = 0;
-    DMA_PAR(channel->stream) = (uint32_t)(uintptr_t)channel->compare;
+    DMA_PAR(channel->stream) = (uint32_t)(uintptr_t)channel->step.compare;
     DMA_M0AR(channel->stream) = (uint32_t)(uintptr_t)channel->ring;
 }
 
@@ -149,17 +176,15 @@ static void set_up(unsigned motor, bool may_move)
 {
     const struct source *source = &sources[outputs[motor]];
     uintptr_t base = timers[source->timer];
-    unsigned half = source->channel / 2U;
+    unsigned turn = (unsigned)turns[motor] - (unsigned)OUTPUT_TIM3_CH1;
     unsigned stream = source->stream % 4U;
     struct stm32_channel *channel = &stm32_step.channel[motor];
     *channel = (struct stm32_channel){
         .stream = DMA1_STREAM(source->stream),
         .timer = base,
-        .compare = &TIM_CCR1(base) + source->channel,
-        .mode = &TIM_CCMR1(base) + half,
-        .modes = &stm32_step.modes[source->timer][half],
+        .step = output_of(source->timer, source->channel),
+        .direction = output_of(TURN_TIMER, turn),
         .asks = &stm32_step.asks[source->timer],
-        .mode_one = source->channel % 2U == 0 ? TIM_CCMR1_OC1M(1U) : TIM_CCMR1_OC2M(1U),
         .event = TIM_SR_CC1IF << source->channel,
         .clear = source->stream < 4U ? &DMA1_LIFCR : &DMA1_HIFCR,
         .flags = (uint32_t)STREAM_FLAGS << (stream % 2U * 6U + stream / 2U * 16U),
@@ -167,18 +192,20 @@ static void set_up(unsigned motor, bool may_move)
     };
     set_up_stream(channel, source->request);
     TIM_CCER(base) |= (TIM_CCER_CC1E | (BOARD_STEP_LEVEL == 1U ? 0U : TIM_CCER_CC1P)) << (4U * source->channel);
+    TIM_CCER(TIM3_BASE) |= TIM_CCER_CC1E << (4U * turn);
 }
 
-/* All four pins low and the counters running; the pins may be handed over to the timers now. */
+/* All STEP and DIR pins low and the counters running; the pins may be handed over to the timers now. */
 void stm32_step_start(bool may_move)
 {
-    stm32_enable_clock(&RCC_APB1ENR, RCC_APB1ENR_TIM2EN | RCC_APB1ENR_TIM5EN);
+    stm32_enable_clock(&RCC_APB1ENR, RCC_APB1ENR_TIM2EN | RCC_APB1ENR_TIM3EN | RCC_APB1ENR_TIM5EN);
     stm32_enable_clock(&RCC_AHB1ENR, RCC_AHB1ENR_DMA1EN);
     stm32_step.may_move = may_move;
     for (unsigned timer = 0; timer < TIMERS; timer++) {
         start_timer(timer);
     }
-    align_timers();
+    align_timer(TIM5_BASE, UINT32_MAX);
+    align_timer(TIM3_BASE, UINT16_MAX);
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         set_up(motor, may_move);
     }
@@ -194,9 +221,9 @@ void stm32_step_set_client(const struct hal_client *client)
 /* Also before stm32_step_start. */
 void stm32_step_make_safe(void)
 {
-    uint32_t low = TIM_CCMR1_OC1M((uint32_t)MODE_LOW) | TIM_CCMR1_OC2M((uint32_t)MODE_LOW);
+    uint32_t low = both(MODE_LOW);
     stm32_enable_clock(&RCC_APB1ENR, RCC_APB1ENR_TIM2EN | RCC_APB1ENR_TIM5EN);
-    for (unsigned timer = 0; timer < TIMERS; timer++) {
+    for (unsigned timer = 0; timer < (unsigned)TURN_TIMER; timer++) {
         TIM_DIER(timers[timer]) = 0;
         TIM_CCMR1(timers[timer]) = low;
         TIM_CCMR2(timers[timer]) = low;

@@ -42,6 +42,7 @@
 #define RCC_AHB1ENR_DMA1EN (1U << 21)
 #define RCC_APB1RSTR_TIM5RST (1U << 3)
 #define RCC_APB1ENR_TIM2EN (1U << 0)
+#define RCC_APB1ENR_TIM3EN (1U << 1)
 #define RCC_APB1ENR_TIM5EN (1U << 3)
 #define RCC_APB1ENR_USART2EN (1U << 17)
 #define RCC_APB1ENR_USART3EN (1U << 18)
@@ -121,6 +122,7 @@
 /* The two timers of 32 bits. TIM2 is the unit's time and calls the step interrupt; the STEP pins are channels of both.
  * TIM5 captures the low-speed oscillator before that. */
 #define TIM2_BASE 0x40000000U
+#define TIM3_BASE 0x40000400U /* of 16 bits: DIR */
 #define TIM5_BASE 0x40000C00U
 #define TIM_CR1(base) STM32_REGISTER((base) + 0x00U)   /* 18.4.1 */
 #define TIM_DIER(base) STM32_REGISTER((base) + 0x0CU)  /* 18.4.4 */

@@ -10,7 +10,7 @@
 #include "atomics.h"
 #include "base_tick.h"
 #include "hal_step.h"
-#include "step_channel.h"
+#include "step_channel_private.h"
 #include "step_lay.h"
 
 /* Counters wrap after 2^32, which the size of the ring divides. A count is in a ring if it lies between the counts of
@@ -196,24 +196,24 @@ static bool cursor_advance(struct step_cursor *cursor, const struct step_channel
     ensures pulse_of(cursor) <= pulse || pulse_of(cursor) == \old(pulse_of(cursor));
     ensures there: \old(pulse_of(cursor)) <= pulse <= last_at(channel->head) ==> pulse_of(cursor) == pulse;
 */
-static void cursor_advance_to(struct step_cursor *cursor, const struct step_channel *channel, uint64_t pulse);
+void step_channel_follow(struct step_cursor *cursor, const struct step_channel *channel, uint64_t pulse);
 
 /*@ requires ring_is_sound(channel) && channel->cursor.left <= channel->cursor.end && channel->young <= 1 &&
         fits(channel->cursor.end, to_come(channel));
     assigns channel->kept[0 .. 1], channel->taken;
     ensures is_sound(channel) && keeps_nothing(channel);
 */
-static void channel_keep_nothing(struct step_channel *channel);
+void step_channel_keep_nothing(struct step_channel *channel);
 
 /*@ requires is_sound(channel) && is_pushable(channel, segment);
-    assigns channel->queue[channel->head % 32], channel->head;
+    assigns channel->queue[channel->head % 32], channel->head, channel->backward;
     ensures is_sound(channel) && queued(channel) == \old(queued(channel)) + 1;
     ensures channel->head == (uint32_t)(\old(channel->head) + 1);
     ensures channel->queue[\old(channel->head) % 32].steps == \old(segment->steps);
     ensures kept: \forall integer x; in_ring(\old(channel->head), channel->taken, x) && x != \old(channel->head) ==>
         channel->queue[x % 32].steps == \old(channel->queue[x % 32].steps);
 */
-static void channel_push(struct step_channel *channel, const struct step_segment *segment);
+void step_channel_append(struct step_channel *channel, const struct step_segment *segment);
 
 /*@ requires \valid_read(channel);
     assigns \nothing;
@@ -221,18 +221,18 @@ static void channel_push(struct step_channel *channel, const struct step_segment
 */
 bool step_channel_is_running(const struct step_channel *channel);
 
-/*@ requires is_sound(channel) && waits(channel);
+/*@ requires is_sound(channel) && waits(channel) && channel->recalled == 0;
     assigns \nothing;
     ensures pulse_of(&channel->cursor) - most_waiting <= \result <= pulse_of(&channel->cursor);
     ensures !channel->running ==> \result == pulse_of(&channel->cursor);
 */
-static uint64_t channel_pulses(const struct step_channel *channel);
+uint64_t step_channel_count(const struct step_channel *channel);
 
 /*@ requires is_sound(channel);
     assigns \nothing;
     ensures \result == &channel->kept[0] || \result == &channel->kept[1];
     ensures pulse_of(\result) <= pulse || \result == &channel->kept[1 - channel->young];
 */
-static const struct step_cursor *channel_base(const struct step_channel *channel, uint64_t pulse);
+const struct step_cursor *step_channel_base(const struct step_channel *channel, uint64_t pulse);
 
 #endif

@@ -50,7 +50,10 @@ class What(IntEnum):
         QUIET,
         NOTE,
         REPLACE,
-    ) = range(14)
+        TURN,
+        FREEZE,
+        RECALL,
+    ) = range(17)
 
 
 @dataclass(frozen=True)
@@ -176,6 +179,23 @@ class Acts:
         self.add(What.REPLACE, motor, ahead - self.start, QUANTA // pace, pace, steps)
         self.noted += 1
         return self.noted - 1
+
+    def turn(self, motor: int, backward: bool) -> None:
+        """The way of what is pushed from now on."""
+        self.add(What.TURN, motor, steps=int(backward))
+
+    def freeze(self, motor: int, back: int) -> int:
+        """The number of the note: `running` if it was in time."""
+        self.add(What.FREEZE, motor, steps=back)
+        self.noted += 1
+        return self.noted - 1
+
+    def recall(
+        self, motor: int, tick: int = 0, pace: int = 1, steps: int = 0, backward: bool = False
+    ) -> list[int]:
+        """Instead of what is frozen; the ticks."""
+        self.add(What.RECALL, motor, tick, QUANTA // pace, pace, steps, backward)
+        return [tick + pace * i for i in range(steps)]
 
     def show(self, *options: str) -> Shown:
         """Run it."""

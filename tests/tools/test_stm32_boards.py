@@ -107,7 +107,10 @@ FIRST = "X(STEP_1, A, 0, TIM5_CH1)"
 @pytest.mark.parametrize(
     ("old", "new", "complaint"),
     [
-        ("X(DIR_2, A, 5, OUT)", "X(DIR_2, A, 4, OUT)", "PA4 is used twice: DIR_1 and DIR_2"),
+        ("X(LED_2, C, 9, OUT)", "X(LED_2, C, 8, OUT)", "PC8 is used twice: LED_1 and LED_2"),
+        ("X(DIR_2, A, 7, TIM3_CH2)", "X(DIR_2, A, 7, OUT)", "DIR_2 must be one of TIM3_CH1"),
+        ("X(DIR_2, A, 7, TIM3_CH2)", "X(DIR_2, A, 7, TIM3_CH1)", "PA7 has no TIM3_CH1"),
+        ("X(DIR_1, A, 6, TIM3_CH1)", "X(DIR_1, B, 5, TIM3_CH2)", "DIR_2 and DIR_1 are both"),
         (FIRST, "X(STEP_1, C, 12, TIM5_CH1)", "PC12 has no TIM5_CH1"),
         (FIRST, "X(STEP_1, B, 10, TIM5_CH3)", "PB10 has no TIM5_CH3"),
         (FIRST, "X(STEP_1, A, 0, OUT)", "STEP_1 must be one of TIM2_CH1, TIM2_CH2, TIM2_CH3, TIM5"),
@@ -124,7 +127,7 @@ FIRST = "X(STEP_1, A, 0, TIM5_CH1)"
         (FIRST, "X(STEP_1, A, 15, TIM2_CH1)", "STEP_1: PA15 is pulled up"),
         ("X(BI_1, C, 0, IN_UP)", "X(BI_1, C, 0, OUT)", "BI_1 cannot be OUT"),
         ("X(BI_1, C, 0, IN_UP)", "", "BI_1 has no pin"),
-        ("X(S1_1, B, 0, IN_UP)", "X(S1_1, B, 0, IN_UP) X(EN_1, B, 6, OUT)", "ENABLE is EN_ALL, or"),
+        ("X(S1_1, A, 4, IN_UP)", "X(S1_1, A, 4, IN_UP) X(EN_1, B, 6, OUT)", "ENABLE is EN_ALL, or"),
         ("X(BI_1, C, 0, IN_UP)", "X(BI_9, C, 0, IN_UP)", "BI_9 is not a signal"),
         ('"LQFP64"', '"LQFP65"', "BOARD_PACKAGE must be one of"),
     ],
@@ -176,10 +179,10 @@ def test_the_checker_says_what_is_wrong_with_a_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     header = tmp_path / "board.h"
-    header.write_text(GOOD.replace("X(DIR_2, A, 5, OUT)", "X(DIR_2, A, 4, OUT)"))
+    header.write_text(GOOD.replace("X(LED_2, C, 9, OUT)", "X(LED_2, C, 8, OUT)"))
 
     assert board_pins.main([str(header)]) == 1
-    assert f"{header}: PA4 is used twice" in capsys.readouterr().err
+    assert f"{header}: PC8 is used twice" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -25,6 +25,14 @@ TIMER_CHANNELS = {
     "TIM5_CH3": {"A2"},
     "TIM5_CH4": {"A3"},
 }
+# Those of the timer that turns DIR (2).
+TURN_CHANNELS = {
+    "TIM3_CH1": {"A6", "B4", "C6"},
+    "TIM3_CH2": {"A7", "B5", "C7"},
+    "TIM3_CH3": {"B0", "C8"},
+    "TIM3_CH4": {"B1", "C9"},
+}
+CHANNELS = {"STEP": TIMER_CHANNELS, "DIR": TURN_CHANNELS}
 LINE_PINS = {
     "USART1": {"TX": {"A9", "B6"}, "RX": {"A10", "B7"}},
     "USART2": {"TX": {"A2", "D5"}, "RX": {"A3", "D6"}},
@@ -59,13 +67,14 @@ def use_errors(pin: Pin, line: str, step_class: str) -> Iterator[str]:
     kind, _, which = pin.signal.partition("_")
     if kind in SAFE_AT_RESET and pin.pin in PULLED_UP:
         yield f"{pin.signal}: P{pin.pin} is pulled up at reset as {PULLED_UP[pin.pin]}"
-    if kind == "STEP" and step_class == "2":
-        if pin.use != "GPIO":
-            yield f"{pin.signal} must be GPIO, as BOARD_STEP_CLASS says, not {pin.use}"
-    elif kind == "STEP":
-        if pin.use not in TIMER_CHANNELS:
-            yield f"{pin.signal} must be one of {', '.join(TIMER_CHANNELS)}, not {pin.use}"
-        elif pin.pin not in TIMER_CHANNELS[pin.use]:
+    channels = CHANNELS.get(kind, {})
+    if channels and step_class == "2":
+        if pin.use != (wanted := "GPIO" if kind == "STEP" else "OUT"):
+            yield f"{pin.signal} must be {wanted}, as BOARD_STEP_CLASS says, not {pin.use}"
+    elif channels:
+        if pin.use not in channels:
+            yield f"{pin.signal} must be one of {', '.join(channels)}, not {pin.use}"
+        elif pin.pin not in channels[pin.use]:
             yield f"P{pin.pin} has no {pin.use}"
     elif pin.signal in ("LINE_TX", "LINE_RX"):
         if pin.use != line:
@@ -84,10 +93,10 @@ def enable_errors(names: list[str]) -> Iterator[str]:
 
 
 def channel_errors(pins: list[Pin]) -> Iterator[str]:
-    """A channel makes the steps of one motor."""
+    """A channel has one pin."""
     owners: dict[str, Pin] = {}
     for pin in pins:
-        if pin.use in TIMER_CHANNELS and (owner := owners.setdefault(pin.use, pin)) is not pin:
+        if "_CH" in pin.use and (owner := owners.setdefault(pin.use, pin)) is not pin:
             yield f"{pin.signal} and {owner.signal} are both {pin.use}"
 
 

@@ -66,7 +66,7 @@ MODULES = (
         "step", "engine/step",
         (
             "step_generator.c", "step_generator.h", "step_lay.c", "step_lay.h", "step_channel.c",
-            "step_channel.h",
+            "step_channel.h", "step_channel_change.c", "step_channel_private.h",
         ), (),
     ),
     Module(

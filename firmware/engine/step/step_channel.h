@@ -41,10 +41,15 @@ struct step_channel {
     _Atomic bool running;   /* a pulse is to come */
     _Atomic bool marked;    /* a marked segment has begun; main clears it */
     bool closed;            /* the motor brakes or has been halted: what was planned before is not wanted any more */
+    bool frozen;            /* nothing is laid until the queue has been planned anew */
+    bool turn;              /* what is pushed goes backward */
     uint8_t young;          /* which of `kept` is the younger one */
-    int8_t direction;       /* +1 or -1 */
+    int8_t direction;       /* +1 or -1: of the pulse laid last */
     uint8_t motor;          /* 0 to 3 */
-    int64_t origin;         /* absolute position at the start of the move, steps */
+    uint32_t backward;      /* of each place of the queue a bit: its segment goes backward */
+    uint32_t recalled;      /* while frozen: pulses taken back that the cursor has passed */
+    uint64_t turned;        /* ordinal of the last pulse before the last turn; those before it have been made */
+    int64_t origin;         /* pulse k after the last turn is at origin + direction*k, steps */
 };
 
 /* Stands at position 0. */
@@ -53,6 +58,9 @@ void step_channel_init(struct step_channel *channel, unsigned motor);
 /* Readies the channel for a move that begins at `tick` with DIR set; the queue is empty. Not while
  * running. */
 void step_channel_begin(struct step_channel *channel, uint32_t tick, bool backward);
+
+/* The way of what is pushed from now on. DIR changes between the pulses; they must be so far apart (hal_step.h). */
+void step_channel_turn(struct step_channel *channel, bool backward);
 
 /* Free slots in the queue. */
 uint32_t step_channel_room(const struct step_channel *channel);
@@ -91,6 +99,18 @@ void step_channel_replace_brake(struct step_channel *channel, const struct step_
  * room for so many. */
 bool step_channel_replace(struct step_channel *channel, const struct step_cursor *at,
                           const struct step_segment *segments, unsigned count);
+
+/* Takes back what is laid of the last `back` pulses that have been pushed, and lays no more until step_channel_recall
+ * or step_channel_thaw. False, and all goes on, if it is too late. Not while the motor brakes. */
+bool step_channel_freeze(struct step_channel *channel, uint64_t back);
+
+/* Drops the last `back` pulses that have been pushed, as they were frozen; goes on with those before and with
+ * `segment`, which goes backward or not; NULL: none. */
+void step_channel_recall(struct step_channel *channel, uint64_t back, const struct step_segment *segment,
+                         bool backward);
+
+/* Goes on as if nothing had been frozen. */
+void step_channel_thaw(struct step_channel *channel);
 
 /* Takes back what is laid and ends the move at once, or after the pulse for which it is too late; at rest, drops what
  * is queued. */

@@ -18,6 +18,11 @@ enum {
 
 static struct {
     uint32_t tick[GIVEN_MAX];
+    enum {
+        GIVEN_AS_IT_IS,
+        GIVEN_FORWARD,
+        GIVEN_BACKWARD
+    } way[GIVEN_MAX];
     unsigned count;
     unsigned laid; /* the first ones, less those that were taken back */
 } given[UNIT_MOTORS];
@@ -30,10 +35,25 @@ static inline void given_clear(void)
     }
 }
 
+/* A pulse the way that DIR is. */
 static inline void give(unsigned motor, uint32_t tick)
 {
     TEST_ASSERT_LESS_THAN_UINT(GIVEN_MAX, given[motor].count);
+    given[motor].way[given[motor].count] = GIVEN_AS_IT_IS;
     given[motor].tick[given[motor].count++] = tick;
+}
+
+static inline void give_way(unsigned motor, uint32_t tick, bool backward)
+{
+    give(motor, tick);
+    given[motor].way[given[motor].count - 1U] = backward ? GIVEN_BACKWARD : GIVEN_FORWARD;
+}
+
+/* Whether DIR has to change before the next pulse. */
+static inline bool given_turns(unsigned motor, bool backward)
+{
+    unsigned way = given[motor].way[given[motor].laid];
+    return way != GIVEN_AS_IT_IS && (way == GIVEN_BACKWARD) != backward;
 }
 
 static inline unsigned given_lay_isr(void *context, unsigned motor, struct hal_step_room *room)
@@ -42,6 +62,11 @@ static inline unsigned given_lay_isr(void *context, unsigned motor, struct hal_s
     uint32_t last = room->until_tick - 1U;
     (void)context;
     while (count < room->count && given[motor].laid < given[motor].count && tick_is_before(last, room->until_tick)) {
+        bool turns = given_turns(motor, room->backward);
+        if (count != 0 && turns) {
+            break;
+        }
+        room->backward = room->backward != turns;
         last = given[motor].tick[given[motor].laid++];
         room->pulse[count++] = (struct hal_step_pulse){.rise_tick = last, .fall_tick = last + room->high_ticks};
     }

@@ -3,8 +3,8 @@
  * no clock. A test makes the pulses.
  *
  * It asks for pulses until LAID_AHEAD of them wait: 1 is one at a time, as a backend with little time ahead would. It
- * is as strict as the headers of the seam allow: once a client has had no more, it asks again only when none waits, and
- * after pulses were taken back only when told to run. What the headers forbid fails the test.
+ * is as strict as the headers of the seam allow: once a client has had no more, it asks again only when none waits or
+ * when told to run, and after pulses were taken back only when told to run. What the headers forbid fails the test.
  * To be included by one test program alone, after the mock.
  */
 #ifndef LAID_RIG_H
@@ -33,6 +33,8 @@ static struct {
     unsigned at_once;  /* places of a question at most */
     unsigned too_late; /* of the pulses that wait, the first ones that are not taken back any more */
     uint32_t tick[LAID_MAX];
+    bool backward[LAID_MAX];
+    bool direction;     /* DIR with the pulse made last, or as set since */
     uint32_t made;      /* pulses, ever */
     uint32_t laid;      /* pulses, ever, but for those taken back */
     uint32_t back;      /* pulses taken back, ever */
@@ -64,22 +66,30 @@ static inline unsigned laid_ask(unsigned places)
         .waiting = laid_waiting(),
         .until_tick = laid.last_tick + (uint32_t)LAID_FAR_TICKS,
         .high_ticks = LAID_HIGH_TICKS,
+        .backward = laid_waiting() == 0 ? laid.direction : laid.backward[(laid.laid - 1U) % LAID_MAX],
     };
     unsigned count = laid.lay(&room);
     TEST_ASSERT_LESS_OR_EQUAL_UINT(room.count, count);
     for (unsigned i = 0; i < count; i++) {
         TEST_ASSERT_EQUAL_UINT32(LAID_HIGH_TICKS, pulse[i].fall_tick - pulse[i].rise_tick);
+        laid.backward[laid.laid % LAID_MAX] = room.backward;
         laid.tick[laid.laid++ % LAID_MAX] = pulse[i].rise_tick;
     }
     laid.main_has_work = laid.main_has_work || room.main_has_work;
     return count;
 }
 
+/* Whether DIR has to change before the last pulse that waits. */
+static inline bool laid_turns(void)
+{
+    return laid_waiting() != 0 && laid.backward[(laid.laid - 1U) % LAID_MAX] != laid.direction;
+}
+
 static inline void laid_fill(void)
 {
     laid.dry = laid.dry && laid_waiting() != 0;
     laid.told = laid.told || laid_waiting() == 0;
-    while (laid.told && !laid.dry && laid_waiting() < laid.ahead) {
+    while (laid.told && !laid.dry && !laid_turns() && laid_waiting() < laid.ahead) {
         laid.dry = laid_ask(laid.ahead - laid_waiting()) == 0;
     }
 }
@@ -88,6 +98,7 @@ static inline void laid_fill(void)
 static inline uint32_t laid_make_pulse(void)
 {
     laid.last_tick = laid_next_tick();
+    laid.direction = laid.backward[laid.made % LAID_MAX];
     laid.made++;
     laid.main_has_work = false;
     laid_fill();
@@ -100,6 +111,7 @@ static inline void laid_run_seen(unsigned motor, int calls)
     TEST_ASSERT_EQUAL_UINT(laid.motor, motor);
     TEST_ASSERT_EQUAL_UINT_MESSAGE(1, laid.holds, "told to run without a hold");
     laid.told = true;
+    laid.dry = false;
     laid_fill();
 }
 
@@ -127,8 +139,8 @@ static inline unsigned laid_take_back(unsigned motor, unsigned count, int calls)
 
 static inline void laid_direction_set(unsigned motor, bool backward, int calls)
 {
-    (void)backward;
     (void)calls;
+    laid.direction = backward;
     TEST_ASSERT_EQUAL_UINT(laid.motor, motor);
     TEST_ASSERT_EQUAL_UINT_MESSAGE(0, laid_waiting(), "turned while a pulse waits");
 }

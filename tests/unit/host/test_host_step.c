@@ -17,6 +17,7 @@ static uint64_t turn_tick;
 static unsigned turn_motor;
 static bool pin_backward;
 static bool edge_backward;
+static uint32_t lay_turned;
 
 static void step_seen(void *context, uint64_t tick, unsigned motor, bool backward)
 {
@@ -290,4 +291,85 @@ void test_a_machine_without_listener_runs_all_the_same(void)
     run_until(100);
 
     TEST_ASSERT_EQUAL_UINT64(1, machine.pulses);
+}
+
+/* Two pulses forward and two backward. */
+static void lay_turn(uint32_t gap_ticks)
+{
+    give_way(1, 1000, false);
+    give_way(1, 3000, false);
+    give_way(1, 3000 + gap_ticks, true);
+    lay_turned = 3000 + gap_ticks;
+    give_way(1, 20000, true);
+    run_given(1);
+}
+
+void test_a_direction_turns_between_pulses_once_the_one_before_has_been_held(void)
+{
+    machine.ahead_ticks = 20000;
+    lay_turn(HOST_TURN_US * TICKS_PER_US);
+
+    run_until(lay_turned + 1U);
+
+    TEST_ASSERT_EQUAL_UINT(1, turns);
+    TEST_ASSERT_EQUAL_UINT(1, turn_motor);
+    TEST_ASSERT_TRUE(pin_backward);
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT64(3000 + HOST_HOLD_TICKS, turn_tick);
+    TEST_ASSERT_LESS_OR_EQUAL_UINT64(lay_turned - HOST_SETUP_TICKS, turn_tick);
+    TEST_ASSERT_EQUAL_UINT64(lay_turned, edge_tick);
+    TEST_ASSERT_TRUE(edge_backward);
+    TEST_ASSERT_EQUAL_UINT64(0, machine.late_steps);
+}
+
+void test_a_pulse_too_soon_after_a_turn_waits_for_the_direction_and_is_counted(void)
+{
+    lay_turn(500);
+
+    run_until(19999);
+
+    TEST_ASSERT_EQUAL_UINT64(turn_tick + HOST_SETUP_TICKS, edge_tick);
+    TEST_ASSERT_EQUAL_UINT64(1, machine.late_steps);
+}
+
+void test_no_pulse_is_asked_for_while_a_direction_is_to_turn(void)
+{
+    machine.ahead_ticks = 20000;
+    lay_turn(10000);
+    TEST_ASSERT_EQUAL_UINT(3, waiting_given(1));
+
+    run_until(3000 + HOST_HOLD_TICKS + 1U);
+
+    TEST_ASSERT_EQUAL_UINT(2, waiting_given(1));
+}
+
+void test_a_turn_is_taken_back_with_the_pulses_after_it(void)
+{
+    machine.ahead_ticks = 20000;
+    lay_turn(10000);
+    TEST_ASSERT_EQUAL_UINT(1, take_back_given(1, 1));
+    given[1].way[2] = GIVEN_FORWARD;
+
+    run_until(lay_turned + 1U);
+
+    TEST_ASSERT_EQUAL_UINT64(lay_turned, edge_tick);
+    TEST_ASSERT_FALSE(edge_backward);
+    TEST_ASSERT_EQUAL_UINT(0, turns);
+}
+
+void test_a_turn_stays_while_a_pulse_after_it_does(void)
+{
+    machine.ahead_ticks = 20000;
+    give_way(1, 1000, false);
+    give_way(1, 10000, true);
+    run_given(1);
+    TEST_ASSERT_EQUAL_UINT(0, take_back_given(1, 0));
+
+    run_until(5000);
+
+    TEST_ASSERT_EQUAL_UINT(1, turns);
+}
+
+void test_host_and_header_agree_on_the_time_of_a_turn(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(HOST_TURN_US, hal_step_turn_us());
 }

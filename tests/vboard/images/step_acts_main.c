@@ -4,6 +4,8 @@
  * noted stands in `notes`; what the pins have shown is known to the virtual board. Built with the image (target
  * step_acts_image).
  */
+#include <stddef.h>
+
 #include "driver.h"
 #include "hal_board.h"
 #include "hal_step.h"
@@ -31,6 +33,9 @@ enum what {
     ACT_QUIET,   /* the clock of the milliseconds stands still from now on */
     ACT_NOTE,
     ACT_REPLACE, /* what comes after the first pulse that is due `tick` from now or later by a segment; notes that */
+    ACT_TURN,    /* what is pushed goes backward if `steps` is 1 */
+    ACT_FREEZE,  /* the last `steps` pulses; notes whether it was in time */
+    ACT_RECALL,  /* what is frozen, and go on with a segment, if `steps` is not 0, backward if `marked` is 1 */
 };
 
 struct act {
@@ -62,6 +67,7 @@ struct note notes[NOTES];
 void acts_done(void);
 
 static unsigned noted;
+static uint64_t frozen;
 
 __attribute__((noinline)) void acts_done(void)
 {
@@ -85,6 +91,19 @@ static void push(struct step_channel *channel, const struct act *act)
     while (step_channel_room(channel) == 0) {
     }
     (void)step_channel_push(channel, &segment);
+}
+
+static void freeze(struct step_channel *channel, const struct act *act)
+{
+    frozen = act->steps;
+    notes[noted++] = (struct note){.running = step_channel_freeze(channel, frozen), .tick = TIM2_CNT};
+}
+
+static void recall(struct step_channel *channel, const struct act *act)
+{
+    const struct step_segment segment = {
+        .slope = act->slope, .tick = act->tick, .pace_ticks = act->pace_ticks, .steps = act->steps};
+    step_channel_recall(channel, frozen, act->steps != 0 ? &segment : NULL, act->what >> 16 != 0);
 }
 
 static void rest(const struct step_channel *channel)
@@ -161,6 +180,15 @@ static void do_channel(const struct act *act, unsigned motor)
         break;
     case ACT_REPLACE:
         replace(channel, act);
+        break;
+    case ACT_TURN:
+        step_channel_turn(channel, act->steps != 0);
+        break;
+    case ACT_FREEZE:
+        freeze(channel, act);
+        break;
+    case ACT_RECALL:
+        recall(channel, act);
         break;
     default:
         break;

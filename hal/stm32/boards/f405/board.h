@@ -13,10 +13,10 @@
     X(STEP_2, A, 1, TIM5_CH2)                                                                                          \
     X(STEP_3, A, 2, TIM5_CH3)                                                                                          \
     X(STEP_4, A, 3, TIM5_CH4)                                                                                          \
-    X(DIR_1, A, 4, OUT)                                                                                                \
-    X(DIR_2, A, 5, OUT)                                                                                                \
-    X(DIR_3, A, 6, OUT)                                                                                                \
-    X(DIR_4, A, 7, OUT)                                                                                                \
+    X(DIR_1, A, 6, TIM3_CH1)                                                                                           \
+    X(DIR_2, A, 7, TIM3_CH2)                                                                                           \
+    X(DIR_3, B, 0, TIM3_CH3)                                                                                           \
+    X(DIR_4, B, 1, TIM3_CH4)                                                                                           \
     X(LINE_DE, A, 8, OUT)                                                                                              \
     X(LINE_TX, A, 9, USART1)                                                                                           \
     X(LINE_RX, A, 10, USART1)                                                                                          \
@@ -40,8 +40,8 @@
     X(LED_2, C, 9, OUT)                                                                                                \
     X(LED_3, C, 10, OUT)                                                                                               \
     X(LED_4, C, 11, OUT)                                                                                               \
-    X(S1_1, B, 0, IN_UP)                                                                                               \
-    X(S1_2, B, 1, IN_UP)                                                                                               \
+    X(S1_1, A, 4, IN_UP)                                                                                               \
+    X(S1_2, A, 5, IN_UP)                                                                                               \
     X(S1_3, B, 4, IN_UP)                                                                                               \
     X(S1_4, B, 5, IN_UP)
 

@@ -13,10 +13,10 @@
     X(STEP_2, A, 1, TIM5_CH2)                                                                                          \
     X(STEP_3, A, 2, TIM5_CH3)                                                                                          \
     X(STEP_4, A, 3, TIM5_CH4)                                                                                          \
-    X(DIR_1, C, 1, OUT)                                                                                                \
-    X(DIR_2, C, 2, OUT)                                                                                                \
-    X(DIR_3, C, 4, OUT)                                                                                                \
-    X(DIR_4, C, 5, OUT)                                                                                                \
+    X(DIR_1, C, 6, TIM3_CH1)                                                                                           \
+    X(DIR_2, B, 5, TIM3_CH2)                                                                                           \
+    X(DIR_3, C, 8, TIM3_CH3)                                                                                           \
+    X(DIR_4, C, 9, TIM3_CH4)                                                                                           \
     X(LINE_DE, D, 10, OUT)                                                                                             \
     X(LINE_TX, D, 8, USART3)                                                                                           \
     X(LINE_RX, D, 9, USART3)                                                                                           \
@@ -29,7 +29,7 @@
     X(BI_7, E, 14, IN_UP)                                                                                              \
     X(BI_8, E, 15, IN_UP)                                                                                              \
     X(BO_1, B, 11, OUT)                                                                                                \
-    X(BO_2, B, 5, OUT)                                                                                                 \
+    X(BO_2, C, 1, OUT)                                                                                                 \
     X(BO_3, B, 7, OUT)                                                                                                 \
     X(BO_4, B, 8, OUT)                                                                                                 \
     X(BO_5, B, 12, OUT)                                                                                                \

@@ -14,10 +14,10 @@
     X(STEP_2, A, 1, TIM5_CH2)                                                                                          \
     X(STEP_3, A, 2, TIM5_CH3)                                                                                          \
     X(STEP_4, A, 3, TIM5_CH4)                                                                                          \
-    X(DIR_1, A, 4, OUT)                                                                                                \
-    X(DIR_2, A, 5, OUT)                                                                                                \
-    X(DIR_3, A, 6, OUT)                                                                                                \
-    X(DIR_4, A, 7, OUT)                                                                                                \
+    X(DIR_1, A, 6, TIM3_CH1)                                                                                           \
+    X(DIR_2, A, 7, TIM3_CH2)                                                                                           \
+    X(DIR_3, B, 0, TIM3_CH3)                                                                                           \
+    X(DIR_4, B, 1, TIM3_CH4)                                                                                           \
     X(LINE_DE, B, 15, OUT)                                                                                             \
     X(LINE_TX, A, 9, USART1)                                                                                           \
     X(LINE_RX, A, 10, USART1)                                                                                          \
@@ -29,8 +29,8 @@
     X(BI_6, C, 5, IN_UP)                                                                                               \
     X(BI_7, C, 6, IN_UP)                                                                                               \
     X(BI_8, C, 7, IN_UP)                                                                                               \
-    X(BO_1, B, 0, OUT)                                                                                                 \
-    X(BO_2, B, 1, OUT)                                                                                                 \
+    X(BO_1, A, 4, OUT)                                                                                                 \
+    X(BO_2, A, 5, OUT)                                                                                                 \
     X(BO_3, B, 6, OUT)                                                                                                 \
     X(BO_4, B, 7, OUT)                                                                                                 \
     X(BO_5, B, 8, OUT)                                                                                                 \

@@ -1,0 +1,227 @@
+#include "mock_hal_step.h"
+#include "step_channel.h"
+#include "unity.h"
+
+#include "channel_rig.h"
+
+/* Pulses both ways in one move, laid ahead, frozen, recalled: each at its tick, and the position is what was made. */
+
+enum {
+    PIECES = 5,
+    TOTAL = 15,
+    AHEAD = 20,
+    NEW_STEPS = 3
+};
+
+static const struct {
+    uint32_t steps;
+    bool backward;
+} pieces[PIECES] = {{3, false}, {2, false}, {4, true}, {1, true}, {5, false}};
+
+static int64_t position[TOTAL + 1]; /* after pulse k */
+
+static void begin_pieces(unsigned ahead)
+{
+    uint32_t pulse = 0;
+    channel_rig_init();
+    laid.ahead = ahead;
+    step_channel_begin(&channel, START, false);
+    for (unsigned i = 0; i < PIECES; i++) {
+        step_channel_turn(&channel, pieces[i].backward);
+        push(pulse, pieces[i].steps);
+        pulse += pieces[i].steps;
+    }
+    step_channel_run(&channel);
+}
+
+static void assert_pulse(uint32_t pulse)
+{
+    TEST_ASSERT_EQUAL_UINT32(START + pulse * INTERVAL, laid_make_pulse());
+    TEST_ASSERT_EQUAL_UINT64(pulse, step_channel_pulses(&channel));
+    TEST_ASSERT_EQUAL_INT64(position[pulse], step_channel_position(&channel));
+    TEST_ASSERT_EQUAL(position[pulse] < position[pulse - 1U], laid.direction);
+}
+
+static void assert_pulses(uint32_t from, uint32_t to)
+{
+    for (uint32_t pulse = from; pulse <= to; pulse++) {
+        assert_pulse(pulse);
+    }
+}
+
+void setUp(void)
+{
+    uint32_t pulse = 0;
+    for (unsigned i = 0; i < PIECES; i++) {
+        for (uint32_t k = 0; k < pieces[i].steps; k++, pulse++) {
+            position[pulse + 1U] = position[pulse] + (pieces[i].backward ? -1 : 1);
+        }
+    }
+    channel_rig_init();
+}
+
+void tearDown(void)
+{
+    channel_rig_check();
+}
+
+void test_pulses_go_the_way_of_their_segment_and_the_position_follows(void)
+{
+    for (unsigned ahead = 1; ahead <= AHEAD; ahead++) {
+        begin_pieces(ahead);
+        assert_pulses(1, TOTAL);
+        TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+        TEST_ASSERT_EQUAL_INT64(position[TOTAL], step_channel_position(&channel));
+    }
+}
+
+void test_a_move_goes_on_from_a_position_reached_both_ways(void)
+{
+    begin_pieces(AHEAD);
+    assert_pulses(1, TOTAL);
+    step_channel_begin(&channel, START, true);
+    push(0, 2);
+    step_channel_run(&channel);
+    (void)run_to_the_end();
+    TEST_ASSERT_EQUAL_INT64(position[TOTAL] - 2, step_channel_position(&channel));
+}
+
+void test_a_move_may_begin_the_other_way_than_it_was_readied_for(void)
+{
+    for (unsigned ahead = 1; ahead <= AHEAD; ahead++) {
+        channel_rig_init();
+        laid.ahead = ahead;
+        step_channel_begin(&channel, START, false);
+        step_channel_turn(&channel, true);
+        push(0, 4);
+        step_channel_run(&channel);
+        TEST_ASSERT_TRUE(step_channel_freeze(&channel, 4));
+        step_channel_thaw(&channel);
+        make_pulses(1);
+        TEST_ASSERT_EQUAL_INT64(-1, step_channel_position(&channel));
+        (void)run_to_the_end();
+        TEST_ASSERT_EQUAL_INT64(-4, step_channel_position(&channel));
+    }
+}
+
+static void freeze_and_thaw(unsigned ahead, uint32_t made, uint64_t back)
+{
+    begin_pieces(ahead);
+    assert_pulses(1, made);
+    TEST_ASSERT_TRUE(step_channel_freeze(&channel, back));
+    TEST_ASSERT_LESS_OR_EQUAL_UINT(TOTAL - back, laid.laid);
+    TEST_ASSERT_EQUAL_INT64(position[made], step_channel_position(&channel));
+    step_channel_thaw(&channel);
+    assert_pulses(made + 1U, TOTAL);
+    TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+}
+
+void test_what_was_frozen_and_thawed_comes_as_if_nothing_had_happened(void)
+{
+    for (unsigned ahead = 1; ahead <= AHEAD; ahead += 3) {
+        for (uint32_t made = 0; made < TOTAL; made++) {
+            for (uint32_t back = 0; back <= TOTAL - made; back++) {
+                freeze_and_thaw(ahead, made, back);
+            }
+        }
+    }
+}
+
+void test_while_frozen_only_what_stays_is_made(void)
+{
+    begin_pieces(AHEAD);
+    assert_pulses(1, 2);
+    TEST_ASSERT_TRUE(step_channel_freeze(&channel, TOTAL - 4));
+    assert_pulses(3, 4);
+    TEST_ASSERT_EQUAL_UINT(0, laid_waiting());
+    TEST_ASSERT_TRUE(step_channel_is_running(&channel));
+    step_channel_thaw(&channel);
+    assert_pulses(5, TOTAL);
+}
+
+static void recall(unsigned ahead, uint32_t made, uint32_t back, bool backward)
+{
+    uint32_t stays = TOTAL - back;
+    struct step_segment segment = segment_after(stays, NEW_STEPS);
+    begin_pieces(ahead);
+    assert_pulses(1, made);
+    TEST_ASSERT_TRUE(step_channel_freeze(&channel, back));
+    step_channel_recall(&channel, back, &segment, backward);
+    assert_pulses(made + 1U, stays);
+    for (uint32_t k = 1; k <= NEW_STEPS; k++) {
+        int64_t way = backward ? -(int64_t)k : (int64_t)k;
+        TEST_ASSERT_EQUAL_UINT32(START + (stays + k) * INTERVAL, laid_make_pulse());
+        TEST_ASSERT_EQUAL_INT64(position[stays] + way, step_channel_position(&channel));
+    }
+    TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+    TEST_ASSERT_EQUAL_UINT32(START + (stays + (uint32_t)NEW_STEPS) * INTERVAL, step_channel_end_tick(&channel));
+    TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS, step_channel_room(&channel));
+}
+
+void test_what_is_recalled_never_comes_and_what_replaces_it_does(void)
+{
+    for (unsigned ahead = 1; ahead <= AHEAD; ahead += 3) {
+        for (uint32_t made = 0; made < TOTAL; made++) {
+            for (uint32_t back = 0; back <= TOTAL - made; back++) {
+                recall(ahead, made, back, false);
+                recall(ahead, made, back, true);
+            }
+        }
+    }
+}
+
+static void end_early(unsigned ahead, uint32_t made, uint32_t back)
+{
+    uint32_t stays = TOTAL - back;
+    begin_pieces(ahead);
+    assert_pulses(1, made);
+    TEST_ASSERT_TRUE(step_channel_freeze(&channel, back));
+    step_channel_recall(&channel, back, NULL, false);
+    assert_pulses(made + 1U, stays);
+    TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+    TEST_ASSERT_EQUAL_UINT32(START + stays * INTERVAL, step_channel_end_tick(&channel));
+    TEST_ASSERT_EQUAL_INT64(position[stays], step_channel_position(&channel));
+}
+
+void test_a_move_that_is_recalled_ends_with_the_last_pulse_that_stays(void)
+{
+    for (unsigned ahead = 1; ahead <= AHEAD; ahead += 3) {
+        for (uint32_t made = 1; made < TOTAL; made++) {
+            for (uint32_t back = 0; back < TOTAL - made; back++) {
+                end_early(ahead, made, back);
+            }
+        }
+    }
+}
+
+void test_what_cannot_be_taken_back_any_more_is_not_frozen(void)
+{
+    for (uint32_t late = 1; late <= pieces[0].steps + pieces[1].steps; late++) {
+        begin_pieces(AHEAD);
+        laid.too_late = late;
+        TEST_ASSERT_TRUE(step_channel_freeze(&channel, TOTAL - late));
+        step_channel_thaw(&channel);
+        TEST_ASSERT_FALSE(step_channel_freeze(&channel, TOTAL - late + 1U));
+        TEST_ASSERT_FALSE(step_channel_freeze(&channel, TOTAL));
+        assert_pulses(1, TOTAL);
+    }
+}
+
+void test_a_pulse_that_was_made_is_not_frozen(void)
+{
+    begin_pieces(AHEAD);
+    assert_pulses(1, 7);
+    TEST_ASSERT_FALSE(step_channel_freeze(&channel, TOTAL - 6));
+    assert_pulses(8, TOTAL);
+}
+
+void test_a_channel_at_rest_takes_what_replaces_nothing(void)
+{
+    struct step_segment segment = segment_after(TOTAL, NEW_STEPS);
+    begin_pieces(AHEAD);
+    assert_pulses(1, TOTAL);
+    TEST_ASSERT_TRUE(step_channel_freeze(&channel, 0));
+    step_channel_recall(&channel, 0, &segment, true);
+    (void)run_to_the_end();
+    TEST_ASSERT_EQUAL_INT64(position[TOTAL] - NEW_STEPS, step_channel_position(&channel));
+}
