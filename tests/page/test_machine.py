@@ -96,6 +96,12 @@ def test_what_is_edited_is_saved_and_the_rest_stays(page):
     assert saved == wanted
 
 
+def test_texts_with_quotes_and_colons_are_texts(page):
+    told = content(notes='a "name": \\":\\": [{}] \U0001f980', name=': "')
+    open_machine(page, told)
+    assert save(page)[1] == told
+
+
 def test_programs_that_are_there_become_a_machine(page):
     page.write("F11 R")
     name, saved = save(page)
@@ -130,6 +136,8 @@ def test_the_machine_survives_a_reload(page):
         ),
         (b"\xff\xfe{\0}\0", "is not UTF-8"),
         (b"[]", "this is no machine file"),
+        (b'{"a": [{"x": 1}, {"x": 2}], "b": {"c\\"": ":", "c\\"" : 2}}', "stands there twice"),
+        (json.dumps(content(notes="\ud800")).encode(), "half a character"),
         (json.dumps(content(version=2)).encode(), "was written by later tools"),
         (json.dumps(content(colour=1)).encode(), "nothing is known of colour"),
         (json.dumps(content(name=5)).encode(), "name: must be a text"),

@@ -156,6 +156,8 @@ export const cs: Dictionary = {
     "machine.tooLarge": "{name}: větší než {bytes} bajtů, takže to není soubor stroje; neotevřeno",
     "machine.notUtf8": "není to UTF-8, takže to není soubor stroje",
     "machine.notJson": "není to JSON, možná je soubor useknutý",
+    "machine.twice": "jeden název je tam dvakrát a jedna z hodnot by se ztratila",
+    "machine.half": "v textu je půl znaku",
     "machine.notMachine": "není to soubor stroje (.rkm)",
     "machine.later": "soubor zapsaly novější nástroje; použijte novější stránku",
     "machine.wrong": "",

@@ -153,6 +153,8 @@ export const en = {
     "machine.tooLarge": "{name}: larger than {bytes} bytes, so it is no machine file; not opened",
     "machine.notUtf8": "this is not UTF-8, so it is no machine file",
     "machine.notJson": "this is not JSON, perhaps it was cut off",
+    "machine.twice": "a name stands there twice, and one of the two values would be lost",
+    "machine.half": "a text has half a character",
     "machine.notMachine": "this is no machine file (.rkm)",
     "machine.later": "this was written by later tools; take a later page",
     "machine.wrong": "",

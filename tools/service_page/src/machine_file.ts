@@ -33,6 +33,11 @@ export interface MachineContent {
     output_names?: Record<string, string>;
 }
 
+/** A string of JSON, with the colon that follows a name. */
+const STRING = /"[^"\\]*(?:\\.[^"\\]*)*"\s*:?/g;
+/** Half of a character that takes two units. */
+const HALF = /\p{Cs}/u;
+
 /** Why a content is none; `problems` are to be shown in its words. */
 export interface NoMachine {
     key: Key;
@@ -53,13 +58,24 @@ export const newMachine = (name: string): MachineContent => ({
 
 /** Reads a file. */
 export function parseMachine(bytes: Uint8Array): MachineContent | NoMachine {
-    let content: unknown;
     try {
-        content = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(bytes));
+        return judgedText(new TextDecoder("utf-8", { fatal: true }).decode(bytes));
     } catch (error) {
         return no(error instanceof SyntaxError ? "machine.notJson" : "machine.notUtf8");
     }
-    return judged(content);
+}
+
+/** Refuses what JSON.parse() takes and would not be saved again. */
+function judgedText(text: string): MachineContent | NoMachine {
+    let names = -1; // the whole has one, which is empty
+    let isText = true;
+    const content: unknown = JSON.parse(text, function (this: unknown, _, value: unknown) {
+        names += Array.isArray(this) ? 0 : 1;
+        isText &&= typeof value !== "string" || !HALF.test(value);
+        return value;
+    });
+    const written = (text.match(STRING) ?? []).filter((part) => part.endsWith(":")).length;
+    return written > names ? no("machine.twice") : isText ? judged(content) : no("machine.half");
 }
 
 /** A content that is a machine, or why it is none. */
