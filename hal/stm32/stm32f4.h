@@ -141,6 +141,7 @@
 #define TIM5_CCR4 STM32_REGISTER(TIM5_BASE + 0x40U)    /* 18.4.16 */
 #define TIM5_OR STM32_REGISTER(TIM5_BASE + 0x50U)      /* 18.4.20 */
 #define TIM_CR1_CEN (1U << 0)
+#define TIM_DIER_CC1IE (1U << 1)
 #define TIM_DIER_CC4IE (1U << 4)
 #define TIM_DIER_CC1DE (1U << 9)
 #define TIM_SR_CC1IF (1U << 1)
@@ -229,9 +230,11 @@
 #define USART2_IRQ 38U
 #define USART3_IRQ 39U
 #define EXTI15_10_IRQ 40U
+#define TIM5_IRQ 50U
 #define NVIC_BASE 0xE000E000U
 #define NVIC_ISER(n) STM32_REGISTER(NVIC_BASE + 0x100U + 4U * (n)) /* 4.3.2 */
 #define NVIC_ICER(n) STM32_REGISTER(NVIC_BASE + 0x180U + 4U * (n)) /* 4.3.3 */
+#define NVIC_ISPR(n) STM32_REGISTER(NVIC_BASE + 0x200U + 4U * (n)) /* 4.3.4 */
 #define NVIC_ICPR(n) STM32_REGISTER(NVIC_BASE + 0x280U + 4U * (n)) /* 4.3.5 */
 #define NVIC_IPR(n) STM32_REGISTER(NVIC_BASE + 0x400U + 4U * (n))  /* 4.3.7 */
 

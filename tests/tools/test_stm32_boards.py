@@ -11,7 +11,8 @@ from typing import Any
 
 import pytest
 from checks import board_pins
-from rkm04_tools import board, board_header
+from rkm04_tools import board, board_header, board_wiring
+from rkm04_tools.failure import Failure
 from wires import times_us, wires
 
 GOOD = (board.BOARDS / "f405" / "board.h").read_text()
@@ -49,10 +50,11 @@ def test_the_table_of_a_board_names_functions_that_the_datasheet_gives_its_pins(
     ends = {end: rows[f"LINE_{end}"] for end in ("TX", "RX")}
 
     channels = [CHANNEL.sub(r"TIM\1_CH\2", wire.note).split(",")[0] for wire in steps]
-    for channel, wire in zip(channels, steps, strict=True):
-        assert channel in FUNCTIONS[wire.pin]
-    assert len(set(channels)) == len(channels)
-    assert "TIM2_CH4" not in channels  # it calls the step interrupt
+    if set(channels) != {"GPIO"}:
+        for channel, wire in zip(channels, steps, strict=True):
+            assert channel in FUNCTIONS[wire.pin]
+        assert len(set(channels)) == len(channels)
+        assert "TIM2_CH4" not in channels  # it calls the step interrupt
     pins = board_header.read_board((board.BOARDS / name / "board.h").read_text()).pins
     assert channels == [pin.use for pin in pins if pin.signal.startswith("STEP")]
     for end, wire in ends.items():
@@ -237,3 +239,33 @@ def test_the_pins_of_a_board_are_shown_with_what_the_hardware_makes_of_them(
     )
     assert len(lines) == 1 + len(rows)
     assert lines[1].split()[:3] == ["STEP_1", "PA0", "high"]
+
+
+LOADER_BOARD = "skr-pro-1.2"
+
+
+def test_an_image_after_a_loader_is_written_there_and_never_over_the_loader(tmp_path: Path) -> None:
+    image = board.Image(LOADER_BOARD, tmp_path)
+    (tmp_path / "bin").mkdir()
+    image.file("bin").write_bytes(bytes(40_000))
+
+    command = board.flash_command("dfu-util", image, "stlink", "")
+
+    assert "0x08008000:leave" in command
+    with pytest.raises(Failure, match="would erase the loader"):
+        board.flash_command("stm32flash", image, "stlink", "/dev/null")
+
+
+def test_a_board_of_class_2_has_its_steps_on_any_pins_and_says_so() -> None:
+    header = board_header.read_board((board.BOARDS / LOADER_BOARD / "board.h").read_text())
+    shown = {wire.signal: wire.what for wire in board_wiring.wires(header)}
+
+    assert "class 2" in shown["STEP_1"]
+    assert shown["BI_5"] == "looked at every millisecond, as BI_1 has its line for edges"
+    timed = GOOD + "#define BOARD_STEP_CLASS 2\n"
+    assert "STEP_1 must be GPIO, as BOARD_STEP_CLASS says, not TIM5_CH1" in list(
+        board_pins.find_errors(timed)
+    )
+    assert "BOARD_STEP_CLASS must be 1 or 2" in list(
+        board_pins.find_errors(GOOD + "#define BOARD_STEP_CLASS 3\n")
+    )

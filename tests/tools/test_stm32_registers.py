@@ -42,6 +42,7 @@ REGISTERS = {
     ("TIM5", "CCMR2"): "CCMR2_Input",
     ("NVIC", "ISER"): "ISER0",
     ("NVIC", "ICER"): "ICER0",
+    ("NVIC", "ISPR"): "ISPR0",
     ("NVIC", "ICPR"): "ICPR0",
     ("NVIC", "IPR"): "IPR0",
     ("SYSCFG", "EXTICR"): "EXTICR1",

@@ -8,13 +8,15 @@ import shutil
 import subprocess
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
 import pytest
 from rkm04_tools import board
 from step_acts import SHORT, Acts, MakeActs
+from step_trials import TryTrains
+from step_trials import try_trains as try_on_board
 from virtual_board import VirtualBoard
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -139,3 +141,9 @@ def make_acts(program: Path, tmp_path: Path) -> MakeActs:
         return Acts(program, tmp_path, name, start)
 
     return make
+
+
+@pytest.fixture
+def try_trains(program: Path, tmp_path: Path) -> TryTrains:
+    """Run trains of one kind on a board."""
+    return partial(try_on_board, program, tmp_path)

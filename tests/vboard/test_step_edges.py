@@ -6,77 +6,17 @@ the virtual board has seen at the pins. A write to the timer takes ten cycles to
 
 from __future__ import annotations
 
-import struct
-from dataclasses import astuple, dataclass, replace
-from pathlib import Path
-from typing import Any
+from dataclasses import replace
 
 import pytest
-from rkm04_tools import board, virtual_board
+from step_trials import Train
 
 SHORT, LONG = "f405", "f407-discovery"
 WIDTH_TICKS = {SHORT: 42, LONG: 210}
 """High and low alike."""
 TICKS_PER_US = 84
-SECONDS_MAX = 20.0
 ODD = ["--refill", "1", "--match-equal"]
 FAST_BUS = ["--apb-wait", "3", "--pwm-at-once"]
-
-
-@dataclass(frozen=True)
-class Train:
-    """What is tried; as struct take_back_setting."""
-
-    trials: int
-    seed: int = 20261123
-    lead_ticks: int = 2000
-    lead_varied: int = 256
-    pace_ticks: int = 420
-    pulses: int = 1
-    halt_ticks: int = 0
-    together: int = 1
-
-
-@dataclass
-class Tried:
-    """What the pins have shown, and what the channels have counted."""
-
-    motors: list[dict[str, Any]]
-    counted: list[int]
-    late: int
-    warnings: int
-
-    @property
-    def shown(self) -> list[int]:
-        return [motor["pulses"] for motor in self.motors]
-
-    def least_us(self, name: str) -> float:
-        return float(min(motor[name] for motor in self.motors))
-
-
-@pytest.fixture
-def try_trains(program: Path, tmp_path: Path):
-    """Run trains of one kind on a board."""
-
-    def run(name: str, train: Train, *options: str) -> Tried:
-        image = board.build(name, "take_back_image")
-        (tmp_path / "pins").write_text(virtual_board.board_pins(name))
-        elf = image.file("elf").with_name(f"{image.name}-take-back.elf")
-        setting = struct.pack("<8I", *astuple(train)).hex()
-        arguments = ["--elf", str(elf), "--pins", str(tmp_path / "pins"), "--for", str(SECONDS_MAX)]
-        arguments += ["--end-at", "take_back_done", "--set", f"take_back_setting={setting}"]
-        arguments += ["--watch", "take_back_report", "--watch", "stm32_late_steps", *options]
-        summary = virtual_board.run(program, arguments)
-        assert summary["ended"] == "reached", summary["error"]
-        watch = summary["watch"]
-        return Tried(
-            summary["motors"],
-            watch["take_back_report"],
-            watch["stm32_late_steps"],
-            summary["warnings"],
-        )
-
-    return run
 
 
 HALTS = Train(trials=10_000, pace_ticks=5250, pulses=3, halt_ticks=16_000)

@@ -219,7 +219,8 @@ def ranks(name: str) -> list[set[str]]:
     is last. Those of a rank do not interrupt each other."""
     rows = {wire.signal: wire for wire in wires(name)}
     edges = {edge_vector(rows[f"BI_{number}"].pin) for number in NUMBERS}
-    return [{"TIM2"}, {rows["LINE_RX"].note}, {"SysTick", *edges}, {"PendSV"}]
+    refill = {"TIM5"} if rows["STEP_1"].note.startswith("GPIO") else set()
+    return [{"TIM2"}, {rows["LINE_RX"].note, *refill}, {"SysTick", *edges}, {"PendSV"}]
 
 
 FAULT_MS = 160.0

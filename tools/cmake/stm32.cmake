@@ -6,13 +6,22 @@ set(script ${PROJECT_SOURCE_DIR}/hal/stm32/stm32f405.ld)
 set(elf $<TARGET_FILE:unit_image>)
 set(output ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${image})
 
+# A loader of the board has the beginning of the flash.
+set(board_header ${PROJECT_SOURCE_DIR}/hal/stm32/boards/${FIRMWARE_BOARD}/board.h)
+file(STRINGS ${board_header} loader REGEX "^#define BOARD_LOADER_BYTES ")
+string(REGEX REPLACE "^#define BOARD_LOADER_BYTES " "" loader_bytes "${loader}")
+if(NOT loader_bytes)
+    set(loader_bytes 0)
+endif()
+
 # firmware_add_image(<target> <name> <library> <source>...): a main and the library that it needs, for the board.
 function(firmware_add_image target name library)
     add_executable(${target} ${ARGN})
     set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} SUFFIX .elf LINK_DEPENDS ${script})
     target_link_libraries(${target} PRIVATE ${library} hal hal_stm32 warnings)
     # Relocations stay in the image (-q): they tell the checks what refers to what.
-    target_link_options(${target} PRIVATE -nostartfiles --specs=nano.specs -T ${script}
+    target_link_options(${target} PRIVATE -nostartfiles --specs=nano.specs
+        -Wl,--defsym=stm32_loader_bytes=${loader_bytes} -T ${script}
         -Wl,--gc-sections -Wl,-q -Wl,--fatal-warnings -Wl,-Map=${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name}.map)
 endfunction()
 firmware_add_image(unit_image ${image} ${FIRMWARE_UNIT} firmware/${FIRMWARE_UNIT}/main.c)
@@ -33,7 +42,6 @@ firmware_add_image(step_acts_image ${image}-step-acts firmware_inside tests/vboa
 set_target_properties(take_back_image step_acts_image PROPERTIES EXCLUDE_FROM_ALL ON)
 
 set(checks ${PROJECT_SOURCE_DIR}/tools/checks)
-set(board_header ${PROJECT_SOURCE_DIR}/hal/stm32/boards/${FIRMWARE_BOARD}/board.h)
 set(run_check ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_SOURCE_DIR}/tools PYTHONDONTWRITEBYTECODE=1
     ${Python3_EXECUTABLE} -m)
 add_custom_command(OUTPUT ${output}.hex ${output}.bin

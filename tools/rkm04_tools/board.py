@@ -15,6 +15,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from rkm04_tools import board_part, board_size
+from rkm04_tools.board_header import read_board
 from rkm04_tools.failure import DONE, NO_CONNECTION, NOT_SO, Failure
 from rkm04_tools.table import table, thousands
 
@@ -26,7 +27,7 @@ IMAGES = (UNIT, BRINGUP)
 """That of the unit, and the one that a new board is tried with."""
 DEFAULT_BOARD = "f405"
 COMPILER = "arm-none-eabi-gcc"
-FLASH_ADDRESS = "0x08000000"
+FLASH_ADDRESS = 0x0800_0000
 SECTOR_BYTES = 16 * 1024
 USB_LOADER = "0483:df11"
 """How the chip's own loader shows up on USB."""
@@ -175,6 +176,12 @@ def run_size(options: Namespace) -> int:
     return DONE
 
 
+def loader_bytes(name: str) -> int:
+    """What a loader of the board has of the flash, before the image."""
+    values = read_board((BOARDS / name / "board.h").read_text()).values
+    return int(values.get("BOARD_LOADER_BYTES", "0"), 0)
+
+
 def flash_command(tool: str, image: Image, probe: str, port: str) -> list[str]:
     """What writes an image, checks it and starts it; stored programs stay as they are."""
     if tool == "openocd":
@@ -182,8 +189,17 @@ def flash_command(tool: str, image: Image, probe: str, port: str) -> list[str]:
         scripts = ["-f", f"interface/{probe}.cfg", "-f", "target/stm32f4x.cfg"]
         return ["openocd", *scripts, "-c", program]
     if tool == "dfu-util":
-        where = ["-a", "0", "-d", USB_LOADER, "-s", f"{FLASH_ADDRESS}:leave"]
+        where = [
+            "-a",
+            "0",
+            "-d",
+            USB_LOADER,
+            "-s",
+            f"{FLASH_ADDRESS + loader_bytes(image.board):#010x}:leave",
+        ]
         return ["dfu-util", *where, "-D", str(image.file("bin"))]
+    if loader_bytes(image.board):
+        raise Failure("stm32flash would erase the loader of the board; take --tool openocd", NOT_SO)
     sectors = -(-image.file("bin").stat().st_size // SECTOR_BYTES)
     return ["stm32flash", "-e", str(sectors), "-w", str(image.file("hex")), "-v", "-g", "0", port]
 

@@ -48,14 +48,16 @@ LEVELS = (
     ("main",),
     ("stm32_plan_interrupt",),
     ("stm32_tick_interrupt", "stm32_edge_interrupt"),
-    ("stm32_line_interrupt",),
+    ("stm32_line_interrupt", "stm32_step_refill_interrupt"),
     ("stm32_step_interrupt",),
 )
+# What boards have whose STEP pins an interrupt writes.
+SOME_BOARDS = {"stm32_step_refill_interrupt"}
 RESET_FRAME = 32  # of the code that calls main
 # Eight words and one to align them (PM0214 2.3.7); a fault pushes one more before its stack is new.
 EXCEPTION_FRAME = 36
 
-FLASH = range(0x0800_0000, 0x0801_0000)
+FLASH = range(0x0800_0000, 0x0802_0000)
 RAM = range(0x2000_0000, 0x2002_0000)
 LOADED = (".first_vectors", ".main_only", ".ram", ".text")
 
@@ -103,8 +105,11 @@ def deepest(function: str, graph: Graph, path: tuple[str, ...] = ()) -> int:
 
 def stack_parts(graph: Graph) -> dict[str, int]:
     """What each priority needs, frames included."""
+    absent = SOME_BOARDS - graph.frames.keys()
     parts = {
-        level[0]: max(deepest(root, graph) for root in level) + EXCEPTION_FRAME for level in LEVELS
+        level[0]: max(deepest(root, graph) for root in level if root not in absent)
+        + EXCEPTION_FRAME
+        for level in LEVELS
     }
     parts["main"] += RESET_FRAME
     return parts

@@ -5,6 +5,10 @@
 
 #include "complain.h"
 
+enum {
+    VECTORS_BYTES = 8 /* what the processor starts with */
+};
+
 /* A header at an offset of the file, copied out as it may lie unaligned. False: it is not all in the file. */
 static bool copy_out(const struct image *image, uint64_t offset, void *header, size_t bytes)
 {
@@ -58,6 +62,32 @@ static void note_sections(struct image *image, const Elf32_Ehdr *header)
     }
 }
 
+/* Where the flash holds something of the program first; 0: nowhere. */
+static uint32_t find_begin(const struct image *image, const Elf32_Ehdr *header)
+{
+    uint32_t begin = 0;
+    for (unsigned i = 0; i < header->e_phnum; i++) {
+        Elf32_Phdr segment;
+        bool there = copy_out(image, header->e_phoff + (uint64_t)i * header->e_phentsize, &segment, sizeof segment) &&
+                     segment.p_type == PT_LOAD && segment.p_filesz > 0 && memory_is_flash(segment.p_paddr);
+        if (there && (begin == 0 || segment.p_paddr < begin)) {
+            begin = segment.p_paddr;
+        }
+    }
+    return begin;
+}
+
+/* A program that does not begin where the flash does is started by a loader there, which does nothing else: stack and
+ * first instruction are those of the program. */
+static void put_loader(const struct image *image, struct memory *memory, const Elf32_Ehdr *header)
+{
+    uint32_t begin = find_begin(image, header);
+    if (begin > MEMORY_FLASH_BASE) {
+        memcpy(memory_find(memory, MEMORY_FLASH_BASE, VECTORS_BYTES), memory_find(memory, begin, VECTORS_BYTES),
+               VECTORS_BYTES);
+    }
+}
+
 bool image_load(struct image *image, struct memory *memory, const char *path)
 {
     Elf32_Ehdr header;
@@ -75,6 +105,7 @@ bool image_load(struct image *image, struct memory *memory, const char *path)
             return false;
         }
     }
+    put_loader(image, memory, &header);
     note_sections(image, &header);
     return true;
 }
