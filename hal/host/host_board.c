@@ -22,3 +22,8 @@ uint32_t hal_board_late_steps(void)
 {
     return (uint32_t)host_current()->late_steps;
 }
+
+bool hal_board_steps_are_timed(void)
+{
+    return !host_current()->faults.no_step_timer;
+}

@@ -103,6 +103,7 @@ struct host_faults {
     uint32_t late_step_ticks;         /* every step interrupt comes this much after the edge */
     uint32_t late_tick_ticks;         /* every tick interrupt comes this much after the change of an input */
     bool no_crystal;                  /* the board allows no motion */
+    bool no_step_timer;               /* the board's steps are made by an interrupt; it only says so */
     bool no_flash;                    /* the part is too small for the areas */
     enum hal_board_cause start_cause; /* why the board has started */
 };

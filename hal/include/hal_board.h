@@ -19,7 +19,7 @@ enum hal_board_cause {
 /* Readies clocks, pins, timer, line and watchdog; outputs stay at 0. Every wait in it is bounded. Once. */
 void hal_board_init(void);
 
-/* Why the board has started. A host backend has this function and the next three, not the others. */
+/* Why the board has started. A host backend has this function and the next four, not the others. */
 enum hal_board_cause hal_board_start_cause(void);
 
 /* Whether motion is allowed: not without the crystal, as step times would be wrong. */
@@ -30,6 +30,10 @@ bool hal_board_may_start_programs(void);
 
 /* Pulses that were made later than asked for, since the start; modulo 2^32. */
 uint32_t hal_board_late_steps(void);
+
+/* Whether a timer makes each edge of STEP at its tick. If not, an interrupt makes it, some microseconds late: class 2
+ * of design.md. */
+bool hal_board_steps_are_timed(void);
 
 /* The end of one pass of the main loop: tells the watchdog that main lives, and sleeps until `wake_tick` (nearly; now
  * or past: not at all) or until an interrupt has something for main that came after the pass began. */

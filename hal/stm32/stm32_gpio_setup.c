@@ -1,3 +1,4 @@
+#include "hal_board.h"
 #include "stm32_gpio_private.h"
 
 enum {
@@ -142,4 +143,9 @@ bool stm32_step_is_quiet(void)
         quiet = quiet && !stm32_gpio.channel[motor].active && !stm32_gpio.channel[motor].high;
     }
     return quiet;
+}
+
+bool hal_board_steps_are_timed(void)
+{
+    return false;
 }

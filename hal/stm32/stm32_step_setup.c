@@ -1,5 +1,6 @@
 #include <stddef.h>
 
+#include "hal_board.h"
 #include "stm32_pins.h"
 #include "stm32_step_private.h"
 
@@ -252,4 +253,9 @@ bool stm32_step_is_quiet(void)
         quiet = quiet && !stm32_step.channel[motor].active;
     }
     return quiet;
+}
+
+bool hal_board_steps_are_timed(void)
+{
+    return true;
 }

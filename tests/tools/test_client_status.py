@@ -92,7 +92,7 @@ def motor_bits(motor: dict[str, Any]) -> int:
 def test_every_shared_answer_is_read_as_what_it_says(vector):
     status = parse_status(bytes.fromhex(vector["answer"])).as_json()
 
-    switches = ("no_crystal", "not_started", "memory_locked", "simulating", "no_store")
+    switches = ("no_crystal", "not_started", "memory_locked", "simulating", "no_store", "untimed")
     assert status["inputs"] == levels(vector["inputs"])
     assert status["outputs"] == levels(vector["outputs"])
     assert CAUSES.index(status["cause"]) == vector["cause"]

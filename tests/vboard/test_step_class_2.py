@@ -9,8 +9,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from board_talk import ask
+from board_talk import ask, heard
 from rkm04_tools import board
+from rkm04_tools.status import parse_status
 from step_acts import FAST_BUS, MOTORS, ODD, READY, Acts, What
 from step_trials import Train
 from virtual_board import (
@@ -279,3 +280,10 @@ def test_more_than_the_class_can_do_is_counted_and_loses_no_pulse(make_acts):
     assert shown.late > 0
     assert min(shown.widths) >= WIDTH
     assert shown.least_gap >= WIDTH
+
+
+def test_the_status_tells_the_class(unit):
+    modelled = unit.run(ask(READY_MS, b"\xc8"), (READY_MS + 80) / 1000)
+
+    (answer,) = heard(modelled.folder)
+    assert parse_status(answer.message).untimed

@@ -138,6 +138,7 @@ class Status:
     memory_locked: bool
     simulating: bool
     no_store: bool
+    untimed: bool
     motors: tuple[MotorStatus, ...]
     late_steps: int
     line: dict[str, int]
@@ -154,6 +155,7 @@ class Status:
             "memory_locked": self.memory_locked,
             "simulating": self.simulating,
             "no_store": self.no_store,
+            "untimed": self.untimed,
             "motors": [asdict(motor) for motor in self.motors],
             "late_steps": self.late_steps,
             "line": dict(self.line),
@@ -184,6 +186,7 @@ def parse_status(answer: bytes) -> Status:
         memory_locked=bool(switches & 4),
         simulating=bool(switches & 8),
         no_store=bool(switches & 16),
+        untimed=bool(switches & 32),
         motors=tuple(_motor(*each) for each in motors),
         late_steps=next(values),
         line=dict(zip(LINE_COUNTS, values, strict=True)),
@@ -211,6 +214,7 @@ def status_text(status: Status) -> str:
     facts |= {"memory": "refuses commands when full (T40)"} if status.memory_locked else {}
     facts |= {"crystal": "missing: no motion"} if status.no_crystal else {}
     facts |= {"stored": "no programs, the part is too small"} if status.no_store else {}
+    facts |= {"steps": "by an interrupt: class 2"} if status.untimed else {}
     lines = [f"{name + ':':<13} {text}" for name, text in facts.items()]
     return "\n".join([table(rows, "rrl"), "", *lines])
 

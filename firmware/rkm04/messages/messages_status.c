@@ -15,6 +15,7 @@ static uint8_t switch_bits(const struct interpreter_shared *shared)
     bits |= shared->memory_locked ? MESSAGES_STATUS_LOCKED : 0U;
     bits |= interpreter_shared_is_simulating(shared) ? MESSAGES_STATUS_SIMULATING : 0U;
     bits |= hal_flash_is_there() ? 0U : MESSAGES_STATUS_NO_STORE;
+    bits |= hal_board_steps_are_timed() ? 0U : MESSAGES_STATUS_UNTIMED;
     return (uint8_t)bits;
 }
 

@@ -24,7 +24,8 @@ enum {
     X(NOT_STARTED, 1) /* after a watchdog or a fault the stored programs have not been started */                      \
     X(LOCKED, 2)      /* T40 */                                                                                        \
     X(SIMULATING, 3)  /* T41 */                                                                                        \
-    X(NO_STORE, 4)    /* the part is too small for stored programs */
+    X(NO_STORE, 4)    /* the part is too small for stored programs */                                                  \
+    X(UNTIMED, 5)     /* an interrupt makes the edges of STEP, not a timer */
 
 enum {
 #define X(name, bit) MESSAGES_STATUS_##name = 1 << (bit),

@@ -287,6 +287,13 @@ void test_a_part_too_small_for_stored_programs_is_told(void)
     TEST_ASSERT_EQUAL_HEX8(MESSAGES_STATUS_NO_STORE, status.switches);
 }
 
+void test_steps_that_no_timer_makes_are_told(void)
+{
+    machine.faults.no_step_timer = true;
+    messages_status_read(&status, interpreter, &shared);
+    TEST_ASSERT_EQUAL_HEX8(MESSAGES_STATUS_UNTIMED, status.switches);
+}
+
 void test_late_steps_are_counted(void)
 {
     machine.late_steps = UINT64_C(0x123456789);
