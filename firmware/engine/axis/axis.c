@@ -17,13 +17,7 @@ enum {
 
 bool axis_enter(struct axis *axis, enum axis_event event)
 {
-    unsigned state = atomic_load_explicit(&axis->state, memory_order_acquire);
-    enum axis_state next = axis_state_next((enum axis_state)state, event);
-    if (next == AXIS_SAME) {
-        return false;
-    }
-    return atomic_compare_exchange_strong_explicit(&axis->state, &state, next, memory_order_acq_rel,
-                                                   memory_order_relaxed);
+    return axis_state_enter(&axis->state, event);
 }
 
 void axis_init(struct axis *axis, unsigned motor)

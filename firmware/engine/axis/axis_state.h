@@ -9,10 +9,14 @@
  *   STOPPING    -        -        -         -          -          ENDED    -
  *   ENDED       -        -        -         -          -          -        STANDING
  *
- * Pure; any context.
+ * The states of a group are the same, of all its motors together.
+ * Any context but the step interrupt.
  */
 #ifndef AXIS_STATE_H
 #define AXIS_STATE_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
 
 /* In this order: from MOVING to STOPPING pulses may come. */
 enum axis_state {
@@ -38,5 +42,9 @@ enum axis_event {
 
 /* The state after an event; AXIS_SAME where the event means nothing in that state. */
 enum axis_state axis_state_next(enum axis_state state, enum axis_event event);
+
+/* Goes from a state, an enum axis_state, to the one that an event leads to. False if the event means nothing now, also
+ * because another context was first. */
+bool axis_state_enter(_Atomic unsigned *state, enum axis_event event);
 
 #endif

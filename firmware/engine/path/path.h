@@ -132,8 +132,12 @@ bool path_find(struct path *path, const struct path_wish *wish, struct path_plac
  * may be handed over between this and that. */
 void path_set_speed(const struct path *path, uint32_t section, uint32_t speed);
 
-/* Plans anew from a place that path_find has found. False, and nothing is changed, if an axis has not been handed over
- * as far as that. Otherwise `back` tells for each axis how many of its last pulses that were handed over are void. */
+/* How many of the last pulses of each axis that were handed over lie after a place that path_find has found: those that
+ * a change there makes void. False if an axis has not been handed over as far as that. */
+bool path_back(const struct path *path, const struct path_place *place, uint64_t back[PATH_AXES]);
+
+/* Plans anew from a place that path_find has found. False, and nothing is changed, if path_back says so; else `back` is
+ * what it tells. */
 bool path_change(struct path *path, const struct path_place *place, uint64_t back[PATH_AXES]);
 
 /* The same, and it brakes to a stand as soon as it can, with the acceleration of each vector that it comes through.

@@ -235,7 +235,7 @@ static void set_accel(const struct path *path, const struct path_place *place)
     }
 }
 
-static bool plan_from(struct path *path, const struct path_place *place, bool stopping, uint64_t back[PATH_AXES])
+bool path_back(const struct path *path, const struct path_place *place, uint64_t back[PATH_AXES])
 {
     for (unsigned axis = 0; axis < PATH_AXES; axis++) {
         if (!is_handed_over(path, place, axis)) {
@@ -244,6 +244,14 @@ static bool plan_from(struct path *path, const struct path_place *place, bool st
     }
     for (unsigned axis = 0; axis < PATH_AXES; axis++) {
         back[axis] = count_void(path, place, axis);
+    }
+    return true;
+}
+
+static bool plan_from(struct path *path, const struct path_place *place, bool stopping, uint64_t back[PATH_AXES])
+{
+    if (!path_back(path, place, back)) {
+        return false;
     }
     if (place->accel != 0) {
         set_accel(path, place);

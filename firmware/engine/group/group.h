@@ -1,0 +1,114 @@
+/*
+ * The group: the engine's door for motors that move together on a path. It makes one motion at a time, from a stand to
+ * a stand, and owns how the motion ends.
+ *
+ * Comes in: vectors, starts, stops and changes of speed from a unit. Goes out: segments to the step channels of the
+ * motors that follow the path's axes. The states are those of an axis (axis_state.h), of all motors together: a motion
+ * begins with group_start and is over when group_take_end has said so. What a stop has left of the path stays:
+ * group_start goes on with it, group_forget drops it.
+ *
+ * A change takes effect at a whole step of the longest axis, the first that is due some 0.4 ms after it was asked for.
+ * Each channel is frozen from there on while the path is planned; where the plan is late, so are the pulses, and the
+ * motors are where the path says all the same.
+ */
+#ifndef GROUP_H
+#define GROUP_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base_limits.h"
+#include "../axis/axis_cause.h"
+#include "../axis/axis_state.h"
+#include "../path/path.h"
+#include "../step/step_channel.h"
+
+/* Speeds of the sections that wait or move. */
+struct group_speeds {
+    uint32_t (*of)(void *context, uint32_t section); /* 1/256 step/s, 1 to PATH_SPEED_MAX; counts as path_init has it */
+    void *context;
+};
+
+/*
+ * Who may call:
+ *   tick interrupt   group_stop_isr
+ *   plan interrupt   group_plan_isr
+ *   main             everything else
+ * The path belongs to main and the plan interrupt, which main holds off by itself where it must (hal_run.h). The step
+ * interrupt lays pulses from the channels, which are the caller's.
+ */
+struct group {
+    struct path path;
+    struct group_speeds speeds;                /* that wait to be taken, if `of` is not NULL */
+    struct step_channel *channel[UNIT_MOTORS]; /* NULL: the motor is not of the group */
+    uint8_t axis[UNIT_MOTORS];                 /* of the path, that the motor follows */
+    _Atomic unsigned state;                    /* enum axis_state */
+    _Atomic unsigned cause; /* enum axis_cause, of the present or last motion; set once, by what stops it */
+};
+
+/* Stands, without vectors and motors. The ring, `size` places, a power of two and at least 2, is the caller's, who
+ * keeps it. */
+void group_init(struct group *group, struct path_section *ring, uint32_t size);
+
+/* A motor that has its channel follows an axis of the path; some motors may follow the same one. Only while STANDING,
+ * and not where something is left of a path that has moved the axis. */
+void group_connect(struct group *group, unsigned motor, struct step_channel *channel, unsigned axis);
+
+/* Appends a vector. False if there is no room. A motion in progress takes it along if it can, and needs no stop for
+ * it. Vectors in which an axis turns after one without steps on it last hal_step_turn_us at least. */
+bool group_add(struct group *group, const struct path_vector *vector);
+
+/* Free places in the ring. */
+uint32_t group_room(const struct group *group);
+
+/* Counts of sections: of the one in progress, or from which the path would go on; and after the last one. They begin
+ * with 0 at group_init and group_forget. */
+uint32_t group_first(const struct group *group);
+uint32_t group_end(const struct group *group);
+
+/* Leaves the stand at `start_tick`, the unit's time: begins, or goes on. At least 0.5 ms ahead, so that drivers are on
+ * and DIR stands. False if no vector is left. Only while STANDING. */
+bool group_start(struct group *group, uint64_t start_tick);
+
+/* Stops the motion down its ramp. True if this is why it ends; else nothing happens, as it does not move, or is being
+ * stopped already. */
+bool group_stop(struct group *group, enum axis_cause cause);
+
+/* The same in the tick interrupt. True: the plan interrupt is needed. */
+bool group_stop_isr(struct group *group, enum axis_cause cause);
+
+/* Plans a stop that was asked for. */
+void group_plan_isr(struct group *group);
+
+/* Gives all sections their speeds, from the first one on that waits or moves: at once while the group stands or comes
+ * to rest, else as soon as a change can take effect, by group_poll at the latest. The context must live so long. */
+void group_set_speeds(struct group *group, const struct group_speeds *speeds);
+
+/* Hands over segments, sees sections and the motion end, plans what is left to be planned. Whenever the step interrupt
+ * asks for main, and at the tick that it returns at the latest; TICK_NEVER: nothing moves. */
+uint64_t group_poll(struct group *group);
+
+/* The motion is over: STANDING from now on. False if it has not ended, or has been taken. */
+bool group_take_end(struct group *group);
+
+/* Whether a motion has begun whose end has not been taken. */
+static inline bool group_is_busy(const struct group *group)
+{
+    return (enum axis_state)atomic_load_explicit(&group->state, memory_order_relaxed) != AXIS_STANDING;
+}
+
+/* Why the present or last motion ends before its end. */
+enum axis_cause group_cause(const struct group *group);
+
+/* The unit's time at which the path came to rest; of the motion that was taken last. */
+uint64_t group_end_tick(const struct group *group);
+
+/* Whether something is left of the path, or waits. */
+bool group_has_rest(const struct group *group);
+
+/* Drops all that is left and waits. Positions stay what was made. Only while STANDING. */
+void group_forget(struct group *group);
+
+#endif

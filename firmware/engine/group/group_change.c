@@ -1,0 +1,169 @@
+#include <assert.h>
+
+#include "base_tick.h"
+#include "group_private.h"
+#include "hal_run.h"
+#include "hal_step.h"
+#include "hal_time.h"
+
+enum {
+    /* From the plan's begin to the place: what planning takes, and the lead of the step output. */
+    LEAD_TICKS = 350 * TICKS_PER_US,
+    LEAD_TICKS_MAX = 8 * LEAD_TICKS,
+};
+
+/* Thaws the motors before `motor`. */
+static void thaw(const struct group *group, unsigned motor)
+{
+    while (motor-- > 0) {
+        if (group->channel[motor] != NULL) {
+            step_channel_thaw(group->channel[motor]);
+        }
+    }
+}
+
+/* All motors or none. */
+static bool freeze(const struct group *group, const uint64_t back[PATH_AXES])
+{
+    for (unsigned motor = 0; motor < (unsigned)UNIT_MOTORS; motor++) {
+        if (group->channel[motor] != NULL && !step_channel_freeze(group->channel[motor], back[group->axis[motor]])) {
+            thaw(group, motor);
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The motors go on with what the path now has instead. */
+static void go_on(struct group *group, const uint64_t back[PATH_AXES], uint64_t until_tick)
+{
+    for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
+        struct path_segment next;
+        bool moves = path_next(&group->path, axis, until_tick, &next);
+        for (unsigned motor = 0; group_next_motor(group, axis, &motor); motor++) {
+            step_channel_recall(group->channel[motor], back[axis], moves ? &next.segment : NULL,
+                                moves && next.backward);
+        }
+    }
+}
+
+/* Hands all over that is due before a place, in turns, as far as there is room. */
+static void feed_until(struct group *group, uint64_t tick)
+{
+    bool fed = true;
+    while (fed) {
+        fed = false;
+        for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
+            fed = group_feed_axis(group, axis, tick) || fed;
+        }
+    }
+}
+
+static bool is_in(const struct group *group, enum axis_state state)
+{
+    return (enum axis_state)atomic_load_explicit(&group->state, memory_order_acquire) == state;
+}
+
+static void take_speeds(struct group *group)
+{
+    for (uint32_t section = group->path.first; section != group->path.end; section++) {
+        path_set_speed(&group->path, section, group->speeds.of(group->speeds.context, section));
+    }
+    group->speeds.of = NULL;
+}
+
+/* All that is to come after the place is frozen. */
+static void plan_from(struct group *group, const struct path_place *place)
+{
+    uint64_t back[PATH_AXES];
+    if (is_in(group, AXIS_BRAKING)) {
+        (void)path_stop(&group->path, place, back);
+    } else {
+        if (group->speeds.of != NULL) {
+            take_speeds(group);
+        }
+        (void)path_change(&group->path, place, back);
+    }
+    go_on(group, back, place->entry.time.high + (uint64_t)LEAD_TICKS);
+}
+
+/* Plans anew from the first place that leaves time enough; where it is too late to take back what lies after it, from
+ * one that is twice as far ahead. False if none was found: the path rests before, or has not been handed over so far as
+ * its queues are full. */
+static bool change(struct group *group)
+{
+    for (uint64_t lead = LEAD_TICKS; lead <= (uint64_t)LEAD_TICKS_MAX; lead *= 2U) {
+        const struct path_wish wish = {.tick = hal_time_now() + lead, .patience_ticks = TICK_NEVER / 2U};
+        struct path_place place;
+        uint64_t back[PATH_AXES];
+        if (!path_find(&group->path, &wish, &place)) {
+            return false;
+        }
+        feed_until(group, place.entry.time.high + 2U);
+        if (!path_back(&group->path, &place, back)) {
+            return false;
+        }
+        if (freeze(group, back)) {
+            plan_from(group, &place);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Nothing is left to stop where the path comes to rest before a change can take effect; then it rests, and vectors that
+ * came too late to join it wait. */
+static void plan_stop(struct group *group)
+{
+    if (change(group) || path_is_laid(&group->path)) {
+        (void)axis_state_enter(&group->state, AXIS_PLANNED);
+    }
+}
+
+void group_plan(struct group *group)
+{
+    if (is_in(group, AXIS_BRAKING)) {
+        plan_stop(group);
+    } else if (is_in(group, AXIS_MOVING) && (path_lags(&group->path) || group->speeds.of != NULL)) {
+        (void)change(group);
+    }
+    bool rests = !is_in(group, AXIS_MOVING) || path_is_laid(&group->path);
+    if (group->speeds.of != NULL && rests) {
+        take_speeds(group);
+    }
+}
+
+void group_plan_isr(struct group *group)
+{
+    if (is_in(group, AXIS_BRAKING)) {
+        plan_stop(group);
+    }
+}
+
+bool group_stop_isr(struct group *group, enum axis_cause cause)
+{
+    bool stops = axis_state_enter(&group->state, AXIS_STOP);
+    if (stops) {
+        atomic_store_explicit(&group->cause, (unsigned)cause, memory_order_relaxed);
+    }
+    return stops;
+}
+
+bool group_stop(struct group *group, enum axis_cause cause)
+{
+    hal_run_hold_plan();
+    bool stops = group_stop_isr(group, cause);
+    if (stops) {
+        plan_stop(group);
+    }
+    hal_run_release_plan();
+    return stops;
+}
+
+void group_set_speeds(struct group *group, const struct group_speeds *speeds)
+{
+    hal_run_hold_plan();
+    group->speeds = *speeds;
+    group_plan(group);
+    hal_run_release_plan();
+}
