@@ -102,6 +102,7 @@ struct host_faults {
     enum host_flash_done flash_done;  /* of the operation that goes wrong */
     uint32_t late_step_ticks;         /* every step interrupt comes this much after the edge */
     uint32_t late_tick_ticks;         /* every tick interrupt comes this much after the change of an input */
+    uint32_t keep_ticks;              /* a pulse that is due so soon is not taken back any more */
     bool no_crystal;                  /* the board allows no motion */
     bool no_step_timer;               /* the board's steps are made by an interrupt; it only says so */
     bool no_flash;                    /* the part is too small for the areas */

@@ -186,8 +186,12 @@ unsigned hal_step_take_back(unsigned motor, unsigned count)
 {
     struct host_machine *machine = held_machine(motor);
     struct host_laid *laid = &machine->laid[motor];
-    unsigned back = count < laid->count ? count : laid->count;
-    laid->count -= back;
+    unsigned back = 0;
+    while (back < count && laid->count != 0 &&
+           *laid_slot(laid, laid->count - 1U) >= machine->now + machine->faults.keep_ticks) {
+        laid->count--;
+        back++;
+    }
     if (laid->turned <= back) {
         laid->turn = TICK_NEVER;
     }

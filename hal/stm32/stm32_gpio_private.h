@@ -35,6 +35,11 @@ enum {
     /* What the class promises of an edge: a pulse that rises later counts as late. */
     LATE_TICKS = 4 * TICKS_PER_US,
 
+    /* A turn of DIR is an edge, too: after the rising edge of a pulse, and with its own lateness before the next one.
+     */
+    TURN_HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS),
+    TURN_US = (TURN_HOLD_TICKS + SETUP_TICKS + 2 * LATE_TICKS) / TICKS_PER_US,
+
     /* More is laid while the last pulse is so far ahead, up to the horizon; so many at a time. */
     LEAD_TICKS = 60 * TICKS_PER_US,
     HORIZON_TICKS = 512 * TICKS_PER_US,
@@ -68,8 +73,13 @@ struct stm32_gpio_channel {
     volatile uint32_t risen_tick; /* when the last pulse made has risen */
     uint32_t last_tick;           /* of the last pulse laid */
     uint32_t due_tick;            /* the refill has something to do for it then */
+    volatile uint32_t *direction; /* BSRR of the port of DIR */
+    uint32_t turn_bits;           /* what that takes for the turn to come */
+    uint32_t turned;              /* DIR turns before this pulse, as `made` counts, */
+    volatile bool turns;          /* if it does; more is laid after that */
+    bool turns_next;              /* and that is the edge to come */
     bool active;                  /* pulses have been laid, and the client has not said that none is left */
-    bool backward;
+    bool backward;                /* DIR with the pulse laid last */
     bool connected;
     struct hal_step_pulse ring[RING_PULSES];
 };
@@ -83,6 +93,9 @@ struct stm32_gpio {
     struct stm32_gpio_channel channel[UNIT_MOTORS];
 };
 extern struct stm32_gpio stm32_gpio;
+
+/* What BSRR takes for the level of DIR that a motor is to have. */
+uint32_t stm32_gpio_direction_bits(unsigned motor);
 
 /* The latest edge that there was. */
 extern uint32_t stm32_step_worst_ticks;

@@ -10,11 +10,11 @@ extern uint32_t stm32_vectors[];
 static const uint8_t step_pins[UNIT_MOTORS] = {STM32_PIN_STEP_1, STM32_PIN_STEP_2, STM32_PIN_STEP_3, STM32_PIN_STEP_4};
 static const uint8_t direction_pins[UNIT_MOTORS] = {STM32_PIN_DIR_1, STM32_PIN_DIR_2, STM32_PIN_DIR_3, STM32_PIN_DIR_4};
 
-static void write_direction(unsigned motor)
+uint32_t stm32_gpio_direction_bits(unsigned motor)
 {
     const struct stm32_gpio_channel *channel = &stm32_gpio.channel[motor];
-    bool high = channel->connected && channel->backward;
-    stm32_pin_write(direction_pins[motor], high == (BOARD_DIR_LEVEL == 1U));
+    bool high = (channel->connected && channel->backward) == (BOARD_DIR_LEVEL == 1U);
+    return UINT32_C(1) << (direction_pins[motor] % 16U + (high ? 0U : 16U));
 }
 
 static void wait_until_past(uint32_t start, uint32_t ticks)
@@ -48,7 +48,7 @@ static void set_pins(unsigned motor, bool backward, bool connected)
     }
     channel->backward = backward;
     connect(channel, motor, connected);
-    write_direction(motor);
+    *channel->direction = stm32_gpio_direction_bits(motor);
     wait_until_past(TIM2_CNT, SETUP_TICKS);
 }
 
@@ -74,7 +74,7 @@ static void start_timer(void)
     TIM_DIER(TIM2_BASE) = TIM_DIER_CC1IE;
 }
 
-/* All four pins are low. */
+/* All four pins are low, and so is DIR. */
 void stm32_step_start(bool may_move)
 {
     stm32_enable_clock(&RCC_APB1ENR, RCC_APB1ENR_TIM2EN);
@@ -85,8 +85,11 @@ void stm32_step_start(bool may_move)
         *channel = (struct stm32_gpio_channel){
             .pin = &GPIO_BSRR(step_pins[motor] / 16U),
             .low_bits = bits_of(motor, false),
+            .direction = &GPIO_BSRR(direction_pins[motor] / 16U),
         };
+        stm32_enable_clock(&RCC_AHB1ENR, RCC_AHB1ENR_GPIOAEN << (direction_pins[motor] / 16U));
         connect(channel, motor, may_move);
+        *channel->direction = stm32_gpio_direction_bits(motor);
     }
     start_timer();
 }

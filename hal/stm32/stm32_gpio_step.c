@@ -10,6 +10,11 @@ static inline bool is_before(uint32_t tick, uint32_t other)
     return (int32_t)(tick - other) < 0;
 }
 
+static inline uint32_t later(uint32_t tick, uint32_t other)
+{
+    return is_before(tick, other) ? other : tick;
+}
+
 static inline struct hal_step_pulse *slot(struct stm32_gpio_channel *channel, uint32_t pulse)
 {
     return &channel->ring[pulse % RING_PULSES];
@@ -29,6 +34,17 @@ static inline void rise(struct stm32_gpio_channel *channel)
     stm32_step_worst_ticks = late > stm32_step_worst_ticks ? late : stm32_step_worst_ticks;
 }
 
+/* Between two pulses: whether DIR turns before the next one. */
+static void look_for_turn(struct stm32_gpio_channel *channel)
+{
+    uint32_t now = TIM2_CNT;
+    uint32_t held = channel->risen_tick + (uint32_t)TURN_HOLD_TICKS;
+    channel->turns_next = channel->turns && channel->made == channel->turned;
+    if (channel->turns_next) {
+        channel->edge_tick = held - now < (uint32_t)TURN_HOLD_TICKS ? held : now;
+    }
+}
+
 /* A pulse that is late leaves its driver the time at low all the same. */
 static inline void fall(struct stm32_gpio_channel *channel)
 {
@@ -37,7 +53,19 @@ static inline void fall(struct stm32_gpio_channel *channel)
     uint32_t next = slot(channel, channel->made)->rise_tick;
     channel->high = false;
     channel->pending = channel->made != channel->laid;
-    channel->edge_tick = is_before(next, rest) ? rest : next;
+    channel->edge_tick = later(next, rest);
+    if (BASE_SELDOM(channel->turns)) {
+        look_for_turn(channel);
+    }
+}
+
+static void turn(struct stm32_gpio_channel *channel)
+{
+    *channel->direction = channel->turn_bits;
+    uint32_t stands = TIM2_CNT + (uint32_t)SETUP_TICKS;
+    channel->turns = false;
+    channel->turns_next = false;
+    channel->edge_tick = later(slot(channel, channel->made)->rise_tick, stands);
 }
 
 /* Makes the edge of a channel that is due; ticks until the next one. */
@@ -50,6 +78,8 @@ static inline int32_t serve(struct stm32_gpio_channel *channel, uint32_t now)
     if (way <= 0) {
         if (channel->high) {
             fall(channel);
+        } else if (BASE_SELDOM(channel->turns_next)) {
+            turn(channel);
         } else {
             rise(channel);
         }
@@ -113,10 +143,17 @@ static uint32_t ask(unsigned motor, uint32_t waiting, uint32_t until)
         .waiting = waiting,
         .until_tick = until,
         .high_ticks = HIGH_TICKS,
+        .backward = channel->backward,
     };
     uint32_t count = stm32_gpio.client.lay_isr(stm32_gpio.client.context, motor, &room);
     if (room.main_has_work) {
         stm32_event = true;
+    }
+    if (BASE_SELDOM(count != 0 && room.backward != channel->backward)) {
+        channel->backward = room.backward;
+        channel->turn_bits = stm32_gpio_direction_bits(motor);
+        channel->turned = channel->laid;
+        channel->turns = true;
     }
     return count;
 }
@@ -130,13 +167,17 @@ static void append(struct stm32_gpio_channel *channel, uint32_t count)
     uint32_t before = stm32_mask();
     if (!channel->pending) {
         bool near = TIM2_CNT - channel->risen_tick < (uint32_t)(HIGH_TICKS + LOW_TICKS);
-        channel->edge_tick = near && is_before(first, low) ? low : first;
+        channel->edge_tick = near ? later(first, low) : first;
+        look_for_turn(channel);
         channel->pending = true;
     }
     channel->laid = channel->laid + count;
     stm32_unmask(before);
     channel->active = true;
     channel->due_tick = channel->last_tick - (uint32_t)LEAD_TICKS;
+    if (channel->turns) {
+        channel->due_tick = later(channel->due_tick, first - (uint32_t)SETUP_TICKS);
+    }
 }
 
 /* Nothing can be laid before all has been made; then the client is asked once more. */
@@ -151,7 +192,7 @@ static void refill(unsigned motor, uint32_t until)
 {
     struct stm32_gpio_channel *channel = &stm32_gpio.channel[motor];
     uint32_t waiting = count_waiting(channel);
-    if (waiting > (uint32_t)WAITING_MAX) {
+    if (waiting > (uint32_t)WAITING_MAX || channel->turns) {
         channel->due_tick = TIM2_CNT + (uint32_t)AGAIN_TICKS;
         return;
     }
@@ -215,10 +256,20 @@ unsigned hal_step_take_back(unsigned motor, unsigned count)
     uint32_t waiting = count_waiting(channel);
     uint32_t back = count < waiting ? count : waiting;
     channel->laid = channel->laid - back;
+    if (channel->turns && channel->laid - channel->turned - 1U >= (uint32_t)RING_PULSES) {
+        channel->turns = false;
+        channel->turns_next = false;
+        channel->backward = !channel->backward;
+    }
     channel->pending = channel->high || channel->made != channel->laid;
     channel->last_tick = back < waiting ? slot(channel, channel->laid - 1U)->rise_tick : channel->risen_tick;
     stm32_unmask(before);
     return back;
+}
+
+uint32_t hal_step_turn_us(void)
+{
+    return TURN_US;
 }
 
 uint32_t hal_step_lead_ticks(void)

@@ -9,8 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from rkm04_tools import board, virtual_board
+from step_acts import Shown
 
 SECONDS_MAX = 20.0
+HOLD_TICKS = SETUP_TICKS = 420
+"""Of DIR, 5 us."""
 
 
 @dataclass(frozen=True)
@@ -62,3 +65,12 @@ def try_trains(program: Path, folder: Path, name: str, train: Train, *options: s
     return Tried(
         summary["motors"], watch["take_back_report"], watch["stm32_late_steps"], summary["warnings"]
     )
+
+
+def assert_turns(shown: Shown, motor: int) -> None:
+    """Each turn of DIR has its times, from the rising edge before it to the one after it."""
+    for at, _ in shown.directions[motor]:
+        before = [tick for tick in shown.rises[motor] if tick <= at]
+        after = [tick for tick in shown.rises[motor] if tick > at]
+        assert not before or at - before[-1] >= HOLD_TICKS
+        assert after[0] - at >= SETUP_TICKS

@@ -13,7 +13,7 @@ from board_talk import ask, heard
 from rkm04_tools import board
 from rkm04_tools.status import parse_status
 from step_acts import FAST_BUS, MOTORS, ODD, READY, Acts, What
-from step_trials import Train
+from step_trials import Train, assert_turns
 from virtual_board import (
     READY_MS,
     TICKS_PER_MS,
@@ -34,6 +34,8 @@ ALONE = 100
 MEDIAN = 60
 TOGETHER = 252
 """And of four whose pulses fall together, line and inputs busy."""
+AFTER_TURN = 840
+"""And where all four turn together: 10 us."""
 WORST = "stm32_step_worst_ticks"
 
 
@@ -287,3 +289,52 @@ def test_the_status_tells_the_class(unit):
 
     (answer,) = heard(modelled.folder)
     assert parse_status(answer.message).untimed
+
+
+def zigzag(acts: Acts, motor: int, tick: int, pieces: int, gap: int) -> list[int]:
+    """Pieces of seven pulses, every other one backward, `gap` ticks apart; their ticks."""
+    ticks: list[int] = []
+    acts.begin(motor, tick - 1000)
+    for number in range(pieces):
+        acts.turn(motor, number % 2 != 0)
+        ticks += acts.push_steady(motor, tick, 1750, 7)
+        tick = ticks[-1] + gap
+    return ticks
+
+
+@pytest.mark.parametrize("gap", [18 * 84, 42_000, 900_000])
+def test_dir_turns_between_pulses_and_has_its_times(make_acts, gap):
+    acts: Acts = make_acts(NAME)
+    ticks = [zigzag(acts, motor, READY + 60_000 + 437 * motor, 6, gap) for motor in MOTORS]
+    for motor in MOTORS:
+        acts.run(motor)
+    acts.rest()
+
+    shown = acts.show()
+
+    late = [late for m in MOTORS for late in shown_late(ticks[m], shown.rises[m])]
+    assert 0 <= min(late) <= max(late) <= AFTER_TURN
+    assert shown.positions == [0, 0, 0, 0]
+    for motor in MOTORS:
+        assert len(shown.directions[motor]) == 5
+        assert_turns(shown, motor)
+
+
+@pytest.mark.parametrize("stays", [3, 7, 9])
+def test_what_is_recalled_over_a_turn_gives_way_to_what_comes_instead(make_acts, stays):
+    acts: Acts = make_acts(NAME)
+    tick = READY + 60_000
+    acts.wait(READY)
+    ticks = zigzag(acts, 2, tick, 2, 3000)
+    acts.run(2)
+    acts.wait(ticks[stays - 1] - 20_000)
+    acts.freeze(2, 14 - stays)
+    new = acts.recall(2, ticks[stays - 1] + 3000, 3000, 4)
+    acts.rest()
+
+    shown = acts.show()
+
+    late = shown_late(ticks[:stays] + new, shown.rises[2])
+    assert 0 <= min(late) <= max(late) <= LATE_MAX
+    assert shown.positions[2] == min(stays, 7) - max(stays - 7, 0) + 4
+    assert_turns(shown, 2)

@@ -3,20 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from step_acts import FAST_BUS, LONG, MOTORS, ODD, READY, SHORT, WIDTH, WRAP, Acts, Shown
+from step_acts import FAST_BUS, LONG, MOTORS, ODD, READY, SHORT, WIDTH, WRAP, Acts
+from step_trials import assert_turns
 
-HOLD_TICKS = SETUP_TICKS = 420
 TURN_TICKS = 12 * 84
 NAMES = [SHORT, LONG]
-
-
-def assert_turns(shown: Shown, motor: int) -> None:
-    """Each turn of DIR has its times, from the rising edge before it to the one after it."""
-    for at, _ in shown.directions[motor]:
-        before = [tick for tick in shown.rises[motor] if tick <= at]
-        after = [tick for tick in shown.rises[motor] if tick > at]
-        assert not before or at - before[-1] >= HOLD_TICKS
-        assert after[0] - at >= SETUP_TICKS
 
 
 def zigzag(acts: Acts, motor: int, tick: int, pace: int, pieces: list[int], gap: int) -> list[int]:

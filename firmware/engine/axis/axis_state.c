@@ -18,6 +18,8 @@ bool axis_state_enter(_Atomic unsigned *state, enum axis_event event)
 {
     unsigned before = atomic_load_explicit(state, memory_order_acquire);
     enum axis_state next = axis_state_next((enum axis_state)before, event);
-    return next != AXIS_SAME &&
-           atomic_compare_exchange_strong_explicit(state, &before, next, memory_order_acq_rel, memory_order_relaxed);
+    if (next == AXIS_SAME) {
+        return false;
+    }
+    return atomic_compare_exchange_strong_explicit(state, &before, next, memory_order_acq_rel, memory_order_relaxed);
 }

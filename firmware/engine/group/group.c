@@ -138,7 +138,7 @@ static void drop_made(struct group *group, uint64_t now)
 {
     const struct path *path = &group->path;
     uint32_t first = path->first;
-    while (first + 1U != path->laid && first != path->laid &&
+    while (path->laid - first > 1U &&
            path->ring[(first + 1U) & (path->size - 1U)].entered.high + (uint64_t)MADE_TICKS < now) {
         first++;
     }

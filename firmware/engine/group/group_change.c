@@ -13,7 +13,7 @@ enum {
 };
 
 /* Thaws the motors before `motor`. */
-static void thaw(const struct group *group, unsigned motor)
+static void thaw(struct group *group, unsigned motor)
 {
     while (motor-- > 0) {
         if (group->channel[motor] != NULL) {
@@ -23,7 +23,7 @@ static void thaw(const struct group *group, unsigned motor)
 }
 
 /* All motors or none. */
-static bool freeze(const struct group *group, const uint64_t back[PATH_AXES])
+static bool freeze(struct group *group, const uint64_t back[PATH_AXES])
 {
     for (unsigned motor = 0; motor < (unsigned)UNIT_MOTORS; motor++) {
         if (group->channel[motor] != NULL && !step_channel_freeze(group->channel[motor], back[group->axis[motor]])) {
@@ -87,48 +87,52 @@ static void plan_from(struct group *group, const struct path_place *place)
     go_on(group, back, place->entry.time.high + (uint64_t)LEAD_TICKS);
 }
 
+enum change {
+    CHANGED,
+    RESTS, /* it comes to rest before a change can take effect */
+    LATER, /* its queues are full, and end before that */
+};
+
 /* Plans anew from the first place that leaves time enough; where it is too late to take back what lies after it, from
- * one that is twice as far ahead. False if none was found: the path rests before, or has not been handed over so far as
- * its queues are full. */
-static bool change(struct group *group)
+ * one that is twice as far ahead. */
+static enum change change(struct group *group)
 {
     for (uint64_t lead = LEAD_TICKS; lead <= (uint64_t)LEAD_TICKS_MAX; lead *= 2U) {
         const struct path_wish wish = {.tick = hal_time_now() + lead, .patience_ticks = TICK_NEVER / 2U};
         struct path_place place;
         uint64_t back[PATH_AXES];
         if (!path_find(&group->path, &wish, &place)) {
-            return false;
+            return RESTS;
         }
         feed_until(group, place.entry.time.high + 2U);
         if (!path_back(&group->path, &place, back)) {
-            return false;
+            return LATER;
         }
         if (freeze(group, back)) {
             plan_from(group, &place);
-            return true;
+            return CHANGED;
         }
     }
-    return false;
+    return LATER;
 }
 
-/* Nothing is left to stop where the path comes to rest before a change can take effect; then it rests, and vectors that
- * came too late to join it wait. */
+/* Nothing is left to stop where it rests by itself; vectors that came too late to join wait. */
 static void plan_stop(struct group *group)
 {
-    if (change(group) || path_is_laid(&group->path)) {
+    if (change(group) != LATER) {
         (void)axis_state_enter(&group->state, AXIS_PLANNED);
     }
 }
 
 void group_plan(struct group *group)
 {
+    bool moves = is_in(group, AXIS_MOVING);
     if (is_in(group, AXIS_BRAKING)) {
         plan_stop(group);
-    } else if (is_in(group, AXIS_MOVING) && (path_lags(&group->path) || group->speeds.of != NULL)) {
-        (void)change(group);
+    } else if (moves && (path_lags(&group->path) || group->speeds.of != NULL)) {
+        moves = change(group) != RESTS;
     }
-    bool rests = !is_in(group, AXIS_MOVING) || path_is_laid(&group->path);
-    if (group->speeds.of != NULL && rests) {
+    if (group->speeds.of != NULL && !moves) {
         take_speeds(group);
     }
 }

@@ -1,154 +1,5 @@
 /* Motors that move together on a path, on the host machine: positions, ticks and DIR at the pins. */
-#include "group.h"
-#include "unity.h"
-
-#include "base_tick.h"
-#include "epoch.h"
-#include "hal_run.h"
-#include "hal_step.h"
-#include "hal_time.h"
-#include "host_machine.h"
-#include "step_generator.h"
-
-enum {
-    RING = 16,
-    AHEAD_TICKS = 512 * TICKS_PER_US,
-    START_TICKS = TICKS_PER_MS,
-    PULSES = 20000,
-};
-
-static struct host_machine machine;
-static struct group group;
-static struct step_channel channels[UNIT_MOTORS];
-static struct path_section ring[RING];
-
-static uint64_t made_tick[UNIT_MOTORS][PULSES];
-static unsigned made[UNIT_MOTORS];
-static int64_t position[UNIT_MOTORS]; /* at the pins */
-static uint64_t turned_tick[UNIT_MOTORS];
-static bool stop_asked;
-static int64_t ordered[UNIT_MOTORS];
-
-static unsigned lay_isr(void *context, unsigned motor, struct hal_step_room *room)
-{
-    (void)context;
-    return step_channel_lay_isr(&channels[motor], room);
-}
-
-static void tick_isr(void *context, uint64_t since_tick)
-{
-    (void)context;
-    (void)since_tick;
-    if (stop_asked && group_stop_isr(&group, AXIS_CAUSE_HIGH)) {
-        hal_run_plan();
-    }
-}
-
-static void plan_isr(void *context)
-{
-    (void)context;
-    group_plan_isr(&group);
-}
-
-static void step_seen(void *context, uint64_t tick, unsigned motor, bool backward)
-{
-    (void)context;
-    if (made[motor] < PULSES) {
-        made_tick[motor][made[motor]] = tick;
-    }
-    made[motor]++;
-    position[motor] += backward ? -1 : 1;
-    TEST_ASSERT_TRUE(turned_tick[motor] == 0 || tick - turned_tick[motor] >= HOST_SETUP_TICKS);
-}
-
-static void direction_seen(void *context, uint64_t tick, unsigned motor, bool backward)
-{
-    (void)context;
-    (void)backward;
-    unsigned last = made[motor] - 1U;
-    TEST_ASSERT_TRUE(made[motor] == 0 || made[motor] > PULSES || tick - made_tick[motor][last] >= HOST_HOLD_TICKS);
-    turned_tick[motor] = tick;
-}
-
-static uint64_t poll(void *context)
-{
-    (void)context;
-    return group_poll(&group) - machine.epoch;
-}
-
-static void begin(uint32_t ahead_ticks)
-{
-    static const struct hal_client client = {.lay_isr = lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
-    host_machine_init(&machine, epoch_random());
-    machine.ahead_ticks = ahead_ticks;
-    machine.listener = (struct host_listener){.step = step_seen, .direction = direction_seen};
-    host_machine_select(&machine);
-    group_init(&group, ring, RING);
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        step_channel_init(&channels[motor], motor);
-        group_connect(&group, motor, &channels[motor], motor);
-        made[motor] = 0;
-        position[motor] = 0;
-        ordered[motor] = 0;
-        turned_tick[motor] = 0;
-    }
-    stop_asked = false;
-    hal_run_start(&client);
-}
-
-static struct path_vector vector_of(int32_t x, int32_t y, int32_t z, int32_t a, uint32_t speed)
-{
-    struct path_vector vector = {
-        .steps = {x, y, z, a},
-        .speed = speed * PATH_SPEED_UNITS,
-        .accel = 1000000 * STEP_ACCEL_PER_ACCEL,
-        .border_speed = UINT32_MAX,
-    };
-    uint64_t length = 0;
-    for (unsigned axis = 0; axis < PATH_AXES; axis++) {
-        uint64_t steps = (uint64_t)(vector.steps[axis] < 0 ? -(int64_t)vector.steps[axis] : vector.steps[axis]);
-        length = steps > length ? steps : length;
-    }
-    vector.extent2 = length * length;
-    return vector;
-}
-
-static void add(int32_t x, int32_t y, int32_t z, int32_t a, uint32_t speed)
-{
-    struct path_vector vector = vector_of(x, y, z, a, speed);
-    TEST_ASSERT_TRUE(group_add(&group, &vector));
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        ordered[motor] += vector.steps[motor];
-    }
-}
-
-static void start(void)
-{
-    TEST_ASSERT_TRUE(group_start(&group, hal_time_now() + START_TICKS));
-    host_machine_run(&machine, machine.now + 1U, poll, NULL, NULL);
-}
-
-static void run_us(uint64_t microseconds)
-{
-    host_machine_run(&machine, machine.now + microseconds * TICKS_PER_US, poll, NULL, NULL);
-}
-
-static void run_to_the_end(void)
-{
-    for (unsigned i = 0; i < 10000 && !group_take_end(&group); i++) {
-        run_us(1000);
-    }
-    TEST_ASSERT_FALSE(group_is_busy(&group));
-}
-
-static void assert_arrived(void)
-{
-    TEST_ASSERT_FALSE(group_has_rest(&group));
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        TEST_ASSERT_EQUAL_INT64(ordered[motor], position[motor]);
-        TEST_ASSERT_EQUAL_INT64(ordered[motor], step_channel_position(&channels[motor]));
-    }
-}
+#include "group_rig.h"
 
 void setUp(void)
 {
@@ -158,14 +9,6 @@ void setUp(void)
 void tearDown(void)
 {
     TEST_ASSERT_EQUAL_UINT64(0, machine.late_steps);
-}
-
-static void add_zigzag(void)
-{
-    add(1000, 333, -777, 1, 20000);
-    add(500, -500, -20, 0, 10000);
-    add(-300, -100, 299, -1, 30000);
-    add(0, 7, 0, 800, 40000);
 }
 
 /* The path's own ticks, without a group. */
@@ -301,12 +144,6 @@ void test_what_is_forgotten_after_a_stop_is_not_made(void)
     start();
     run_to_the_end();
     TEST_ASSERT_EQUAL_INT64(at - 100, position[0]);
-}
-
-static uint32_t slow(void *context, uint32_t section)
-{
-    (void)section;
-    return *(const uint32_t *)context * PATH_SPEED_UNITS;
 }
 
 void test_speeds_change_at_any_time_and_the_path_arrives(void)

@@ -225,3 +225,14 @@ void test_a_channel_at_rest_takes_what_replaces_nothing(void)
     (void)run_to_the_end();
     TEST_ASSERT_EQUAL_INT64(position[TOTAL] - NEW_STEPS, step_channel_position(&channel));
 }
+
+void test_a_channel_at_rest_may_be_frozen_and_thawed(void)
+{
+    begin_pieces(AHEAD);
+    assert_pulses(1, TOTAL);
+    TEST_ASSERT_TRUE(step_channel_freeze(&channel, 0));
+    step_channel_thaw(&channel);
+    TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+    TEST_ASSERT_FALSE(step_channel_freeze(&channel, 1));
+    TEST_ASSERT_EQUAL_INT64(position[TOTAL], step_channel_position(&channel));
+}

@@ -1,0 +1,210 @@
+/* Stops and changes of a group that come at odd times: early, late, where queues are full, where motors are left out.
+ */
+#include "group_rig.h"
+
+void setUp(void)
+{
+    begin(AHEAD_TICKS);
+}
+
+void tearDown(void)
+{
+    TEST_ASSERT_EQUAL_UINT64(0, machine.late_steps);
+}
+
+void test_a_stop_before_the_first_pulse_lets_none_come_after_the_ramp(void)
+{
+    add_zigzag();
+    TEST_ASSERT_TRUE(group_start(&group, hal_time_now() + START_TICKS));
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
+    run_to_the_end();
+    TEST_ASSERT_LESS_OR_EQUAL_INT64(1, position[0]);
+    start();
+    run_to_the_end();
+    assert_arrived();
+}
+
+void test_a_motor_may_be_left_out(void)
+{
+    group_connect(&group, 1, NULL, 0);
+    group_connect(&group, 3, NULL, 0);
+    add(500, -200, 30, 7, 20000);
+    start();
+    run_us(10000);
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
+    run_to_the_end();
+    start();
+    run_to_the_end();
+    TEST_ASSERT_EQUAL_INT64(500, position[0]);
+    TEST_ASSERT_EQUAL_INT64(0, position[1]);
+    TEST_ASSERT_EQUAL_INT64(30, position[2]);
+    TEST_ASSERT_EQUAL_UINT(0, made[3]);
+}
+
+void test_vectors_of_a_millisecond_fill_the_queues_and_all_arrive(void)
+{
+    for (unsigned i = 0; i < RING; i++) {
+        add(i % 2 != 0 ? -20 : 20, 7, 11, 3, 30000);
+    }
+    start();
+    run_to_the_end();
+    assert_arrived();
+}
+
+void test_where_it_is_too_late_to_take_back_a_later_place_is_found(void)
+{
+    for (uint64_t us = 60000; us < 61000; us += 97) {
+        begin(AHEAD_TICKS);
+        machine.faults.keep_ticks = 600 * TICKS_PER_US;
+        add(5000, 2500, -5000, 5, 50000);
+        start();
+        run_us(us);
+        TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
+        run_to_the_end();
+        TEST_ASSERT_TRUE(group_has_rest(&group));
+        start();
+        run_to_the_end();
+        assert_arrived();
+    }
+}
+
+void test_a_motion_is_over_with_its_last_pulse_also_if_that_is_late(void)
+{
+    begin(0);
+    machine.faults.late_step_ticks = 3 * TICKS_PER_MS;
+    add(30, 0, 0, 0, 20000);
+    start();
+    run_to_the_end();
+    assert_arrived();
+    TEST_ASSERT_GREATER_THAN_UINT64(0, machine.late_steps);
+    machine.late_steps = 0;
+}
+
+/* Vectors of 5 us, each a segment: the queues end before a change can take effect. */
+static void begin_dense(void)
+{
+    begin_ring(AHEAD_TICKS, LONG_RING);
+    struct path_vector fast = vector_of(20000, 0, 0, 0, 200000);
+    TEST_ASSERT_TRUE(group_add(&group, &fast));
+    for (unsigned i = 1; i < LONG_RING - 1; i++) {
+        add(1, 0, 0, 0, 200000);
+    }
+    struct path_vector last = vector_of(40000, 0, 0, 0, 200000);
+    TEST_ASSERT_TRUE(group_add(&group, &last));
+    ordered[0] += 60000;
+    start();
+}
+
+void test_a_stop_waits_where_the_queues_end_before_it_can_take_effect(void)
+{
+    for (uint64_t us = 199000; us < 201500; us += 53) {
+        begin_dense();
+        run_us(us);
+        TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
+        run_to_the_end();
+        TEST_ASSERT_TRUE(group_has_rest(&group));
+        start();
+        run_to_the_end();
+        assert_arrived();
+    }
+}
+
+void test_speeds_wait_where_the_queues_end_before_they_can_take_effect(void)
+{
+    for (uint64_t us = 199000; us < 201500; us += 53) {
+        uint32_t speed = 50000;
+        const struct group_speeds speeds = {.of = slow, .context = &speed};
+        begin_dense();
+        run_us(us);
+        group_set_speeds(&group, &speeds);
+        run_to_the_end();
+        assert_arrived();
+        TEST_ASSERT_NULL(group.speeds.of);
+    }
+}
+
+static void stop_and_go_on_to_the_end(void)
+{
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
+    run_to_the_end();
+    TEST_ASSERT_TRUE(group_has_rest(&group));
+    start();
+    run_to_the_end();
+}
+
+void test_motors_that_were_frozen_thaw_where_another_one_cannot_be(void)
+{
+    machine.faults.keep_ticks = 600 * TICKS_PER_US;
+    group_connect(&group, 1, NULL, 0);
+    add(5, 0, -5000, 2500, 50000);
+    start();
+    run_us(60000);
+    stop_and_go_on_to_the_end();
+    assert_arrived();
+}
+
+void test_a_stop_that_finds_no_place_is_planned_later(void)
+{
+    begin(10 * TICKS_PER_MS);
+    machine.faults.keep_ticks = 20 * TICKS_PER_MS;
+    add(2000, 0, 0, 0, 5000);
+    start();
+    run_us(60000);
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
+    run_us(5000);
+    machine.faults.keep_ticks = 0;
+    run_to_the_end();
+    TEST_ASSERT_TRUE(group_has_rest(&group));
+    start();
+    run_to_the_end();
+    assert_arrived();
+}
+
+void test_what_has_not_been_handed_over_before_a_place_is_handed_over_first(void)
+{
+    for (unsigned i = 0; i < RING; i++) {
+        add(5, 50, 20, i % 2 != 0 ? 60 : -60, 20000);
+    }
+    start();
+    run_us(500);
+    busy_until = machine.now + 20 * TICKS_PER_MS;
+    run_us(19900);
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
+    busy_until = 0;
+    run_to_the_end();
+    TEST_ASSERT_TRUE(group_has_rest(&group));
+    start();
+    run_to_the_end();
+    assert_arrived();
+}
+
+void test_speeds_of_a_group_that_stands_or_stops_are_taken_at_once(void)
+{
+    uint32_t speed = 5000;
+    const struct group_speeds speeds = {.of = slow, .context = &speed};
+    add(3000, 0, 0, 0, 50000);
+    group_set_speeds(&group, &speeds);
+    start();
+    run_us(100000);
+    TEST_ASSERT_INT64_WITHIN(40, 500, position[0]);
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
+    speed = 20000;
+    group_set_speeds(&group, &speeds);
+    run_to_the_end();
+    int64_t at = position[0];
+    start();
+    run_us(71000);
+    TEST_ASSERT_INT64_WITHIN(25, at + 200 + 1000, position[0]);
+    run_to_the_end();
+    assert_arrived();
+}
+
+void test_the_plan_interrupt_means_nothing_to_a_group_that_is_not_stopped(void)
+{
+    group_plan_isr(&group);
+    add_zigzag();
+    start();
+    group_plan_isr(&group);
+    run_to_the_end();
+    assert_arrived();
+}
