@@ -93,7 +93,7 @@ static uint32_t earliest(const struct stm32_channel *channel, uint32_t now)
 
 /* DIR changes as soon as the pulse laid last allows, which is near. The value comes before the mode, so that a match
  * with the old value changes nothing. */
-static void turn(struct stm32_channel *channel)
+BASE_APART static void turn(struct stm32_channel *channel)
 {
     uint32_t held = channel->last_tick + (uint32_t)TURN_HOLD_TICKS;
     uint32_t soon = TIM2_CNT + (uint32_t)TURN_TICKS;
@@ -159,7 +159,12 @@ static void note_laid(struct stm32_channel *channel, uint32_t laid)
     channel->from_tick = channel->last_tick - (uint32_t)NEAR_TICKS;
     channel->due_tick = channel->last_tick - (uint32_t)LEAD_TICKS;
     channel->ends = false;
-    if (BASE_SELDOM(channel->turns)) {
+}
+
+/* Nothing more is laid before DIR has changed. */
+BASE_APART static void wait_for_turn(struct stm32_channel *channel)
+{
+    if (channel->turns) {
         channel->from_tick = later(channel->from_tick, channel->turn_tick);
         channel->due_tick = later(channel->due_tick, channel->turn_tick);
     }
@@ -182,6 +187,7 @@ static void begin(unsigned motor, uint32_t ahead_ticks)
         uint32_t now = TIM2_CNT;
         make_good(channel->ring, count, earliest(channel, now) + count * (uint32_t)GOOD_TICKS);
         note_laid(channel, count);
+        wait_for_turn(channel);
         start(channel, now);
     }
 }
@@ -205,10 +211,15 @@ static void append(unsigned motor, uint32_t now, uint32_t ahead_ticks)
         note_end(channel);
         return;
     }
-    uint32_t least =
-        channel->turns ? channel->turn_tick + (uint32_t)TURN_SETUP_TICKS : last + (uint32_t)(HIGH_TICKS + LOW_TICKS);
+    uint32_t least = last + (uint32_t)(HIGH_TICKS + LOW_TICKS);
+    if (BASE_SELDOM(channel->turns)) {
+        least = channel->turn_tick + (uint32_t)TURN_SETUP_TICKS;
+    }
     make_good(slot(channel, channel->laid), count, least);
     note_laid(channel, channel->laid + count);
+    if (BASE_SELDOM(channel->turns)) {
+        wait_for_turn(channel);
+    }
     if (!far && is_before(last, TIM2_CNT)) {
         stm32_fault_stop_output();
     }
@@ -223,7 +234,7 @@ static void refill(unsigned motor, uint32_t now, uint32_t ahead_ticks)
     }
     if (BASE_SELDOM(!channel->active)) {
         begin(motor, ahead_ticks);
-    } else if (!channel->ends && !is_before(now, channel->from_tick)) {
+    } else if (!channel->ends) {
         append(motor, now, ahead_ticks);
     }
 }
@@ -273,10 +284,14 @@ void stm32_step_interrupt(void)
 void hal_step_run(unsigned motor)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
+    uint32_t now = TIM2_CNT;
     if (channel->active && channel->ends) {
         note_laid(channel, channel->laid);
+        wait_for_turn(channel);
     }
-    refill(motor, TIM2_CNT, RUN_TICKS);
+    if (!channel->active || !is_before(now, channel->from_tick)) {
+        refill(motor, now, RUN_TICKS);
+    }
     TIM_EGR(TIM2_BASE) = TIM_EGR_CC4G;
 }
 
@@ -319,6 +334,7 @@ static bool cut_before(struct stm32_channel *channel, uint32_t pulse, uint32_t n
     }
     turn_back(channel, pulse, now);
     note_laid(channel, pulse);
+    wait_for_turn(channel);
     return true;
 }
 

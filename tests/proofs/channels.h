@@ -236,8 +236,8 @@ uint64_t step_channel_count(const struct step_channel *channel);
 const struct step_cursor *step_channel_base(const struct step_channel *channel, uint64_t pulse);
 
 /*@ requires \valid(channel);
-    assigns channel->origin, channel->direction;
+    assigns channel->origin, channel->direction, channel->turned;
 */
-void step_channel_turn_over(struct step_channel *channel, uint64_t pulse);
+void step_channel_turn_over(struct step_channel *channel);
 
 #endif

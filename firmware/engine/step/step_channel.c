@@ -97,8 +97,9 @@ uint32_t step_channel_room(const struct step_channel *channel)
 void step_channel_append(struct step_channel *channel, const struct step_segment *segment)
 {
     uint32_t head = atomic_load_explicit(&channel->head, memory_order_relaxed);
-    uint32_t bit = UINT32_C(1) << head % STEP_QUEUE_SEGMENTS;
-    channel->queue[head % STEP_QUEUE_SEGMENTS] = *segment;
+    uint32_t place = head % STEP_QUEUE_SEGMENTS;
+    uint32_t bit = UINT32_C(1) << place;
+    channel->queue[place] = *segment;
     channel->backward = channel->turn ? channel->backward | bit : channel->backward & ~bit;
     atomic_store_explicit(&channel->head, head + 1U, memory_order_release);
 }
@@ -223,12 +224,6 @@ static inline void channel_keep(struct step_channel *channel, struct hal_step_ro
     channel->kept[channel->young] = channel->cursor;
 }
 
-void step_channel_turn_over(struct step_channel *channel, uint64_t pulse)
-{
-    channel->origin += INT64_C(2) * channel->direction * (int64_t)pulse;
-    channel->direction = (int8_t)-channel->direction;
-}
-
 /* False at the end of what is queued, and before a marked segment until all pulses before it have been made: main is to
  * be told of it then, and not before. */
 static bool channel_lay_first(struct step_channel *channel, struct hal_step_room *room, unsigned place)
@@ -241,9 +236,8 @@ static bool channel_lay_first(struct step_channel *channel, struct hal_step_room
     if ((marked && place + room->waiting > 0) || (turns && place > 0)) {
         return false;
     }
-    if (turns) {
-        channel->turned = step_cursor_pulse(&channel->cursor);
-        step_channel_turn_over(channel, channel->turned);
+    if (BASE_SELDOM(turns)) {
+        step_channel_turn_over(channel);
     }
     if (!cursor_begin_segment(&channel->cursor, channel, head)) {
         return false;
@@ -252,6 +246,7 @@ static bool channel_lay_first(struct step_channel *channel, struct hal_step_room
         atomic_store_explicit(&channel->marked, true, memory_order_relaxed);
         room->main_has_work = true;
     }
+    room->backward = backward;
     step_lay_pulse(&channel->cursor.generator, room, place);
     return true;
 }
@@ -290,7 +285,6 @@ unsigned step_channel_lay_isr(struct step_channel *channel, struct hal_step_room
     }
     channel_keep(channel, room);
     unsigned laid = channel_lay(channel, room);
-    room->backward = channel->direction < 0;
     if (BASE_SELDOM(laid == 0) && room->waiting == 0) {
         channel_rest(channel, room);
     }

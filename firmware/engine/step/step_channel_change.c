@@ -4,11 +4,24 @@
 
 #include "hal_step.h"
 
+/* Keeps the position of the pulse. */
+static void channel_turn(struct step_channel *channel, uint64_t pulse)
+{
+    channel->origin += INT64_C(2) * channel->direction * (int64_t)pulse;
+    channel->direction = (int8_t)-channel->direction;
+}
+
+void step_channel_turn_over(struct step_channel *channel)
+{
+    channel->turned = step_cursor_pulse(&channel->cursor);
+    channel_turn(channel, channel->turned);
+}
+
 /* After the cursor has gone back: a turn that it has gone back over is yet to come. */
 static void channel_turn_back(struct step_channel *channel)
 {
     if (step_cursor_pulse(&channel->cursor) <= channel->turned && channel->turned != 0) {
-        step_channel_turn_over(channel, channel->turned);
+        channel_turn(channel, channel->turned);
         channel->turned = 0;
     }
 }

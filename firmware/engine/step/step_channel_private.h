@@ -23,7 +23,7 @@ uint64_t step_channel_count(const struct step_channel *channel);
 /* The last of the places that are kept from which a way leads on to a pulse. */
 const struct step_cursor *step_channel_base(const struct step_channel *channel, uint64_t pulse);
 
-/* The pulses after `pulse` go the other way. */
-void step_channel_turn_over(struct step_channel *channel, uint64_t pulse);
+/* The pulses after the one that the cursor stands on go the other way. Also in the step interrupt. */
+void step_channel_turn_over(struct step_channel *channel);
 
 #endif

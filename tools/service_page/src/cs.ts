@@ -263,6 +263,7 @@ export const cs: Dictionary = {
     "live.causeFault": "restartována po poruše",
     "live.notStarted": "uložené programy nebyly spuštěny",
     "live.noStore": "uložené programy: žádné, obvod je příliš malý",
+    "live.untimed": "kroky dělá přerušení: třída 2",
     "live.noCrystal": "chybí krystal: nepohybuje se",
     "live.simulating": "T41: simulace, výstupy jsou na 0; motor, který se pohybuje, nejdříve dokončí pohyb",
     "live.simulated": "simulován",

@@ -260,6 +260,7 @@ export const en = {
     "live.causeFault": "restarted by a fault",
     "live.notStarted": "stored programs were not started",
     "live.noStore": "stored programs: none, the part is too small",
+    "live.untimed": "steps by an interrupt: class 2",
     "live.noCrystal": "crystal missing: no motion",
     "live.simulating": "T41: simulation, outputs are held at 0; a motor that moves ends its move first",
     "live.simulated": "simulated",

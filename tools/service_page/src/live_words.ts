@@ -100,7 +100,11 @@ export function unitFacts(unit: LiveUnit): { words: string; isBad: boolean }[] {
         unit.simulating ? t("live.simulating") : "",
         unit.cause === "reset" ? "" : cause,
     ];
-    const plain = [unit.cause === "reset" ? cause : "", unit.memory_locked ? t("live.locked") : ""];
+    const plain = [
+        unit.cause === "reset" ? cause : "",
+        unit.memory_locked ? t("live.locked") : "",
+        unit.untimed ? t("live.untimed") : "",
+    ];
     const late = { words: t("live.late", { count: numberText(unit.late_steps) }), isBad: unit.late_steps > 0 };
     const asFacts = (words: string[], isBad: boolean): { words: string; isBad: boolean }[] =>
         words.filter((each) => each !== "").map((each) => ({ words: each, isBad }));

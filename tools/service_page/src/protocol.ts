@@ -88,6 +88,7 @@ export interface LiveUnit {
     no_crystal: boolean;
     not_started: boolean;
     no_store: boolean;
+    untimed: boolean;
     memory_locked: boolean;
     simulating: boolean;
     late_steps: number;

@@ -162,6 +162,7 @@ export function status(answer: Uint8Array, names: StatusNames): Status {
         memory_locked: (switches & 4) !== 0,
         simulating: (switches & 8) !== 0,
         no_store: (switches & 16) !== 0,
+        untimed: (switches & 32) !== 0,
         late_steps: count(46),
         line: Object.fromEntries(names.line.map((name, index) => [name, count(50 + 4 * index)])),
     };
