@@ -68,7 +68,7 @@ enum {
     APPEND_TICKS = 10 * TICKS_PER_US,
     START_TICKS = 2 * TICKS_PER_US,
     FAR_TICKS = 2 * LEAD_TICKS,
-    REACT_TICKS = 5 * TICKS_PER_US,
+    REACT_TICKS = 7 * TICKS_PER_US,
 
     /* What is taken back is as far ahead as that: the pulse before it, if the stream goes on; or else itself. */
     CUT_TICKS = REACT_TICKS + APPEND_TICKS,
