@@ -18,20 +18,13 @@
 #include <assert.h>
 
 #include "base_limits.h"
-#include "base_tick.h"
 #include "hal_step.h"
 #include "stm32_pins.h"
 #include "stm32_private.h"
+#include "stm32_step_times.h"
 #include "stm32f4.h"
 
-#define TICKS_OF_NS(ns) (((ns) * TICKS_PER_US + 999U) / 1000U)
-
 enum {
-    HIGH_TICKS = TICKS_OF_NS(BOARD_STEP_HIGH_NS),
-    LOW_TICKS = TICKS_OF_NS(BOARD_STEP_LOW_NS),
-    SETUP_TICKS = TICKS_OF_NS(BOARD_DIR_SETUP_NS),
-    HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS) + HIGH_TICKS,
-
     /* What the class promises of an edge: a pulse that rises later counts as late. */
     LATE_TICKS = 4 * TICKS_PER_US,
 

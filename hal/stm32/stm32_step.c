@@ -6,16 +6,6 @@
 struct stm32_step stm32_step;
 uint32_t stm32_late_steps;
 
-static inline bool is_before(uint32_t tick, uint32_t other)
-{
-    return (int32_t)(tick - other) < 0;
-}
-
-static inline uint32_t later(uint32_t tick, uint32_t other)
-{
-    return is_before(tick, other) ? other : tick;
-}
-
 static inline struct hal_step_pulse *slot(struct stm32_channel *channel, uint32_t pulse)
 {
     return &channel->ring[pulse % RING_PULSES];

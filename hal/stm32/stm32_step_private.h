@@ -25,20 +25,12 @@
 #include <assert.h>
 
 #include "base_limits.h"
-#include "base_tick.h"
-#include "board.h"
 #include "hal_step.h"
 #include "stm32_private.h"
+#include "stm32_step_times.h"
 #include "stm32f4.h"
 
-#define TICKS_OF_NS(ns) (((ns) * TICKS_PER_US + 999U) / 1000U)
-
 enum {
-    HIGH_TICKS = TICKS_OF_NS(BOARD_STEP_HIGH_NS),
-    LOW_TICKS = TICKS_OF_NS(BOARD_STEP_LOW_NS),
-    SETUP_TICKS = TICKS_OF_NS(BOARD_DIR_SETUP_NS),
-    HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS) + HIGH_TICKS,
-
     /* A turn: after the rising edge of a pulse, and ahead of a look at the counter, while it is being written. */
     TURN_HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS) + TICKS_PER_US,
     TURN_TICKS = 2 * TICKS_PER_US,

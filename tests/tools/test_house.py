@@ -84,3 +84,9 @@ def test_a_line_of_120_columns_is_not_too_long() -> None:
 
 def test_words_in_comments_are_not_floating_point() -> None:
     assert not list(house.check_firmware("/* a double\n float */ int a; // float\n"))
+
+
+def test_the_top_level_has_nothing_but_what_belongs_there() -> None:
+    names = ["README.md", ".gitignore", ".ci/run", "hal/a.c", "default.profraw", "shots/a.png"]
+
+    assert house.strangers([house.ROOT / name for name in names]) == ["default.profraw", "shots"]

@@ -27,6 +27,10 @@ C_FUNCTION = re.compile(r"^\{\n(.*?)^\}", re.DOTALL | re.MULTILINE)
 C_FLOAT = re.compile(r"\b(?:float|double)\b")
 C_PATH_INCLUDE = re.compile(r'^#include "([^"\n]*/)[^"/\n]*"', re.MULTILINE)
 STAGE_DEPS = re.compile(r"\bDEPS\b([^)]*)")
+TOP_LEVEL = {
+    "CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md",
+    "firmware", "hal", "tests", "tools",
+}  # fmt: skip
 C_TYPEDEF = re.compile(r"\btypedef (?:struct|enum|union)\b")
 # A path of somebody's machine, or a link that only works from one.
 MACHINE_PATH = re.compile(rf"{re.escape(str(ROOT))}\b|(?<![\w.])/(?:home|Users|root|mnt)/\w")
@@ -41,6 +45,12 @@ def project_files() -> list[Path]:
     command = ["git", "ls-files", "--cached", "--others", "--exclude-standard", "-z"]
     names = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
     return [ROOT / name for name in sorted(set(names.split("\0"))) if (ROOT / name).is_file()]
+
+
+def strangers(files: list[Path]) -> list[str]:
+    """What lies at the top level and has no business there."""
+    tops = {path.relative_to(ROOT).parts[0] for path in files}
+    return sorted(name for name in tops - TOP_LEVEL if not name.startswith("."))
 
 
 def check_source(text: str) -> Iterator[Finding]:
@@ -113,7 +123,11 @@ def check_file(path: Path) -> Iterator[Finding]:
 
 def main() -> int:
     found = 0
-    for path in project_files():
+    files = project_files()
+    for name in strangers(files):
+        print(f"{name}: the top level has nothing but {', '.join(sorted(TOP_LEVEL))}")
+        found += 1
+    for path in files:
         for offset, what in check_file(path):
             line = path.read_text(encoding="utf-8").count("\n", 0, offset) + 1
             print(f"{path.relative_to(ROOT)}:{line}: {what}")
