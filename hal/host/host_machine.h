@@ -16,6 +16,7 @@
 #include "base_limits.h"
 #include "hal_board.h"
 #include "hal_flash.h"
+#include "hal_io.h"
 #include "hal_line.h"
 #include "hal_run.h"
 #include "hal_trace.h"
@@ -48,7 +49,10 @@ struct host_listener {
     void (*simulated)(void *context, uint64_t tick, unsigned motor, bool backward); /* one that is disconnected */
     void (*connection)(void *context, uint64_t tick, unsigned motor, bool connected); /* of STEP and DIR */
     void (*direction)(void *context, uint64_t tick, unsigned motor, bool backward);
-    void (*led)(void *context, uint64_t tick, unsigned motor, bool on);
+    /* What hal_step_set_polarity has set, if that changes; steps and directions are told as if it were not there. */
+    void (*polarity)(void *context, uint64_t tick, unsigned motor, bool falling, bool turned);
+    void (*pwm)(void *context, uint64_t tick, uint32_t permille);
+    void (*led)(void *context, uint64_t tick, unsigned led, bool on);
     void (*input)(void *context, uint64_t tick, uint8_t levels);
     void (*output)(void *context, uint64_t tick, uint8_t levels);
     void (*trace)(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value);
@@ -135,13 +139,16 @@ struct host_machine {
     uint64_t step[UNIT_MOTORS];  /* the step interrupt that is due, likewise */
     struct host_laid laid[UNIT_MOTORS];
     bool backward[UNIT_MOTORS]; /* DIR as set; the pin shows it while connected */
-    bool led[UNIT_MOTORS];
+    bool led[HAL_IO_LEDS];
     bool connected[UNIT_MOTORS]; /* STEP and DIR reach their pins; so they do at the start */
+    bool falling[UNIT_MOTORS];   /* the active edge of STEP falls */
+    bool turned[UNIT_MOTORS];    /* the levels of DIR are the other way round */
     uint64_t enabled_tick;       /* when a motion has last switched the drivers on; TICK_NEVER: none has */
     bool step_held;
     bool plan_held;
     uint8_t inputs;
     uint8_t outputs;
+    uint32_t pwm_permille;
     struct host_line line;
     uint64_t late_steps;       /* pulses laid for a tick that had gone by; 0 in every good run */
     uint64_t pulses;           /* pulses made, connected or not */

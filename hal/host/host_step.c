@@ -20,6 +20,17 @@ static void set_pins(struct host_machine *machine, unsigned motor, bool backward
     }
 }
 
+static void set_polarity(struct host_machine *machine, unsigned motor, bool falling, bool turned)
+{
+    const struct host_listener *listener = &machine->listener;
+    bool changes = machine->falling[motor] != falling || machine->turned[motor] != turned;
+    machine->falling[motor] = falling;
+    machine->turned[motor] = turned;
+    if (changes && listener->polarity != NULL) {
+        listener->polarity(listener->context, machine->now, motor, falling, turned);
+    }
+}
+
 void host_step_reset(struct host_machine *machine)
 {
     machine->enabled_tick = TICK_NEVER;
@@ -28,6 +39,7 @@ void host_step_reset(struct host_machine *machine)
         machine->step[motor] = TICK_NEVER;
         machine->laid[motor] = (struct host_laid){.turn = TICK_NEVER};
         set_pins(machine, motor, false, true);
+        set_polarity(machine, motor, false, false);
     }
 }
 
@@ -214,6 +226,14 @@ void hal_step_connect(unsigned motor, bool connected)
     assert(motor < UNIT_MOTORS);
     assert(machine->armed[motor] == TICK_NEVER);
     set_pins(machine, motor, machine->backward[motor], connected);
+}
+
+void hal_step_set_polarity(unsigned motor, bool falling, bool turned)
+{
+    struct host_machine *machine = host_current();
+    assert(motor < UNIT_MOTORS);
+    assert(machine->armed[motor] == TICK_NEVER);
+    set_polarity(machine, motor, falling, turned);
 }
 
 void hal_driver_enable(void)

@@ -11,7 +11,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The edges of a pulse: the low 32 bits of the unit's time. */
+/* The edges of a pulse, the active one and the one back (hal_step_set_polarity has the levels): the low 32 bits of the
+ * unit's time. */
 struct hal_step_pulse {
     uint32_t rise_tick;
     uint32_t fall_tick;
@@ -49,9 +50,15 @@ uint32_t hal_step_turn_us(void);
 /* Sets DIR: false forward, true backward. Called only while no pulse waits. Main. */
 void hal_step_set_direction(unsigned motor, bool backward);
 
-/* Connects STEP and DIR of a motor to their pins, or holds the pins at 0 while all else runs on; at first they are
+/* Connects STEP and DIR of a motor to their pins, or holds the pins at rest while all else runs on; at first they are
  * connected. Called only while the motor stands: DIR moves where no pulse is near. Main. */
 void hal_step_connect(unsigned motor, bool connected);
+
+/* Sets the levels of STEP and DIR of a motor: `falling`: STEP is high at rest and the active edge of a pulse, its first
+ * one, falls; `turned`: DIR has the other level for each direction. After every reset as the board says, neither.
+ * Pins that show another level then change once, DIR as it does in hal_step_set_direction. Called only while the motor
+ * stands and no pulse waits. Main. */
+void hal_step_set_polarity(unsigned motor, bool falling, bool turned);
 
 /* Ticks that the backend wants between the planning of a change and the pulse at which it takes effect: at least
  * what planning takes. 0 where planning takes no time. Main. */

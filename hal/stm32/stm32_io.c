@@ -53,10 +53,10 @@ static void write_led(unsigned motor, bool on)
     stm32_pin_write(led_pins[motor], on == (BOARD_LED_LEVEL == 1U));
 }
 
-void hal_io_set_led(unsigned motor, bool on)
+void hal_io_set_led(unsigned led, bool on)
 {
-    if (!blinking) {
-        write_led(motor, on);
+    if (!blinking && led < UNIT_MOTORS) {
+        write_led(led, on);
     }
 }
 

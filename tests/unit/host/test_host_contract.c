@@ -128,9 +128,25 @@ static void disconnect_a_motor_with_a_pulse_to_come(void)
     hal_step_connect(0, false);
 }
 
-static void light_motor_4(void)
+static void turn_the_levels_of_motor_4(void)
 {
-    hal_io_set_led(UNIT_MOTORS, true);
+    hal_step_set_polarity(UNIT_MOTORS, true, false);
+}
+
+static void turn_the_levels_of_a_motor_with_a_pulse_to_come(void)
+{
+    lay_pulse(0, 10);
+    hal_step_set_polarity(0, true, false);
+}
+
+static void write_a_pwm_above_1000(void)
+{
+    hal_io_write_pwm(HAL_IO_PWM_MAX + 1);
+}
+
+static void light_led_9(void)
+{
+    hal_io_set_led(HAL_IO_LEDS, true);
 }
 
 static void trace_motor_5(void)
@@ -233,7 +249,9 @@ void test_there_are_four_motors(void)
     TEST_ASSERT_TRUE(is_refused(take_back_of_motor_4));
     TEST_ASSERT_TRUE(is_refused(connect_motor_4));
     TEST_ASSERT_TRUE(is_refused(turn_motor_4));
-    TEST_ASSERT_TRUE(is_refused(light_motor_4));
+    TEST_ASSERT_TRUE(is_refused(turn_the_levels_of_motor_4));
+    TEST_ASSERT_TRUE(is_refused(write_a_pwm_above_1000));
+    TEST_ASSERT_TRUE(is_refused(light_led_9));
     TEST_ASSERT_TRUE(is_refused(trace_motor_5));
 }
 
@@ -242,6 +260,7 @@ void test_while_a_pulse_waits_a_motor_is_neither_turned_nor_disconnected(void)
     TEST_ASSERT_TRUE(is_refused(turn_a_motor_with_a_pulse_to_come));
     setUp();
     TEST_ASSERT_TRUE(is_refused(disconnect_a_motor_with_a_pulse_to_come));
+    TEST_ASSERT_TRUE(is_refused(turn_the_levels_of_a_motor_with_a_pulse_to_come));
 }
 
 void test_an_interrupt_is_held_only_once(void)

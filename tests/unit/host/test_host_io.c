@@ -32,6 +32,14 @@ static void output_seen(void *context, uint64_t tick, uint8_t levels)
     seen.what = levels;
 }
 
+static void pwm_seen(void *context, uint64_t tick, uint32_t permille)
+{
+    (void)context;
+    seen.count++;
+    seen.tick = tick;
+    seen.value = permille;
+}
+
 static void trace_seen(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
 {
     (void)context;
@@ -53,7 +61,8 @@ void setUp(void)
     host_machine_init(&machine, 5000);
     host_machine_select(&machine);
     host_machine_run(&machine, 300, main_pass, NULL, NULL);
-    machine.listener = (struct host_listener){.led = led_seen, .output = output_seen, .trace = trace_seen};
+    machine.listener =
+        (struct host_listener){.led = led_seen, .output = output_seen, .pwm = pwm_seen, .trace = trace_seen};
     seen.count = 0;
 }
 
@@ -94,16 +103,39 @@ void test_an_led_is_told_when_it_changes(void)
     TEST_ASSERT_EQUAL_UINT64(300, seen.tick);
 }
 
-void test_a_restart_switches_outputs_and_leds_off(void)
+void test_eight_leds_are_told_one_by_one(void)
+{
+    for (unsigned led = 0; led < HAL_IO_LEDS; led++) {
+        hal_io_set_led(led, true);
+        TEST_ASSERT_EQUAL_UINT(led, seen.what);
+    }
+
+    TEST_ASSERT_EQUAL_UINT(8, seen.count);
+}
+
+void test_the_pwm_is_told_when_it_changes(void)
+{
+    hal_io_write_pwm(0);
+    hal_io_write_pwm(HAL_IO_PWM_MAX);
+    hal_io_write_pwm(HAL_IO_PWM_MAX);
+
+    TEST_ASSERT_EQUAL_UINT(1, seen.count);
+    TEST_ASSERT_EQUAL_INT64(1000, seen.value);
+    TEST_ASSERT_EQUAL_UINT64(300, seen.tick);
+}
+
+void test_a_restart_switches_outputs_pwm_and_leds_off(void)
 {
     hal_io_write_outputs(1);
-    hal_io_set_led(0, true);
+    hal_io_write_pwm(1);
+    hal_io_set_led(7, true);
 
     host_machine_restart(&machine);
 
     TEST_ASSERT_EQUAL_HEX8(0, machine.outputs);
-    TEST_ASSERT_FALSE(machine.led[0]);
-    TEST_ASSERT_EQUAL_UINT(4, seen.count);
+    TEST_ASSERT_FALSE(machine.led[7]);
+    TEST_ASSERT_EQUAL_UINT32(0, machine.pwm_permille);
+    TEST_ASSERT_EQUAL_UINT(6, seen.count);
 }
 
 void test_a_trace_event_is_told_in_time_from_the_start(void)
@@ -121,6 +153,7 @@ void test_a_machine_without_listener_keeps_its_pins_all_the_same(void)
     machine.listener = (struct host_listener){0};
 
     hal_io_write_outputs(2);
+    hal_io_write_pwm(500);
     hal_io_set_led(1, true);
     hal_trace(5000, 0, HAL_TRACE_END, 0);
 

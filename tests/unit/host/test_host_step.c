@@ -12,6 +12,7 @@ static unsigned edges;
 static unsigned simulated_edges;
 static unsigned connections;
 static uint64_t edge_tick;
+static unsigned polarities;
 static unsigned turns;
 static uint64_t turn_tick;
 static unsigned turn_motor;
@@ -44,6 +45,15 @@ static void connection_seen(void *context, uint64_t tick, unsigned motor, bool c
     TEST_ASSERT_EQUAL_UINT(2, motor);
     TEST_ASSERT_FALSE(connected);
     connections++;
+}
+
+static void polarity_seen(void *context, uint64_t tick, unsigned motor, bool falling, bool turned)
+{
+    (void)context;
+    TEST_ASSERT_EQUAL_UINT64(machine.now, tick);
+    TEST_ASSERT_EQUAL(machine.falling[motor], falling);
+    TEST_ASSERT_EQUAL(machine.turned[motor], turned);
+    polarities++;
 }
 
 static void direction_seen(void *context, uint64_t tick, unsigned motor, bool backward)
@@ -82,8 +92,8 @@ static void begin_at(uint64_t epoch)
     static const struct hal_client client = {.lay_isr = given_lay_isr, .tick_isr = tick_isr, .plan_isr = plan_isr};
     given_clear();
     host_machine_init(&machine, epoch);
-    machine.listener =
-        (struct host_listener){.step = step_seen, .simulated = simulated_seen, .direction = direction_seen};
+    machine.listener = (struct host_listener){
+        .step = step_seen, .simulated = simulated_seen, .direction = direction_seen, .polarity = polarity_seen};
     host_machine_select(&machine);
     hal_run_start(&client);
 }
@@ -94,6 +104,7 @@ void setUp(void)
     simulated_edges = 0;
     connections = 0;
     turns = 0;
+    polarities = 0;
     begin_at(0);
 }
 
@@ -247,6 +258,47 @@ void test_a_direction_set_while_disconnected_shows_when_connected(void)
 
     TEST_ASSERT_EQUAL_UINT(1, turns);
     TEST_ASSERT_TRUE(pin_backward);
+}
+
+void test_a_polarity_is_told_when_it_changes(void)
+{
+    run_until(40);
+
+    hal_step_set_polarity(2, false, false);
+    TEST_ASSERT_EQUAL_UINT(0, polarities);
+    hal_step_set_polarity(2, true, false);
+    hal_step_set_polarity(2, true, true);
+    hal_step_set_polarity(2, true, true);
+
+    TEST_ASSERT_EQUAL_UINT(2, polarities);
+    TEST_ASSERT_TRUE(machine.falling[2]);
+    TEST_ASSERT_TRUE(machine.turned[2]);
+    TEST_ASSERT_FALSE(machine.falling[1]);
+}
+
+void test_steps_and_directions_are_told_as_if_polarity_were_not_there(void)
+{
+    hal_step_set_polarity(0, true, true);
+    TEST_ASSERT_EQUAL_UINT(0, turns);
+
+    hal_step_set_direction(0, true);
+    lay_pulse(0, 10);
+    run_until(100);
+
+    TEST_ASSERT_EQUAL_UINT(1, turns);
+    TEST_ASSERT_TRUE(pin_backward);
+    TEST_ASSERT_EQUAL_UINT(1, edges);
+    TEST_ASSERT_TRUE(edge_backward);
+}
+
+void test_a_restart_takes_polarities_back(void)
+{
+    hal_step_set_polarity(1, false, true);
+
+    host_machine_restart(&machine);
+
+    TEST_ASSERT_FALSE(machine.turned[1]);
+    TEST_ASSERT_EQUAL_UINT(2, polarities);
 }
 
 void test_a_restart_connects_and_turns_the_pins_forward(void)
