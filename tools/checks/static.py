@@ -31,6 +31,8 @@ HOST = (
     "hal/host/*.c",
     "tools/common/*.c",
     "tools/master/*.c",
+    "tools/unit_host/*.c",
+    "tools/unit_serve/*.c",
     "tools/simulator/*.c",
     "tools/simulator/wasm/*.c",
     "tools/gve134_host/*.c",
@@ -44,6 +46,8 @@ FOLDERS = (
     "hal/host",
     "tools/common",
     "tools/master",
+    "tools/unit_host",
+    "tools/unit_serve",
     "tools/simulator",
     "tools/gve134_host",
 )

@@ -36,7 +36,12 @@ void vcd_begin(struct vcd *vcd, struct outfile *file, const char *program)
     *vcd = (struct vcd){.file = file};
     put_text(vcd, "$version ");
     put_text(vcd, program);
-    put_text(vcd, " $end\n$timescale 1 ns $end\n$scope module rkm04 $end\n");
+    put_text(vcd, " $end\n$timescale 1 ns $end\n$scope module ");
+    char *at = reserve(vcd);
+    while (*program != '\0' && *program != '-') {
+        *at++ = *program++;
+    }
+    outfile_commit(vcd->file, line_put_string(at, " $end\n"));
 }
 
 void vcd_declare(struct vcd *vcd, enum vcd_type type, unsigned signal, struct vcd_name name)

@@ -32,6 +32,7 @@ struct vcd_name {
     const char *after;
 };
 
+/* The program that writes it, as rkm04-host, of the unit rkm04, which is the scope of all signals. */
 void vcd_begin(struct vcd *vcd, struct outfile *file, const char *program);
 void vcd_declare(struct vcd *vcd, enum vcd_type type, unsigned signal, struct vcd_name name);
 void vcd_begin_values(struct vcd *vcd);

@@ -8,9 +8,11 @@
 #include "base_tick.h"
 #include "json.h"
 #include "motion_plan.h"
+#include "rkm04_kind.h"
+#include "rkm04.h"
+#include "rkm04_kind.h"
 #include "run.h"
 #include "step_generator.h"
-#include "summary.h"
 #include "units.h"
 
 enum {
@@ -53,6 +55,7 @@ struct laid_mix {
 struct bench {
     struct laid_mix laid;
     struct run run;
+    struct rkm04 unit;
 };
 
 /* Walks along a move as the step interrupt does. */
@@ -138,17 +141,18 @@ static void print_generator(struct laid_mix *laid)
                  plans_per_second(shortest, laid));
 }
 
-static void print_simulation(struct run *run)
+static void print_simulation(struct run *run, struct rkm04 *unit)
 {
     static const char request[] = "\x02"
                                   "0S2000 V16000 A60000 G+";
     uint8_t answer[MESSAGES_ANSWER_BYTES_MAX];
-    run_begin(run, 0);
-    (void)rkm04_message(&run->unit, (const uint8_t *)request, (uint32_t)strlen(request), answer);
+    run_init(run, &rkm04_kind, unit, 0);
+    run_begin(run);
+    (void)rkm04_message(unit, (const uint8_t *)request, (uint32_t)strlen(request), answer);
     run_until(run, (uint64_t)SIMULATED_SECONDS * TICK_HZ);
     (void)printf("\"simulation\":{\"program\":\"%s\",\"motors\":%d,\"seconds\":%d,\"pulses\":%" PRIu64 ",\"ratio\":",
                  request + 2, UNIT_MOTORS, SIMULATED_SECONDS, run->machine.pulses);
-    json_print_fixed(summary_milli_ratio(run), 3);
+    json_print_fixed(run_milli_ratio(run), 3);
     (void)printf("}}\n");
 }
 
@@ -160,7 +164,7 @@ enum exit_status bench_print(void)
         return EXIT_REFUSED;
     }
     print_generator(&bench->laid);
-    print_simulation(&bench->run);
+    print_simulation(&bench->run, &bench->unit);
     free(bench);
     return finish_output();
 }

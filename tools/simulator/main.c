@@ -12,7 +12,7 @@
 #include "opcodes.h"
 #include "options.h"
 #include "parent.h"
-#include "serve.h"
+#include "rkm04_serve.h"
 #include "sim.h"
 
 static enum exit_status command_sim(int count, char *const arguments[])
@@ -35,12 +35,10 @@ static enum exit_status print_text(const char *text)
 
 static enum exit_status command_serve(int count, char *const arguments[])
 {
-    struct serve_options options;
     if (count == 1 && is_help(arguments[0])) {
-        return print_text(serve_usage);
+        return print_text(rkm04_serve_usage);
     }
-    enum exit_status status = serve_options_read(&options, count, arguments);
-    return status == EXIT_DONE ? serve_run(&options) : status;
+    return rkm04_serve(count, arguments);
 }
 
 static enum exit_status command_check(int count, char *const arguments[])

@@ -4,23 +4,13 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
-#include <stdint.h>
-
 #include "base_limits.h"
 #include "complain.h"
-#include "recorder.h"
-
-/* Unit time of a simulation that does not end by itself, unless --for says more or less. */
-#define OPTIONS_DURATION_NS UINT64_C(60000000000)
+#include "sim_options.h"
 
 struct options {
+    struct sim_options sim;
     const char *programs[UNIT_MOTORS]; /* the file of each motor; null: none */
-    const char *inputs;                /* null: none */
-    struct recorder_paths paths;
-    uint64_t duration_ns;
-    uint64_t progress_ns; /* so often it tells how far it is; 0: never */
-    uint64_t real_ns;     /* ends after so much real time too; 0: does not */
-    uint64_t epoch;       /* the unit's time at the start, ticks */
 };
 
 /* The usage of the whole program. */

@@ -7,10 +7,7 @@
 #include "feed.h"
 #include "run.h"
 
-void summary_print(const struct run *run, const struct feed *feed);
-
-/* Unit time to real time of a run, in thousandths. */
-uint64_t summary_milli_ratio(const struct run *run);
+void summary_print(const struct run *run, const struct rkm04 *unit, const struct feed *feed);
 
 /* The name of an enum interpreter_state. */
 const char *summary_state_text(unsigned state);

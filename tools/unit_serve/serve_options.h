@@ -1,5 +1,5 @@
 /*
- * The options of `rkm04-host serve`, from the command line.
+ * The options of `serve`, from the command line.
  */
 #ifndef SERVE_OPTIONS_H
 #define SERVE_OPTIONS_H
@@ -31,7 +31,7 @@ struct serve_options {
     uint8_t nodes[SERVE_UNITS_MAX];
 };
 
-/* Reads what follows `serve`. EXIT_DONE, or EXIT_USAGE after a complaint. */
-enum exit_status serve_options_read(struct serve_options *options, int count, char *const arguments[]);
+/* Reads what follows `serve`; --node only where `has_nodes`. EXIT_DONE, or EXIT_USAGE after a complaint. */
+enum exit_status serve_options_read(struct serve_options *options, bool has_nodes, int count, char *const arguments[]);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <assert.h>
 
+#include "hal_io.h"
 #include "hal_trace.h"
 #include "units.h"
 
@@ -16,7 +17,13 @@ enum signal {
     SIGNAL_OUTPUTS = SIGNAL_INPUTS + UNIT_INPUTS,
     SIGNAL_POSITIONS = SIGNAL_OUTPUTS + UNIT_OUTPUTS,
     SIGNAL_SPEEDS = SIGNAL_POSITIONS + UNIT_MOTORS,
-    SIGNALS = SIGNAL_SPEEDS + UNIT_MOTORS,
+    SIGNAL_PWM = SIGNAL_SPEEDS + UNIT_MOTORS,
+    SIGNAL_LEDS,
+    SIGNALS = SIGNAL_LEDS + HAL_IO_LEDS,
+};
+
+enum {
+    MILLI_PERCENT_PER_PERMILLE = 100
 };
 
 static_assert(SIGNALS <= VCD_SIGNALS_MAX, "a signal's code is one character");
@@ -45,13 +52,38 @@ static void declare(struct waves *waves, enum vcd_type type, unsigned signal, co
     vcd_declare(&waves->vcd, type, signal, (struct vcd_name){.before = before, .number = index + 1U, .after = after});
 }
 
-static void declare_all(struct waves *waves)
+/* An LED with a name of its own, or that of a motor. */
+static unsigned led_wire(const struct waves *waves, unsigned led)
+{
+    return waves->kind->leds != NULL ? SIGNAL_LEDS + led : motor_wire(led, SIGNAL_LED);
+}
+
+static void declare_motors(struct waves *waves)
 {
     for (unsigned i = 0; i < UNIT_MOTORS; i++) {
         declare(waves, VCD_WIRE, motor_wire(i, SIGNAL_STEP), "m", i, "_step");
         declare(waves, VCD_WIRE, motor_wire(i, SIGNAL_DIRECTION), "m", i, "_dir");
-        declare(waves, VCD_WIRE, motor_wire(i, SIGNAL_LED), "m", i, "_led");
+        if (waves->kind->leds == NULL) {
+            declare(waves, VCD_WIRE, motor_wire(i, SIGNAL_LED), "m", i, "_led");
+        }
     }
+}
+
+/* What not every kind of unit has. */
+static void declare_special(struct waves *waves)
+{
+    for (unsigned i = 0; waves->kind->leds != NULL && i < HAL_IO_LEDS; i++) {
+        vcd_declare(&waves->vcd, VCD_WIRE, SIGNAL_LEDS + i,
+                    (struct vcd_name){.before = waves->kind->leds[i], .after = ""});
+    }
+    if (waves->kind->has_pwm) {
+        vcd_declare(&waves->vcd, VCD_REAL, SIGNAL_PWM, (struct vcd_name){.before = "pwm", .after = ""});
+    }
+}
+
+static void declare_all(struct waves *waves)
+{
+    declare_motors(waves);
     for (unsigned i = 0; i < UNIT_INPUTS; i++) {
         declare(waves, VCD_WIRE, SIGNAL_INPUTS + i, "bi", i, "");
     }
@@ -62,20 +94,47 @@ static void declare_all(struct waves *waves)
         declare(waves, VCD_REAL, SIGNAL_POSITIONS + i, "m", i, "_position");
         declare(waves, VCD_REAL, SIGNAL_SPEEDS + i, "m", i, "_speed");
     }
+    declare_special(waves);
 }
 
-void waves_begin(struct waves *waves, struct outfile *file)
+static void put_first_motor(struct waves *waves, unsigned motor)
 {
-    *waves = (struct waves){.inputs = 0};
-    vcd_begin(&waves->vcd, file, "rkm04-host");
-    declare_all(waves);
-    vcd_begin_values(&waves->vcd);
-    for (unsigned i = 0; i < SIGNAL_POSITIONS; i++) {
-        vcd_put_wire(&waves->vcd, i, false);
+    vcd_put_wire(&waves->vcd, motor_wire(motor, SIGNAL_STEP), false);
+    vcd_put_wire(&waves->vcd, motor_wire(motor, SIGNAL_DIRECTION), false);
+    if (waves->kind->leds == NULL) {
+        vcd_put_wire(&waves->vcd, motor_wire(motor, SIGNAL_LED), false);
     }
-    for (unsigned i = SIGNAL_POSITIONS; i < SIGNALS; i++) {
+}
+
+static void put_first_values(struct waves *waves)
+{
+    for (unsigned i = 0; i < UNIT_MOTORS; i++) {
+        put_first_motor(waves, i);
+    }
+    for (unsigned i = 0; i < UNIT_INPUTS; i++) {
+        vcd_put_wire(&waves->vcd, SIGNAL_INPUTS + i, ((unsigned)waves->inputs >> i & 1U) != 0);
+    }
+    for (unsigned i = 0; i < UNIT_OUTPUTS; i++) {
+        vcd_put_wire(&waves->vcd, SIGNAL_OUTPUTS + i, false);
+    }
+    for (unsigned i = SIGNAL_POSITIONS; i < SIGNAL_PWM; i++) {
         vcd_put_whole(&waves->vcd, i, 0);
     }
+    for (unsigned i = 0; waves->kind->leds != NULL && i < HAL_IO_LEDS; i++) {
+        vcd_put_wire(&waves->vcd, SIGNAL_LEDS + i, false);
+    }
+    if (waves->kind->has_pwm) {
+        vcd_put_whole(&waves->vcd, SIGNAL_PWM, 0);
+    }
+}
+
+void waves_begin(struct waves *waves, struct outfile *file, const struct unit_kind *kind)
+{
+    *waves = (struct waves){.kind = kind, .inputs = kind->inputs};
+    vcd_begin(&waves->vcd, file, kind->program);
+    declare_all(waves);
+    vcd_begin_values(&waves->vcd);
+    put_first_values(waves);
     vcd_end_values(&waves->vcd);
 }
 
@@ -90,17 +149,38 @@ static void put_changed_bits(struct waves *waves, unsigned first_signal, uint8_t
     *levels = new_levels;
 }
 
+static void put_step_pin(struct waves *waves, unsigned motor, bool high)
+{
+    waves->pins[motor].high = high;
+    vcd_put_wire(&waves->vcd, motor_wire(motor, SIGNAL_STEP), high != waves->pins[motor].falling);
+}
+
+static void put_direction_pin(struct waves *waves, unsigned motor, bool backward)
+{
+    waves->pins[motor].backward = backward;
+    vcd_put_wire(&waves->vcd, motor_wire(motor, SIGNAL_DIRECTION), backward != waves->pins[motor].turned);
+}
+
+static void put_polarity(struct waves *waves, const struct timeline_event *event)
+{
+    struct waves_pins *pins = &waves->pins[event->motor - 1U];
+    pins->falling = event->detail != 0;
+    pins->turned = event->value != 0;
+    put_step_pin(waves, event->motor - 1U, pins->high);
+    put_direction_pin(waves, event->motor - 1U, pins->backward);
+}
+
 static void put_step(struct waves *waves, const struct timeline_event *event)
 {
     unsigned motor = event->motor - 1U;
-    vcd_put_wire(&waves->vcd, motor_wire(motor, SIGNAL_STEP), true);
+    put_step_pin(waves, motor, true);
     put_position(waves, motor, event->value);
     put_speed(waves, motor, units_milli_speed(event->interval_ticks));
 }
 
 static bool is_drawn(const struct timeline_event *event)
 {
-    return event->kind != TIMELINE_TRACE || event->detail == HAL_TRACE_DONE;
+    return event->kind != TIMELINE_TRACE || (event->detail == HAL_TRACE_DONE && event->motor != 0);
 }
 
 static void put_change(struct waves *waves, const struct timeline_event *event)
@@ -112,16 +192,22 @@ static void put_change(struct waves *waves, const struct timeline_event *event)
         put_step(waves, event);
         break;
     case TIMELINE_STEP_END:
-        vcd_put_wire(&waves->vcd, motor_wire(motor, SIGNAL_STEP), false);
+        put_step_pin(waves, motor, false);
         break;
     case TIMELINE_POSITION:
         put_position(waves, motor, event->value);
         break;
     case TIMELINE_DIRECTION:
-        vcd_put_wire(&waves->vcd, motor_wire(motor, SIGNAL_DIRECTION), level);
+        put_direction_pin(waves, motor, level);
+        break;
+    case TIMELINE_POLARITY:
+        put_polarity(waves, event);
         break;
     case TIMELINE_LED:
-        vcd_put_wire(&waves->vcd, motor_wire(motor, SIGNAL_LED), level);
+        vcd_put_wire(&waves->vcd, led_wire(waves, motor), level);
+        break;
+    case TIMELINE_PWM:
+        vcd_put_milli(&waves->vcd, SIGNAL_PWM, (uint64_t)event->value * MILLI_PERCENT_PER_PERMILLE);
         break;
     case TIMELINE_INPUT:
         put_changed_bits(waves, SIGNAL_INPUTS, &waves->inputs, (uint8_t)event->value);

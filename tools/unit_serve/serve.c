@@ -43,6 +43,7 @@ enum {
 #define SLICE_TICKS ((uint64_t)TICKS_PER_MS)
 
 struct serve {
+    const struct serve_kind *kind;
     const struct serve_options *options;
     struct serve_units units;
     struct serve_line line;
@@ -55,28 +56,6 @@ struct serve {
     bool touched; /* bytes or inputs have come that the units have not seen yet */
     bool over;    /* standard input has ended, and this is to end with it */
 };
-
-const char serve_usage[] =
-    "usage: rkm04-host serve [--tcp PORT | --pty PATH] [--node N ...] [--flash FILE] [--speed X]\n"
-    "                        [--unpaced] [--control PORT] [--address ADDRESS] [--json] [--until-eof]\n"
-    "\n"
-    "Units on one line in real time, until Ctrl-C. When ready it prints where it listens.\n"
-    "\n"
-    "--tcp PORT        listens there (5000); 0 takes any free port\n"
-    "--pty PATH        makes a pty and the link PATH to it\n"
-    "--node N          a unit of address 1 to 16; may be repeated (1)\n"
-    "--flash FILE      keeps stored programs; with several units in FILE.nodeN\n"
-    "--speed X         times real time, 0.001 to 1000; 0: as fast as possible (1)\n"
-    "--unpaced         bytes take no time on the line\n"
-    "--control PORT    takes the lines of standard input by TCP too; 0 takes any free port\n"
-    "--address ADDRESS listens there, for others to connect (127.0.0.1: only this machine)\n"
-    "--json            says where it listens as a JSON object\n"
-    "--until-eof       ends when standard input does, as it does when the program that writes there ends\n"
-    "\n"
-    "Lines on standard input: 3=1 sets input 3, 2.3=1 that of unit 2, ? prints the state of all\n"
-    "units. Each is answered by JSON: the state by a line per unit, the others by one line.\n"
-    "\n"
-    "example: rkm04-host serve --node 1 --node 2 --flash units.flash\n";
 
 static enum exit_status open_ports(struct serve *serve)
 {
@@ -106,11 +85,10 @@ static enum exit_status tell_ready(const struct serve *serve)
     } else {
         (void)fputs("null", stdout);
     }
-    (void)fputs(", \"nodes\": [", stdout);
-    for (unsigned i = 0; i < serve->options->units; i++) {
-        (void)printf("%s%u", i == 0 ? "" : ", ", (unsigned)serve->options->nodes[i]);
+    for (unsigned i = 0; serve->kind->has_nodes && i < serve->options->units; i++) {
+        (void)printf("%s%u", i == 0 ? ", \"nodes\": [" : ", ", (unsigned)serve->options->nodes[i]);
     }
-    (void)fputs("]}\n", stdout);
+    (void)fputs(serve->kind->has_nodes ? "]}\n" : "}\n", stdout);
     return finish_output();
 }
 
@@ -304,27 +282,28 @@ static void hold_standard_descriptors(void)
 static enum exit_status begin(struct serve *serve)
 {
     hold_standard_descriptors();
-    serve_line_init(&serve->line, &serve->line_port, !serve->options->unpaced);
+    serve_line_init(&serve->line, &serve->line_port, serve->options->unpaced ? 0 : serve->kind->byte_ticks);
     serve_talk_init(&serve->talk, &serve->units, &serve->line_port, &serve->control_port);
     serve->slots[SLOT_SIGNAL] = (struct pollfd){.fd = serve_signal_catch(), .events = POLLIN};
     serve->slots[SLOT_USER] = (struct pollfd){.fd = STDIN_FILENO, .events = POLLIN};
     if (serve->slots[SLOT_SIGNAL].fd < 0) {
         return EXIT_REFUSED;
     }
-    enum exit_status status = serve_units_begin(&serve->units, serve->options, &serve->line);
+    enum exit_status status = serve_units_begin(&serve->units, serve->kind, serve->options, &serve->line);
     if (status == EXIT_DONE) {
         status = open_ports(serve);
     }
     return status == EXIT_DONE ? tell_ready(serve) : status;
 }
 
-enum exit_status serve_run(const struct serve_options *options)
+enum exit_status serve_run(const struct serve_kind *kind, const struct serve_options *options)
 {
     struct serve *serve = calloc(1, sizeof *serve);
     if (serve == NULL) {
         complain("there is not memory enough for a line; close other programs");
         return EXIT_REFUSED;
     }
+    serve->kind = kind;
     serve->options = options;
     serve_port_init(&serve->line_port);
     serve_port_init(&serve->control_port);

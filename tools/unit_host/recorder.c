@@ -10,7 +10,7 @@ static void recorder_write(void *context, const struct timeline_event *event)
         csv_put_step(&recorder->steps, event);
     }
     if (event->kind == TIMELINE_TRACE && outfile_is_open(&recorder->trace)) {
-        csv_put_trace(&recorder->trace, event);
+        csv_put_trace(&recorder->trace, event, recorder->kind);
     }
     if (outfile_is_open(&recorder->waves)) {
         waves_put(&recorder->drawing, event);
@@ -29,13 +29,14 @@ static bool recorder_begin(struct recorder *recorder, const struct curve_range *
         csv_begin_trace(&recorder->trace);
     }
     if (outfile_is_open(&recorder->waves)) {
-        waves_begin(&recorder->drawing, &recorder->waves);
+        waves_begin(&recorder->drawing, &recorder->waves, recorder->kind);
     }
     return !outfile_is_open(&recorder->line) || curve_begin(&recorder->curve, &recorder->line, range);
 }
 
-bool recorder_open(struct recorder *recorder, const struct recorder_paths *paths)
+bool recorder_open(struct recorder *recorder, const struct recorder_paths *paths, const struct unit_kind *kind)
 {
+    recorder->kind = kind;
     timeline_init(&recorder->timeline, recorder_write, recorder);
     recorder->active = paths->steps != NULL || paths->trace != NULL || paths->vcd != NULL || paths->curve != NULL;
     recorder->steps = (struct outfile){.path = NULL};

@@ -43,13 +43,13 @@ static bool read_sign(const char **at, const char *end, char sign)
 }
 
 /* [node.]input=level */
-static bool read_input(const char *at, const char *end, struct serve_order *order)
+static bool read_input(const char *at, const char *end, const struct serve_kind *kind, struct serve_order *order)
 {
     uint8_t level = 0;
     if (!read_number(&at, end, SERVE_NODE_MAX, &order->input)) {
         return false;
     }
-    if (read_sign(&at, end, '.')) {
+    if (kind->has_nodes && read_sign(&at, end, '.')) {
         order->node = order->input;
         if (order->node == 0 || !read_number(&at, end, UNIT_INPUTS, &order->input)) {
             return false;
@@ -57,10 +57,10 @@ static bool read_input(const char *at, const char *end, struct serve_order *orde
     }
     bool good = read_sign(&at, end, '=') && read_number(&at, end, 1, &level) && at == end;
     order->level = level != 0;
-    return good && order->input >= 1 && order->input <= UNIT_INPUTS;
+    return good && unit_kind_has_input(kind->unit, order->input);
 }
 
-struct serve_order serve_order_read(const struct serve_text *text)
+struct serve_order serve_order_read(const struct serve_text *text, const struct serve_kind *kind)
 {
     struct serve_order order = {.kind = SERVE_ORDER_NOTHING};
     const char *at = text->bytes;
@@ -77,7 +77,7 @@ struct serve_order serve_order_read(const struct serve_text *text)
     if (end - at == 1 && *at == '?') {
         order.kind = SERVE_ORDER_STATUS;
     } else {
-        bool good = text->length < SERVE_ORDER_BYTES_MAX && read_input(at, end, &order);
+        bool good = text->length < SERVE_ORDER_BYTES_MAX && read_input(at, end, kind, &order);
         order.kind = good ? SERVE_ORDER_INPUT : SERVE_ORDER_WRONG;
     }
     return order;

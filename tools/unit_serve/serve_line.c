@@ -8,10 +8,10 @@ enum {
     UNPACED_TICKS = 1
 };
 
-void serve_line_init(struct serve_line *line, struct serve_port *port, bool paced)
+void serve_line_init(struct serve_line *line, struct serve_port *port, uint32_t byte_ticks)
 {
     line->heard_count = 0;
-    line->byte_ticks = paced ? HOST_LINE_BYTE_TICKS : UNPACED_TICKS;
+    line->byte_ticks = byte_ticks == 0 ? UNPACED_TICKS : byte_ticks;
     line->last_tick = 0;
     line->said_count = 0;
     line->port = port;

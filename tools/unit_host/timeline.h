@@ -25,7 +25,9 @@ enum timeline_kind {
     TIMELINE_STEP_END,  /* its falling edge */
     TIMELINE_POSITION,  /* the position was set; value = position */
     TIMELINE_DIRECTION, /* value = 1: backward */
-    TIMELINE_LED,       /* value = 1: on */
+    TIMELINE_POLARITY,  /* detail = 1: the active edge of STEP falls; value = 1: DIR is turned */
+    TIMELINE_LED,       /* motor = its number, from 1; value = 1: on */
+    TIMELINE_PWM,       /* value = per mille */
     TIMELINE_INPUT,     /* value = levels of all inputs, bit 0 is BI1 */
     TIMELINE_OUTPUT,    /* value = levels of all outputs */
     TIMELINE_TRACE,     /* detail = enum hal_trace_event, value as there */
@@ -36,7 +38,7 @@ struct timeline_event {
     int64_t value;
     uint64_t interval_ticks; /* of a step: as tally_count_pulse tells it; else 0 */
     uint8_t kind;            /* enum timeline_kind */
-    uint8_t motor;           /* 1 to 4; 0: the unit */
+    uint8_t motor;           /* 1 to 4; 0: the unit; of an LED 1 to 8 */
     uint8_t detail;          /* see above, else 0 */
 };
 

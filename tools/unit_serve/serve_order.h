@@ -2,7 +2,7 @@
  * The lines by which a user of `serve` sets inputs and asks for the state, on standard input and on the control port:
  *
  *     3=1      input 3 becomes 1, of the only unit
- *     2.3=1    the same of unit 2
+ *     2.3=1    the same of unit 2, if units have addresses
  *     ?        the state of every unit
  *
  * Blanks around them do no harm; a line without anything says nothing.
@@ -12,6 +12,8 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+
+#include "serve_kind.h"
 
 enum {
     SERVE_ORDER_BYTES_MAX = 64
@@ -43,6 +45,6 @@ bool serve_text_take(struct serve_text *text, char byte);
 void serve_text_clear(struct serve_text *text);
 
 /* What a line says. */
-struct serve_order serve_order_read(const struct serve_text *text);
+struct serve_order serve_order_read(const struct serve_text *text, const struct serve_kind *kind);
 
 #endif

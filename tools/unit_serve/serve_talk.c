@@ -72,7 +72,7 @@ static void set_input(struct serve_talk *talk, int client, const struct serve_or
 
 static void obey(struct serve_talk *talk, int client, const struct serve_text *text)
 {
-    struct serve_order order = serve_order_read(text);
+    struct serve_order order = serve_order_read(text, talk->units->kind);
     switch (order.kind) {
     case SERVE_ORDER_NOTHING:
         break;
@@ -83,7 +83,7 @@ static void obey(struct serve_talk *talk, int client, const struct serve_text *t
         set_input(talk, client, &order);
         break;
     case SERVE_ORDER_WRONG:
-        answer_error(talk, client, "not understood; write 3=1 or 3=0 for input 3, 2.3=1 for that of unit 2, or ?");
+        answer_error(talk, client, talk->units->kind->order_help);
         break;
     }
 }

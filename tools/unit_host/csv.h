@@ -7,13 +7,14 @@
 
 #include "outfile.h"
 #include "timeline.h"
+#include "unit_kind.h"
 
 /* Steps: `# tick_hz=84000000`, `tick,motor,position`, then the pulses. */
 void csv_begin_steps(struct outfile *file);
 void csv_put_step(struct outfile *file, const struct timeline_event *event);
 
-/* Trace: `tick,motor,event,value`, then the events. The value of a stop is its cause, of an error its text. */
+/* Trace: `tick,motor,event,value`, then the events, with the words of the kind of unit. */
 void csv_begin_trace(struct outfile *file);
-void csv_put_trace(struct outfile *file, const struct timeline_event *event);
+void csv_put_trace(struct outfile *file, const struct timeline_event *event, const struct unit_kind *kind);
 
 #endif

@@ -65,6 +65,7 @@ static bool read_speed(void *target, const char *value)
     return true;
 }
 
+/* The last one is only for units that have addresses. */
 static const struct argument rows[] = {
     ARGUMENT_TEXT_ROW(serve_options, "--pty", pty),
     ARGUMENT_TEXT_ROW(serve_options, "--flash", flash),
@@ -74,15 +75,8 @@ static const struct argument rows[] = {
     ARGUMENT_FLAG_ROW(serve_options, "--until-eof", until_eof),
     ARGUMENT_OTHER_ROW("--tcp", read_tcp),
     ARGUMENT_OTHER_ROW("--control", read_control),
-    ARGUMENT_OTHER_ROW("--node", read_node),
     ARGUMENT_OTHER_ROW("--speed", read_speed),
-};
-
-static const struct argument_table table = {
-    .rows = rows,
-    .count = sizeof rows / sizeof rows[0],
-    .unknown = "no such option of serve; serve --help lists them",
-    .missing = "its value is missing; serve --help shows it",
+    ARGUMENT_OTHER_ROW("--node", read_node),
 };
 
 static bool is_whole(struct serve_options *options)
@@ -97,8 +91,14 @@ static bool is_whole(struct serve_options *options)
     return true;
 }
 
-enum exit_status serve_options_read(struct serve_options *options, int count, char *const arguments[])
+enum exit_status serve_options_read(struct serve_options *options, bool has_nodes, int count, char *const arguments[])
 {
+    const struct argument_table table = {
+        .rows = rows,
+        .count = sizeof rows / sizeof rows[0] - (has_nodes ? 0U : 1U),
+        .unknown = "no such option of serve; serve --help lists them",
+        .missing = "its value is missing; serve --help shows it",
+    };
     *options = (struct serve_options){.address = "127.0.0.1", .milli_speed = 1000, .tcp_port = SERVE_TCP_PORT};
     if (arguments_read(&table, options, count, arguments) != EXIT_DONE) {
         return EXIT_USAGE;

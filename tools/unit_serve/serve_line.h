@@ -1,6 +1,6 @@
 /*
- * The half-duplex line between clients and units: what clients send goes to every unit at the same tick, what units
- * send to every client. Units do not hear each other.
+ * The line between clients and units: what clients send goes to every unit at the same tick, what units send to every
+ * client. Units do not hear each other.
  */
 #ifndef SERVE_LINE_H
 #define SERVE_LINE_H
@@ -26,8 +26,8 @@ struct serve_line {
     struct serve_port *port;
 };
 
-/* `paced`: bytes take what they take at 19 200 Bd; else next to nothing. */
-void serve_line_init(struct serve_line *line, struct serve_port *port, bool paced);
+/* `byte_ticks`: what a byte takes; 0: next to nothing. */
+void serve_line_init(struct serve_line *line, struct serve_port *port, uint32_t byte_ticks);
 
 /* Forgets the bytes that all units have heard: those before `now`. Returns the room for more. */
 uint32_t serve_line_room(struct serve_line *line, uint64_t now);

@@ -23,6 +23,7 @@ struct entry {
 };
 
 struct entries {
+    const struct unit_kind *kind;
     struct entry *list;
     uint32_t length;
     uint32_t room;
@@ -55,7 +56,7 @@ static bool read_field(const char **at, const char *end, unsigned decimals, uint
 }
 
 /* Reads a line that is not blank. Null, or what is wrong with it. */
-static const char *read_line(const char *at, const char *end, struct host_input *input)
+static const char *read_line(const char *at, const char *end, const struct unit_kind *kind, struct host_input *input)
 {
     uint64_t ns = 0;
     uint64_t number = 0;
@@ -63,8 +64,8 @@ static const char *read_line(const char *at, const char *end, struct host_input 
     if (!read_field(&at, end, MS_DECIMALS, NS_MAX, false, &ns)) {
         return "the time must be milliseconds from 0 with up to 6 decimals, then a comma";
     }
-    if (!read_field(&at, end, 0, UNIT_INPUTS, false, &number) || number == 0) {
-        return "the input must be 1 to 8, then a comma";
+    if (!read_field(&at, end, 0, UNIT_INPUTS, false, &number) || !unit_kind_has_input(kind, number)) {
+        return kind->inputs_wrong;
     }
     if (!read_field(&at, end, 0, 1, true, &level)) {
         return "the level must be 0 or 1, then the end of the line";
@@ -107,7 +108,7 @@ static const char *entries_read_line(struct entries *entries, const char *at, co
         return NULL;
     }
     struct entry entry = {.line = line};
-    const char *wrong = read_line(at, end, &entry.input);
+    const char *wrong = read_line(at, end, entries->kind, &entry.input);
     if (wrong == NULL && !entries_append(entries, &entry)) {
         wrong = "there is not memory enough for so many lines";
     }
@@ -149,7 +150,7 @@ static bool inputs_fill(struct inputs *inputs, const struct entries *entries, co
     return true;
 }
 
-bool inputs_read(struct inputs *inputs, const char *path)
+bool inputs_read(struct inputs *inputs, const char *path, const struct unit_kind *kind)
 {
     *inputs = (struct inputs){.script = NULL};
     struct infile file;
@@ -159,7 +160,7 @@ bool inputs_read(struct inputs *inputs, const char *path)
     if (!infile_read_text(&file, path)) {
         return false;
     }
-    struct entries entries = {.list = NULL};
+    struct entries entries = {.kind = kind};
     bool good = entries_read(&entries, &file) && inputs_fill(inputs, &entries, path);
     free(entries.list);
     infile_discard(&file);

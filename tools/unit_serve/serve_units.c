@@ -13,7 +13,7 @@ enum {
 /* A unit that does not complain is in the list. */
 static enum exit_status add_unit(struct serve_units *units, uint8_t node, const char *flash_path)
 {
-    struct serve_unit *unit = malloc(sizeof *unit);
+    struct serve_unit *unit = serve_unit_make(units->kind);
     if (unit == NULL) {
         complain("there is not memory enough for a unit; close other programs");
         return EXIT_REFUSED;
@@ -36,9 +36,10 @@ static enum exit_status add_numbered_unit(struct serve_units *units, uint8_t nod
     return status;
 }
 
-enum exit_status serve_units_begin(struct serve_units *units, const struct serve_options *options,
-                                   struct serve_line *line)
+enum exit_status serve_units_begin(struct serve_units *units, const struct serve_kind *kind,
+                                   const struct serve_options *options, struct serve_line *line)
 {
+    units->kind = kind;
     enum exit_status status = EXIT_DONE;
     units->count = 0;
     units->now = 0;
@@ -48,7 +49,7 @@ enum exit_status serve_units_begin(struct serve_units *units, const struct serve
         status = numbered ? add_numbered_unit(units, node, options->flash) : add_unit(units, node, options->flash);
         if (status == EXIT_DONE) {
             serve_unit_attach(units->list[i], line);
-            host_machine_set_byte_ticks(&units->list[i]->machine, options->unpaced ? 0 : HOST_LINE_BYTE_TICKS);
+            host_machine_set_byte_ticks(&units->list[i]->machine, options->unpaced ? 0 : kind->byte_ticks);
         }
     }
     return status;
@@ -127,7 +128,6 @@ void serve_units_discard(struct serve_units *units)
 {
     for (unsigned i = 0; i < units->count; i++) {
         serve_unit_discard(units->list[i]);
-        free(units->list[i]);
     }
     units->count = 0;
 }

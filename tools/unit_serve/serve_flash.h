@@ -1,5 +1,6 @@
 /*
- * The flash of a unit in a file: its bytes, then "RKM4" and their CRC-32, low byte first.
+ * The flash of a unit in a file: its bytes, then four characters that name the kind of unit and the CRC-32 of the
+ * bytes, low byte first.
  *
  * Whenever the program ends, by a kill or with the machine's power too, the file has the old bytes or the new ones:
  * they are written beside it, brought to the disk, and put in its place. The file that is in place is locked (flock),
@@ -12,14 +13,16 @@
 
 #include "complain.h"
 #include "host_machine.h"
+#include "serve_kind.h"
 
 struct serve_flash {
+    const struct serve_kind *kind;
     char *path; /* null: no file */
     int fd;     /* the file that is in place, locked; -1: none */
 };
 
 /* No file. */
-void serve_flash_init(struct serve_flash *flash);
+void serve_flash_init(struct serve_flash *flash, const struct serve_kind *kind);
 
 /* Locks the file and reads it (a null path: no file); one that is not there, or empty, is made of the flash as it is.
  * EXIT_DONE, or after a complaint what else. */

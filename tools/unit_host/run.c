@@ -9,6 +9,7 @@
 enum {
     PASSES_PER_LOOK = 256,
     STEPS_PER_LOOK = 4096,
+    NS_PER_MILLI_RATIO = 1000,
     SECONDS_PER_LOOK = 10
 };
 
@@ -31,7 +32,7 @@ static void tell_progress(struct run *run, uint64_t real_ns, uint64_t tick)
 static void hear_step(void *context, uint64_t tick, unsigned motor, bool backward)
 {
     struct run *run = context;
-    int64_t position = axis_position_steps(&run->unit.axis[motor]) + (backward ? -1 : 1);
+    int64_t position = run->kind->position_steps(run->unit, motor) + (backward ? -1 : 1);
     run->positions[motor] = position;
     if (run->progress_ns != 0 && ++run->steps % STEPS_PER_LOOK == 0) {
         tell_progress(run, units_real_ns(), tick); /* a long run makes many pulses in few passes */
@@ -50,10 +51,24 @@ static void hear_direction(void *context, uint64_t tick, unsigned motor, bool ba
                         .tick = tick, .kind = TIMELINE_DIRECTION, .motor = (uint8_t)(motor + 1U), .value = backward});
 }
 
-static void hear_led(void *context, uint64_t tick, unsigned motor, bool on)
+static void hear_polarity(void *context, uint64_t tick, unsigned motor, bool falling, bool turned)
+{
+    record(context, &(struct timeline_event){.tick = tick,
+                                             .kind = TIMELINE_POLARITY,
+                                             .motor = (uint8_t)(motor + 1U),
+                                             .detail = falling,
+                                             .value = turned});
+}
+
+static void hear_led(void *context, uint64_t tick, unsigned led, bool on)
 {
     record(context,
-           &(struct timeline_event){.tick = tick, .kind = TIMELINE_LED, .motor = (uint8_t)(motor + 1U), .value = on});
+           &(struct timeline_event){.tick = tick, .kind = TIMELINE_LED, .motor = (uint8_t)(led + 1U), .value = on});
+}
+
+static void hear_pwm(void *context, uint64_t tick, uint32_t permille)
+{
+    record(context, &(struct timeline_event){.tick = tick, .kind = TIMELINE_PWM, .value = permille});
 }
 
 static void hear_input(void *context, uint64_t tick, uint8_t levels)
@@ -69,7 +84,7 @@ static void hear_output(void *context, uint64_t tick, uint8_t levels)
 /* A position that a command has written; those that pulses make are recorded with the pulses. */
 static void record_position(struct run *run, unsigned motor, uint64_t tick)
 {
-    int64_t position = axis_position_steps(&run->unit.axis[motor - 1U]);
+    int64_t position = run->kind->position_steps(run->unit, motor - 1U);
     if (position != run->positions[motor - 1U]) {
         run->positions[motor - 1U] = position;
         record(run, &(struct timeline_event){
@@ -80,10 +95,10 @@ static void record_position(struct run *run, unsigned motor, uint64_t tick)
 static void hear_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
 {
     struct run *run = context;
-    if (event == HAL_TRACE_MOVE) {
+    if (event == HAL_TRACE_MOVE && motor != 0) {
         record_position(run, motor, tick);
-        tally_begin_move(&run->tally[motor - 1U], tick, axis_position_steps(&run->unit.axis[motor - 1U]));
-    } else if (event == HAL_TRACE_DONE) {
+        tally_begin_move(&run->tally[motor - 1U], tick, run->kind->position_steps(run->unit, motor - 1U));
+    } else if (event == HAL_TRACE_DONE && motor != 0) {
         tally_end_move(&run->tally[motor - 1U], tick);
     }
     record(
@@ -95,18 +110,29 @@ static void hear_trace(void *context, uint64_t tick, unsigned motor, enum hal_tr
 static void record_positions(struct run *run)
 {
     for (unsigned motor = 1; motor <= UNIT_MOTORS; motor++) {
-        if (!axis_is_moving(&run->unit.axis[motor - 1U])) {
+        if (!run->kind->is_moving(run->unit, motor - 1U)) {
             record_position(run, motor, run->machine.now);
         }
+    }
+}
+
+static void hear_line(void *context, uint64_t tick, uint8_t value)
+{
+    struct run *run = context;
+    if (run->partner.line != NULL) {
+        run->partner.line(run->partner.context, tick, value);
     }
 }
 
 static uint64_t run_pass(void *context)
 {
     struct run *run = context;
-    uint64_t wake = rkm04_poll(&run->unit);
+    uint64_t wake = run->kind->poll(run->unit);
     if (run->recorder.active) {
         record_positions(run);
+    }
+    if (run->partner.pass != NULL) {
+        run->partner.pass(run->partner.context);
     }
     return wake;
 }
@@ -120,7 +146,8 @@ static void look_at_limit(struct run *run, uint64_t real_ns)
 static bool run_is_over(void *context)
 {
     struct run *run = context;
-    run->idle = rkm04_is_idle(&run->unit);
+    run->idle =
+        run->kind->is_idle(run->unit) && (run->partner.is_over == NULL || run->partner.is_over(run->partner.context));
     if (++run->passes % PASSES_PER_LOOK == 0 && (run->limit_ns != 0 || run->progress_ns != 0)) {
         uint64_t real_ns = units_real_ns();
         look_at_limit(run, real_ns);
@@ -129,18 +156,25 @@ static bool run_is_over(void *context)
     return run->idle || run->cut;
 }
 
-void run_begin(struct run *run, uint64_t epoch)
+void run_init(struct run *run, const struct unit_kind *kind, void *unit, uint64_t epoch)
 {
+    run->kind = kind;
+    run->unit = unit;
+    run->partner = (struct run_partner){.context = NULL};
     host_machine_init(&run->machine, epoch);
     host_machine_select(&run->machine);
+    run->machine.inputs = kind->inputs;
     run->machine.listener = (struct host_listener){
         .context = run,
         .step = hear_step,
         .direction = hear_direction,
+        .polarity = hear_polarity,
+        .pwm = hear_pwm,
         .led = hear_led,
         .input = hear_input,
         .output = hear_output,
         .trace = hear_trace,
+        .line = hear_line,
     };
     run->recorder.active = false;
     for (unsigned i = 0; i < UNIT_MOTORS; i++) {
@@ -154,8 +188,11 @@ void run_begin(struct run *run, uint64_t epoch)
     run->real_ns = 0;
     run->idle = false;
     run->cut = false;
-    rkm04_init(&run->unit);
-    rkm04_start(&run->unit);
+}
+
+void run_begin(struct run *run)
+{
+    run->kind->begin(run->unit);
 }
 
 /* In a long move there are no passes: with a limit the clock is asked between parts of the time, too. */
@@ -170,4 +207,18 @@ void run_until(struct run *run, uint64_t until_tick)
         look_at_limit(run, units_real_ns());
     } while (!run->idle && !run->cut && run->machine.now < until_tick);
     run->real_ns += units_real_ns() - run->begin_ns;
+}
+
+const char *run_end_text(const struct run *run)
+{
+    if (run->idle) {
+        return "idle";
+    }
+    return run->cut ? "real" : "time";
+}
+
+uint64_t run_milli_ratio(const struct run *run)
+{
+    uint64_t real_us = run->real_ns / NS_PER_MILLI_RATIO;
+    return units_ns_of_ticks(run->machine.now) / (real_us == 0 ? 1U : real_us);
 }

@@ -1,7 +1,6 @@
 #include "csv.h"
 
 #include "hal_trace.h"
-#include "interpreter.h"
 #include "line.h"
 
 enum {
@@ -11,12 +10,6 @@ enum {
 static const char *const event_texts[] = {
 #define X(name, text) text,
     HAL_TRACE_EVENTS(X)
-#undef X
-};
-
-static const char *const stop_texts[AXIS_CAUSES] = {
-#define X(name, text) [AXIS_CAUSE_##name] = (text),
-    INTERPRETER_CAUSES(X)
 #undef X
 };
 
@@ -51,23 +44,13 @@ void csv_begin_trace(struct outfile *file)
     outfile_commit(file, line_put_string(outfile_reserve(file, LINE_BYTES_MAX), "tick,motor,event,value\n"));
 }
 
-static char *put_value(char *at, const struct timeline_event *event)
+void csv_put_trace(struct outfile *file, const struct timeline_event *event, const struct unit_kind *kind)
 {
-    if (event->detail == HAL_TRACE_STOP) {
-        return line_put_string(at, stop_texts[event->value]);
-    }
-    if (event->detail == HAL_TRACE_ERROR) {
-        return line_put_string(at, interpreter_error_text((enum interpreter_error)event->value));
-    }
-    return line_put_signed(at, event->value);
-}
-
-void csv_put_trace(struct outfile *file, const struct timeline_event *event)
-{
+    const char *text = kind->trace_text((enum hal_trace_event)event->detail, event->value);
     char *at = put_tick_and_motor(outfile_reserve(file, LINE_BYTES_MAX), event);
     at = line_put_string(at, event_texts[event->detail]);
     *at++ = ',';
-    at = put_value(at, event);
+    at = text != NULL ? line_put_string(at, text) : line_put_signed(at, event->value);
     *at++ = '\n';
     outfile_commit(file, at);
 }

@@ -25,26 +25,28 @@ enum {
     FILE_MODE = 0666, /* less what the umask takes */
 };
 
-static const uint8_t mark[MARK_BYTES] = {'R', 'K', 'M', '4'};
-
-static void put_end(uint8_t end[MARK_BYTES + CRC_BYTES], const uint8_t *flash)
+static void put_end(uint8_t end[MARK_BYTES + CRC_BYTES], const uint8_t *flash, const char *mark)
 {
     uint32_t crc = crc32_append(0, flash, FLASH_BYTES);
-    memcpy(end, mark, sizeof mark);
+    memcpy(end, mark, MARK_BYTES);
     for (unsigned i = 0; i < CRC_BYTES; i++) {
         end[MARK_BYTES + i] = (uint8_t)(crc >> (8U * i));
     }
 }
 
 /* Null, or what is wrong. */
-static const char *judge(const struct infile *file)
+static const char *judge(const struct infile *file, const char *mark)
 {
     uint8_t end[MARK_BYTES + CRC_BYTES];
     if (file->length != IMAGE_BYTES) {
         return "its size is wrong";
     }
-    put_end(end, file->bytes);
-    return memcmp(end, file->bytes + FLASH_BYTES, sizeof end) == 0 ? NULL : "it is damaged";
+    put_end(end, file->bytes, mark);
+    if (memcmp(end, file->bytes + FLASH_BYTES, sizeof end) == 0) {
+        return NULL;
+    }
+    bool same_kind = memcmp(end, file->bytes + FLASH_BYTES, MARK_BYTES) == 0;
+    return same_kind ? "it is damaged" : "it is damaged, or of another kind of unit";
 }
 
 static void put_bytes(struct outfile *file, const uint8_t *bytes, uint32_t length)
@@ -81,11 +83,11 @@ static void sync_folder(const char *path)
     free(copy);
 }
 
-static void write_content(struct outfile *file, const struct host_machine *machine)
+static void write_content(struct outfile *file, const struct host_machine *machine, const char *mark)
 {
     uint8_t end[MARK_BYTES + CRC_BYTES];
     const uint8_t *flash = (const uint8_t *)machine->flash;
-    put_end(end, flash);
+    put_end(end, flash, mark);
     put_bytes(file, flash, FLASH_BYTES);
     put_bytes(file, end, sizeof end);
 }
@@ -99,7 +101,7 @@ bool serve_flash_save(struct serve_flash *flash, const struct host_machine *mach
     }
     int fd = fcntl(fileno(file.stream), F_DUPFD_CLOEXEC, 0);
     (void)flock(fd, LOCK_EX | LOCK_NB);
-    write_content(&file, machine);
+    write_content(&file, machine, flash->kind->flash_mark);
     bool good = outfile_close(&file) && sync_file(fd, flash->path) && outfile_publish(&file);
     outfile_discard(&file);
     if (good) {
@@ -113,9 +115,9 @@ bool serve_flash_save(struct serve_flash *flash, const struct host_machine *mach
     return good;
 }
 
-void serve_flash_init(struct serve_flash *flash)
+void serve_flash_init(struct serve_flash *flash, const struct serve_kind *kind)
 {
-    *flash = (struct serve_flash){.fd = -1};
+    *flash = (struct serve_flash){.kind = kind, .fd = -1};
 }
 
 static enum exit_status complain_of_open(const char *path, int error)
@@ -142,7 +144,8 @@ static enum exit_status lock_file(struct serve_flash *flash)
             return complain_of_open(flash->path, errno);
         }
         if (flock(flash->fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-            complain("%s: another rkm04 serve uses it; end that one, or name another file", flash->path);
+            complain("%s: another %s serve uses it; end that one, or name another file", flash->path,
+                     flash->kind->tool);
             return EXIT_USAGE;
         }
         if (is_in_place(flash->fd, flash->path)) {
@@ -158,7 +161,7 @@ static enum exit_status load_file(const struct serve_flash *flash, struct host_m
     if (!infile_read(&file, flash->path)) {
         return EXIT_USAGE;
     }
-    const char *wrong = judge(&file);
+    const char *wrong = judge(&file, flash->kind->flash_mark);
     if (wrong == NULL) {
         memcpy(machine->flash, file.bytes, FLASH_BYTES);
     } else {
@@ -200,5 +203,5 @@ void serve_flash_close(struct serve_flash *flash)
         (void)close(flash->fd);
     }
     free(flash->path);
-    serve_flash_init(flash);
+    serve_flash_init(flash, flash->kind);
 }

@@ -11,8 +11,8 @@
 #include "complain.h"
 #include "host_machine.h"
 #include "serve_flash.h"
+#include "serve_kind.h"
 #include "serve_line.h"
-#include "rkm04.h"
 
 enum {
     SERVE_STATUS_BYTES_MAX = 768
@@ -20,7 +20,8 @@ enum {
 
 struct serve_unit {
     struct host_machine machine;
-    struct rkm04 unit;
+    const struct serve_kind *kind;
+    void *unit;
     struct serve_flash flash;
     uint32_t saved_operations; /* flash operations that the file has, or that it could not be given */
     bool unsaved;              /* the last writing has failed */
@@ -28,8 +29,10 @@ struct serve_unit {
     int64_t travel_steps[UNIT_MOTORS]; /* pulses forward less those backward, whatever the position counter says */
 };
 
-/* A unit at time 0, with the flash of its file, if it has one. EXIT_DONE, or after a complaint what else. In both cases
- * to be discarded. */
+/* Room for a unit, to be discarded. Null: there is not memory enough. */
+struct serve_unit *serve_unit_make(const struct serve_kind *kind);
+
+/* A unit at time 0, with the flash of its file, if it has one. EXIT_DONE, or after a complaint what else. */
 enum exit_status serve_unit_begin(struct serve_unit *unit, uint8_t node, const char *flash_path);
 
 /* From now on the line hears what it sends. */

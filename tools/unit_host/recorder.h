@@ -11,6 +11,7 @@
 #include "curve.h"
 #include "outfile.h"
 #include "timeline.h"
+#include "unit_kind.h"
 #include "waves.h"
 
 /* Where to; null: not wanted. */
@@ -23,6 +24,7 @@ struct recorder_paths {
 };
 
 struct recorder {
+    const struct unit_kind *kind;
     struct timeline timeline;
     struct outfile steps;
     struct outfile trace;
@@ -34,7 +36,7 @@ struct recorder {
 };
 
 /* Opens the files. False after a complaint; nothing is left open then. */
-bool recorder_open(struct recorder *recorder, const struct recorder_paths *paths);
+bool recorder_open(struct recorder *recorder, const struct recorder_paths *paths, const struct unit_kind *kind);
 
 /* Takes an event; `now_ticks` is the time at which it is told. A step brings its falling edge along. Only while
  * active. */

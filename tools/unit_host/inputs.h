@@ -9,14 +9,15 @@
 #include <stdint.h>
 
 #include "host_machine.h"
+#include "unit_kind.h"
 
 struct inputs {
     struct host_input *script; /* sorted by tick, of the same tick as in the file */
     uint32_t length;
 };
 
-/* Reads the file; a null path gives an empty script. False after a complaint. */
-bool inputs_read(struct inputs *inputs, const char *path);
+/* Reads the file for units of a kind; a null path gives an empty script. False after a complaint. */
+bool inputs_read(struct inputs *inputs, const char *path, const struct unit_kind *kind);
 
 void inputs_discard(struct inputs *inputs);
 

@@ -14,6 +14,7 @@
 #include "serve_unit.h"
 
 struct serve_units {
+    const struct serve_kind *kind;
     struct serve_unit *list[SERVE_UNITS_MAX];
     unsigned count;
     uint64_t now; /* ticks */
@@ -21,8 +22,8 @@ struct serve_units {
 
 /* The units that the options ask for, on a line. EXIT_DONE, or after a complaint what else. In both cases to be
  * discarded. */
-enum exit_status serve_units_begin(struct serve_units *units, const struct serve_options *options,
-                                   struct serve_line *line);
+enum exit_status serve_units_begin(struct serve_units *units, const struct serve_kind *kind,
+                                   const struct serve_options *options, struct serve_line *line);
 
 /* Lets all of them run up to a tick; one that is past changes nothing. */
 void serve_units_run(struct serve_units *units, uint64_t until_tick);
