@@ -99,6 +99,13 @@ static inline bool group_is_busy(const struct group *group)
     return (enum axis_state)atomic_load_explicit(&group->state, memory_order_relaxed) != AXIS_STANDING;
 }
 
+/* Whether a stop has been accepted and pulses may still come. Also in the tick interrupt. */
+static inline bool group_is_stopping(const struct group *group)
+{
+    enum axis_state state = (enum axis_state)atomic_load_explicit(&group->state, memory_order_relaxed);
+    return state == AXIS_BRAKING || state == AXIS_STOPPING;
+}
+
 /* Why the present or last motion ends before its end. */
 enum axis_cause group_cause(const struct group *group);
 

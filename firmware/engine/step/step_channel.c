@@ -186,10 +186,15 @@ static int64_t channel_position_of(const struct step_channel *channel, uint64_t 
     return channel->origin + channel->direction * (int64_t)way;
 }
 
+int64_t step_channel_position_held(const struct step_channel *channel)
+{
+    return channel_position_of(channel, step_channel_count(channel));
+}
+
 int64_t step_channel_position(const struct step_channel *channel)
 {
     hal_step_hold();
-    int64_t position = channel_position_of(channel, step_channel_count(channel));
+    int64_t position = step_channel_position_held(channel);
     hal_step_release();
     return position;
 }

@@ -6,8 +6,8 @@
  * replaces the queue from the next pulse on, whatever is laid by then.
  *
  * Who may call: the planner's functions belong to main and the plan interrupt, to one of them at a
- * time. Only step_channel_find_pulse, _brake, _halt and _pulses may interrupt them, from the tick
- * interrupt. step_channel_lay_isr is the step interrupt's.
+ * time. Only step_channel_find_pulse, _brake, _halt, _pulses and _position may interrupt them, from the
+ * tick interrupt. step_channel_lay_isr is the step interrupt's.
  */
 #ifndef STEP_CHANNEL_H
 #define STEP_CHANNEL_H
@@ -119,8 +119,10 @@ void step_channel_halt(struct step_channel *channel);
 /* Pulses made in the present or last move. */
 uint64_t step_channel_pulses(const struct step_channel *channel);
 
-/* Absolute position, steps; set only while not running. */
+/* Absolute position, steps; set only while not running. Read in the tick interrupt, too. `_held`: while hal_step_hold
+ * is in force, so that some channels are read at one moment. */
 int64_t step_channel_position(const struct step_channel *channel);
+int64_t step_channel_position_held(const struct step_channel *channel);
 void step_channel_set_position(struct step_channel *channel, int64_t position_steps);
 
 /* The tick of the last pulse; of the start of the move if there was none. Not while running. */
