@@ -66,7 +66,7 @@ bool gve134_is_coupled_out(const struct gve134 *unit, const struct gve_command *
 static enum gve_code enter(struct gve134 *unit, const int32_t numbers[])
 {
     const int32_t steps[PATH_AXES] = {numbers[0], numbers[1], numbers[2], numbers[3]};
-    if (steps[0] != 0 || steps[1] != 0 || steps[2] != 0 || steps[3] != 0) {
+    if (gve134_has_pulses(steps)) {
         gve_queue_enter(&unit->queue, steps);
         gve_queue_begin(&unit->queue, inputs_of(unit));
     }

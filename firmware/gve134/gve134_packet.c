@@ -22,11 +22,6 @@ static void note(struct gve134_packet *packet, enum gve_code code)
     }
 }
 
-static bool has_pulses(const int32_t steps[PATH_AXES])
-{
-    return steps[0] != 0 || steps[1] != 0 || steps[2] != 0 || steps[3] != 0;
-}
-
 static void stage(struct gve134_packet *packet, const struct gve_command *command)
 {
     if (packet->commands > (uint32_t)GVE134_PACKET_COMMANDS_MAX) {
@@ -65,7 +60,7 @@ static bool fits(const struct gve134 *unit)
     const struct gve134_packet *packet = &unit->packet;
     uint32_t places = 0;
     for (uint32_t i = 0; i < packet->count; i++) {
-        places += has_pulses(packet->vectors[i].steps) ? 1U : 0U;
+        places += gve134_has_pulses(packet->vectors[i].steps) ? 1U : 0U;
     }
     return packet->count == 0 || (!unit->queue.kept.valid && places <= gve_queue_room(&unit->queue));
 }
@@ -117,7 +112,7 @@ void gve134_enter_packet(struct gve134 *unit)
     const struct gve134_packet *packet = &unit->packet;
     for (uint32_t i = 0; i < packet->count; i++) {
         unit->queue.modal.brake = packet->vectors[i].brake;
-        if (has_pulses(packet->vectors[i].steps)) {
+        if (gve134_has_pulses(packet->vectors[i].steps)) {
             gve_queue_enter(&unit->queue, packet->vectors[i].steps);
         }
     }

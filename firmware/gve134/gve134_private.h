@@ -34,6 +34,12 @@ void gve134_execute(struct gve134 *unit, const struct gve_request *request, stru
 /* Whether a parameter of an axis that is coupled makes a command wrong. */
 bool gve134_is_coupled_out(const struct gve134 *unit, const struct gve_command *command);
 
+/* A vector without pulses takes no place. */
+static inline bool gve134_has_pulses(const int32_t steps[PATH_AXES])
+{
+    return steps[0] != 0 || steps[1] != 0 || steps[2] != 0 || steps[3] != 0;
+}
+
 /* Takes a request that belongs to a packet, or ends it. */
 void gve134_take_packet(struct gve134 *unit, const struct gve_request *request, struct gve134_reply *reply);
 

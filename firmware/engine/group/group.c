@@ -184,6 +184,14 @@ static bool is_moving(const struct group *group)
     return state > AXIS_STANDING && state < AXIS_ENDED;
 }
 
+/* The end is to be seen soon: a host may wait for it. */
+static uint64_t next_poll(const struct group *group, uint64_t now)
+{
+    uint64_t end_tick = path_is_laid(&group->path) ? group->path.rest.entry.time.high + 1U : TICK_NEVER;
+    uint64_t poll = now + (uint64_t)POLL_TICKS;
+    return end_tick > now && end_tick < poll ? end_tick : poll;
+}
+
 uint64_t group_poll(struct group *group)
 {
     if (!is_moving(group)) {
@@ -204,7 +212,7 @@ uint64_t group_poll(struct group *group)
         end(group);
     }
     hal_run_release_plan();
-    return is_moving(group) ? now + (uint64_t)POLL_TICKS : now;
+    return is_moving(group) ? next_poll(group, now) : now;
 }
 
 bool group_take_end(struct group *group)
