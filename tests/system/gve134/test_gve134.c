@@ -186,6 +186,20 @@ void test_a_reset_ends_pulses_at_once_and_forgets(void)
     memset(rig_position, 0, sizeof rig_position);
 }
 
+void test_an_input_that_comes_after_a_reset_means_nothing(void)
+{
+    rig_expect("0SW0,01", "0");
+    rig_expect("0V100000", "0");
+    rig_expect("0L20000", "0");
+    rig_run_ms(200);
+    rig_send("!0J\r");
+    rig_input(1, false);
+    rig_run_ms(100);
+    rig_input(1, true);
+    rig_expect("0SR6", "0,00");
+    memset(rig_position, 0, sizeof rig_position);
+}
+
 void test_speeds_change_while_axes_move(void)
 {
     rig_expect("0V1000", "0");
