@@ -199,6 +199,11 @@ void host_machine_run(struct host_machine *machine, uint64_t until, host_main_pa
     }
 }
 
+void host_machine_wake(struct host_machine *machine, uint64_t tick)
+{
+    host_wake_main(machine, tick);
+}
+
 uint64_t host_machine_next_tick(const struct host_machine *machine)
 {
     uint64_t next = host_step_next_tick(machine, host_step_first(machine));

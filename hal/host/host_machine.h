@@ -197,6 +197,9 @@ typedef uint64_t host_main_pass(void *context);
 void host_machine_run(struct host_machine *machine, uint64_t until, host_main_pass *pass, bool (*done)(void *context),
                       void *context);
 
+/* Main makes a pass at this tick at the latest; for listeners. */
+void host_machine_wake(struct host_machine *machine, uint64_t tick);
+
 /* After a run: the tick, from the start, of the next thing that happens in the machine; TICK_NEVER: nothing does. */
 uint64_t host_machine_next_tick(const struct host_machine *machine);
 

@@ -16,6 +16,7 @@ enum {
 
 struct checker {
     const struct infile *file;
+    bool silent; /* but for a complaint about the first error */
     struct gve_file_line line;
     uint32_t commands;
     uint32_t errors;
@@ -44,7 +45,10 @@ __attribute__((format(printf, 5, 6))) static void tell(struct checker *checker, 
     (void)vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
     checker->errors++;
-    if (checker->errors > ERRORS_MAX) {
+    if (checker->silent && checker->errors == 1) {
+        complain("%s:%" PRIu32 ":%" PRIu32 ": %s; correct it", checker->file->path, line, column, message);
+    }
+    if (checker->silent || checker->errors > ERRORS_MAX) {
         return;
     }
     (void)printf("%s{\"line\":%" PRIu32 ",\"column\":%" PRIu32 ",\"code\":%u,\"message\":",
@@ -191,19 +195,31 @@ static void check_command(struct checker *checker)
     }
 }
 
-static enum exit_status check_lines(const struct infile *file)
+static void check_lines(struct checker *checker)
 {
-    struct checker checker = {.file = file};
-    struct gve_file lines = gve_file_of(file);
-    (void)printf("{\"errors\":[");
-    while (gve_file_next(&lines, &checker.line)) {
-        checker.commands++;
-        check_command(&checker);
+    struct gve_file lines = gve_file_of(checker->file);
+    while (gve_file_next(&lines, &checker->line)) {
+        checker->commands++;
+        check_command(checker);
     }
-    if (checker.packet) {
-        tell(&checker, checker.packet_line, checker.packet_column, GVE_DAMAGED,
+    if (checker->packet) {
+        tell(checker, checker->packet_line, checker->packet_column, GVE_DAMAGED,
              "the packet that begins here has no *E");
     }
+}
+
+bool gve_check_is_good(const struct infile *file)
+{
+    struct checker checker = {.file = file, .silent = true};
+    check_lines(&checker);
+    return checker.errors == 0;
+}
+
+static enum exit_status print_errors(const struct infile *file)
+{
+    struct checker checker = {.file = file};
+    (void)printf("{\"errors\":[");
+    check_lines(&checker);
     uint32_t more = checker.errors > ERRORS_MAX ? checker.errors - ERRORS_MAX : 0;
     (void)printf("],\n\"commands\":%" PRIu32 ",\"more\":%" PRIu32 "}\n", checker.commands, more);
     return finish_output();
@@ -215,7 +231,7 @@ enum exit_status gve_check_file(const char *path)
     if (!infile_read_text(&file, path)) {
         return EXIT_REFUSED;
     }
-    enum exit_status status = check_lines(&file);
+    enum exit_status status = print_errors(&file);
     infile_discard(&file);
     return status;
 }

@@ -2,7 +2,13 @@
 
 #include <stddef.h>
 
+#include "line.h"
+
+/* Nanoseconds: 31 years. */
+#define NS_MAX UINT64_C(1000000000000000000)
+
 enum {
+    MS_DECIMALS = 6,
     INTERPOLATOR = '0',
     SPINDLE = '7',
 };
@@ -57,26 +63,19 @@ static uint32_t skip_blanks(const uint8_t *bytes, uint32_t begin, uint32_t end)
     return begin;
 }
 
-static uint32_t skip_digits(const uint8_t *bytes, uint32_t begin, uint32_t end)
-{
-    while (begin < end && is_digit(bytes[begin])) {
-        begin++;
-    }
-    return begin;
-}
-
 /* Goes past @ and a time in ms. */
 static uint32_t take_time(const uint8_t *bytes, uint32_t begin, uint32_t end, struct gve_file_line *line)
 {
-    uint32_t next = begin + 1;
-    if (bytes[begin] != '@' || next == end || !is_digit(bytes[next])) {
+    const char *at = (const char *)&bytes[begin + 1];
+    if (bytes[begin] != '@' || begin + 1 == end || !is_digit(bytes[begin + 1])) {
         return begin;
     }
     line->timed = true;
-    next = skip_digits(bytes, next, end);
-    if (next < end && bytes[next] == '.') {
-        next = skip_digits(bytes, next + 1, end);
+    if (!line_read_fixed(&at, (const char *)&bytes[end], MS_DECIMALS, NS_MAX, &line->ns)) {
+        line->wrong = "the time has more than 6 decimals, none after its point, or is past 31 years";
+        return begin;
     }
+    uint32_t next = begin + 1 + (uint32_t)(at - (const char *)&bytes[begin + 1]);
     uint32_t command = skip_blanks(bytes, next, end);
     if (command == next || command == end) {
         line->wrong = "after @ and a time in ms come a blank and a command";

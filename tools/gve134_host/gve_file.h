@@ -4,7 +4,7 @@
  *   ; a comment, to the end of the line        blanks before and after a command do not count
  *   L1000,1000,20                              a command without ! and address is for the interpolator
  *   !7V300                                     with them for the unit that it names: 0 or 7
- *   @250.5 H                                   beside the others, 250.5 ms after the start
+ *   @250.5 H                                   beside the others, 250.5 ms after the start; up to 6 decimals
  */
 #ifndef GVE_FILE_H
 #define GVE_FILE_H
@@ -28,6 +28,7 @@ struct gve_file_line {
     uint32_t length; /* of the command's text; 0 where there is no command */
     uint8_t address; /* enum gve_address */
     bool timed;
+    uint64_t ns;       /* of one that is timed: from the start */
     const char *wrong; /* what is wrong with it, if it is not the command itself; else null */
     const uint8_t *text;
 };

@@ -1,23 +1,76 @@
 /*
- * gve134-host: the language of the GVE134 unit as its firmware reads it, for tools/gve134 and for tests. Subcommands
- * check and commands; answers are JSON on standard output, complaints one line on standard error (complain.h).
+ * gve134-host: the firmware of the GVE134 unit on the host backend, for tools/gve134 and for tests. Subcommands sim,
+ * serve, check and commands; answers are JSON on standard output, complaints one line on standard error (complain.h).
  */
+#include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "complain.h"
 #include "gve_check.h"
+#include "gve_serve.h"
+#include "gve_sim.h"
 #include "parent.h"
+
+static const char usage[] =
+    "usage: gve134-host sim FILE [--inputs FILE] [--for SECONDS] [--baud N]\n"
+    "                       [--steps OUT.csv] [--trace OUT.csv] [--vcd OUT.vcd] [--epoch TICKS]\n"
+    "                       [--curve OUT.json [--points N] [--from SECONDS] [--to SECONDS]] [--real SECONDS]\n"
+    "       gve134-host serve [--help] ...\n"
+    "       gve134-host check FILE\n"
+    "       gve134-host commands\n"
+    "\n"
+    "sim      plays a vector file (- is standard input) to the simulated unit and prints a summary (JSON)\n"
+    "         --inputs FILE   levels of the inputs over time, as ports read them: lines ms,input,level\n"
+    "         --for SECONDS   ends after so much of the unit's time if not before (60)\n"
+    "         --baud N        bytes take the time that they take at this rate, else none\n"
+    "         --steps, --trace, --vcd  write pulses, events, waveforms\n"
+    "         --curve         writes speeds and positions over time, in at most N points a motor (2000),\n"
+    "                         of the whole time or from one moment to another\n"
+    "         --real SECONDS  ends after so much real time too\n"
+    "         --progress SECONDS  tells so often, in real time, how many ms of unit time are done (standard error)\n"
+    "         --epoch TICKS   what the unit's clock shows at the start (0)\n"
+    "serve    runs a unit in real time for whoever connects; serve --help says more\n"
+    "check    parses a vector file (- is standard input) and prints what the unit would refuse (JSON)\n"
+    "commands prints the table of the commands (JSON)\n"
+    "\n"
+    "example: gve134-host sim part.gve --for 2.5 --steps steps.csv\n";
+
+static bool is_help(const char *argument)
+{
+    return strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0;
+}
+
+static enum exit_status print_text(const char *text)
+{
+    (void)fputs(text, stdout);
+    return finish_output();
+}
+
+static enum exit_status run_command(const char *name, int count, char *const arguments[])
+{
+    if (strcmp(name, "sim") == 0) {
+        return gve_sim(count, arguments);
+    }
+    if (strcmp(name, "serve") == 0) {
+        return count == 1 && is_help(arguments[0]) ? print_text(gve_serve_usage) : gve_serve(count, arguments);
+    }
+    if (strcmp(name, "check") == 0 && count == 1) {
+        return gve_check_file(arguments[0]);
+    }
+    if (strcmp(name, "commands") == 0 && count == 0) {
+        return gve_check_commands();
+    }
+    if (is_help(name)) {
+        return print_text(usage);
+    }
+    complain("write gve134-host sim, serve, check FILE (- is standard input), commands, or --help");
+    return EXIT_USAGE;
+}
 
 int main(int argc, char *argv[])
 {
     parent_bind();
     complain_as(argc > 0 ? argv[0] : "gve134-host");
-    if (argc == 3 && strcmp(argv[1], "check") == 0) {
-        return (int)gve_check_file(argv[2]);
-    }
-    if (argc == 2 && strcmp(argv[1], "commands") == 0) {
-        return (int)gve_check_commands();
-    }
-    complain("write gve134-host check FILE (- is standard input) or gve134-host commands");
-    return EXIT_USAGE;
+    return (int)run_command(argc > 1 ? argv[1] : "", argc - 2, argv + 2);
 }

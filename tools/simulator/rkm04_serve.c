@@ -37,7 +37,8 @@ static const struct serve_kind kind = {
 
 enum exit_status rkm04_serve(int count, char *const arguments[])
 {
+    const struct argument node = ARGUMENT_OTHER_ROW("--node", serve_options_read_node);
     struct serve_options options;
-    enum exit_status status = serve_options_read(&options, kind.has_nodes, count, arguments);
+    enum exit_status status = serve_options_read(&options, &node, count, arguments);
     return status == EXIT_DONE ? serve_run(&kind, &options) : status;
 }

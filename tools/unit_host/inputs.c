@@ -70,7 +70,9 @@ static const char *read_line(const char *at, const char *end, const struct unit_
     if (!read_field(&at, end, 0, 1, true, &level)) {
         return "the level must be 0 or 1, then the end of the line";
     }
-    *input = (struct host_input){.tick = units_ticks_of_ns(ns), .input = (uint8_t)number, .level = level != 0};
+    bool turned = ((unsigned)kind->inputs_turned >> (number - 1U) & 1U) != 0;
+    *input =
+        (struct host_input){.tick = units_ticks_of_ns(ns), .input = (uint8_t)number, .level = (level != 0) != turned};
     return NULL;
 }
 

@@ -1,6 +1,7 @@
 /*
  * The inputs file: lines `ms,input,level`, as 350.5,3,1: input 3 becomes 1 at 350.5 ms. Milliseconds have up to 6
  * decimals and become the nearest tick; `#` starts a comment; blank lines are skipped; lines may come in any order.
+ * Levels are those that the kind of unit shows.
  */
 #ifndef INPUTS_H
 #define INPUTS_H

@@ -73,7 +73,9 @@ static void hear_pwm(void *context, uint64_t tick, uint32_t permille)
 
 static void hear_input(void *context, uint64_t tick, uint8_t levels)
 {
-    record(context, &(struct timeline_event){.tick = tick, .kind = TIMELINE_INPUT, .value = levels});
+    struct run *run = context;
+    unsigned shown = (unsigned)levels ^ run->kind->inputs_turned;
+    record(run, &(struct timeline_event){.tick = tick, .kind = TIMELINE_INPUT, .value = shown});
 }
 
 static void hear_output(void *context, uint64_t tick, uint8_t levels)
@@ -99,7 +101,7 @@ static void hear_trace(void *context, uint64_t tick, unsigned motor, enum hal_tr
         record_position(run, motor, tick);
         tally_begin_move(&run->tally[motor - 1U], tick, run->kind->position_steps(run->unit, motor - 1U));
     } else if (event == HAL_TRACE_DONE && motor != 0) {
-        tally_end_move(&run->tally[motor - 1U], tick);
+        tally_end_move(&run->tally[motor - 1U], tick, run->kind->moves_together);
     }
     record(
         run,
@@ -131,10 +133,9 @@ static uint64_t run_pass(void *context)
     if (run->recorder.active) {
         record_positions(run);
     }
-    if (run->partner.pass != NULL) {
-        run->partner.pass(run->partner.context);
-    }
-    return wake;
+    uint64_t next = run->partner.pass != NULL ? run->partner.pass(run->partner.context) : TICK_NEVER;
+    uint64_t wanted = next == TICK_NEVER ? next : run->machine.epoch + next;
+    return wanted < wake ? wanted : wake;
 }
 
 static void look_at_limit(struct run *run, uint64_t real_ns)
@@ -163,7 +164,6 @@ void run_init(struct run *run, const struct unit_kind *kind, void *unit, uint64_
     run->partner = (struct run_partner){.context = NULL};
     host_machine_init(&run->machine, epoch);
     host_machine_select(&run->machine);
-    run->machine.inputs = kind->inputs;
     run->machine.listener = (struct host_listener){
         .context = run,
         .step = hear_step,

@@ -16,7 +16,8 @@
 struct run_partner {
     void *context;
     void (*line)(void *context, uint64_t tick, uint8_t value); /* hears what the unit sends */
-    void (*pass)(void *context);          /* after each pass of main, with its time; may give the unit more to hear */
+    uint64_t (*pass)(
+        void *context); /* after each pass of main; the tick, from the start, of the next one at the latest */
     bool (*is_over)(const void *context); /* whether the simulation may end where the unit is idle */
 };
 

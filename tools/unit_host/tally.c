@@ -5,6 +5,7 @@ void tally_begin_move(struct tally *tally, uint64_t tick, int64_t position)
     tally->moves++;
     tally->moving = true;
     tally->move_tick = tick;
+    tally->move_pulses = tally->pulses;
     tally->pulse_tick = tick;
     tally->position = position;
 }
@@ -22,9 +23,11 @@ uint64_t tally_count_pulse(struct tally *tally, uint64_t tick, int64_t position)
     return interval_ticks;
 }
 
-void tally_end_move(struct tally *tally, uint64_t tick)
+void tally_end_move(struct tally *tally, uint64_t tick, bool together)
 {
-    tally->moving_ticks += tick - tally->move_tick;
+    bool counts = !together || tally->pulses != tally->move_pulses;
+    tally->moves -= counts ? 0U : 1U;
+    tally->moving_ticks += counts ? tick - tally->move_tick : 0U;
     tally->moving = false;
 }
 

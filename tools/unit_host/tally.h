@@ -14,6 +14,7 @@ struct tally {
     uint64_t moving_ticks;   /* in moves that have ended */
     uint64_t shortest_ticks; /* between two pulses of a move, or its start and first pulse; 0: no pulse yet */
     uint64_t move_tick;      /* start of the move in progress */
+    uint64_t move_pulses;    /* pulses before it */
     uint64_t pulse_tick;     /* of its last pulse; of its start before the first */
     int64_t position;        /* at pulse_tick, steps */
     bool moving;
@@ -25,7 +26,8 @@ void tally_begin_move(struct tally *tally, uint64_t tick, int64_t position);
  * `position` is the one after the pulse. */
 uint64_t tally_count_pulse(struct tally *tally, uint64_t tick, int64_t position);
 
-void tally_end_move(struct tally *tally, uint64_t tick);
+/* `together`: other motors have moved, and without pulses the move was none of this one. */
+void tally_end_move(struct tally *tally, uint64_t tick, bool together);
 
 /* Time spent in moves up to `now_ticks`. */
 uint64_t tally_moving_ticks(const struct tally *tally, uint64_t now_ticks);

@@ -130,7 +130,7 @@ static void put_first_values(struct waves *waves)
 
 void waves_begin(struct waves *waves, struct outfile *file, const struct unit_kind *kind)
 {
-    *waves = (struct waves){.kind = kind, .inputs = kind->inputs};
+    *waves = (struct waves){.kind = kind, .inputs = kind->inputs_turned};
     vcd_begin(&waves->vcd, file, kind->program);
     declare_all(waves);
     vcd_begin_values(&waves->vcd);

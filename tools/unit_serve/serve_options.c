@@ -36,7 +36,7 @@ static bool read_control(void *target, const char *value)
     return read_port("--control", value, &options->control_port);
 }
 
-static bool read_node(void *target, const char *value)
+bool serve_options_read_node(void *target, const char *value)
 {
     struct serve_options *options = target;
     uint64_t node = 0;
@@ -65,8 +65,7 @@ static bool read_speed(void *target, const char *value)
     return true;
 }
 
-/* The last one is only for units that have addresses. */
-static const struct argument rows[] = {
+static const struct argument common_rows[] = {
     ARGUMENT_TEXT_ROW(serve_options, "--pty", pty),
     ARGUMENT_TEXT_ROW(serve_options, "--flash", flash),
     ARGUMENT_TEXT_ROW(serve_options, "--address", address),
@@ -76,7 +75,6 @@ static const struct argument rows[] = {
     ARGUMENT_OTHER_ROW("--tcp", read_tcp),
     ARGUMENT_OTHER_ROW("--control", read_control),
     ARGUMENT_OTHER_ROW("--speed", read_speed),
-    ARGUMENT_OTHER_ROW("--node", read_node),
 };
 
 static bool is_whole(struct serve_options *options)
@@ -91,11 +89,15 @@ static bool is_whole(struct serve_options *options)
     return true;
 }
 
-enum exit_status serve_options_read(struct serve_options *options, bool has_nodes, int count, char *const arguments[])
+enum exit_status serve_options_read(struct serve_options *options, const struct argument *own, int count,
+                                    char *const arguments[])
 {
+    struct argument rows[sizeof common_rows / sizeof common_rows[0] + 1U];
+    memcpy(rows, common_rows, sizeof common_rows);
+    rows[sizeof common_rows / sizeof common_rows[0]] = *own;
     const struct argument_table table = {
         .rows = rows,
-        .count = sizeof rows / sizeof rows[0] - (has_nodes ? 0U : 1U),
+        .count = sizeof rows / sizeof rows[0],
         .unknown = "no such option of serve; serve --help lists them",
         .missing = "its value is missing; serve --help shows it",
     };

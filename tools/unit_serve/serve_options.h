@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "complain.h"
+#include "arguments.h"
 
 enum {
     SERVE_UNITS_MAX = 16, /* as many as there are addresses */
@@ -19,6 +19,7 @@ struct serve_options {
     const char *pty;      /* the name of the link to a pty; null: TCP */
     const char *address;  /* to listen on */
     const char *flash;    /* null: programs are kept until the end only */
+    uint64_t baud;        /* the rate of the line, where it can be chosen; 0: as it is delivered */
     uint32_t milli_speed; /* thousandths of real time; 0: as fast as possible */
     uint16_t tcp_port;    /* 0: any free one */
     uint16_t control_port;
@@ -31,7 +32,12 @@ struct serve_options {
     uint8_t nodes[SERVE_UNITS_MAX];
 };
 
-/* Reads what follows `serve`; --node only where `has_nodes`. EXIT_DONE, or EXIT_USAGE after a complaint. */
-enum exit_status serve_options_read(struct serve_options *options, bool has_nodes, int count, char *const arguments[]);
+/* The option of units that have addresses: --node N. */
+argument_reader serve_options_read_node;
+
+/* Reads what follows `serve`; `own` is the option that a kind of unit has besides those of all. EXIT_DONE, or
+ * EXIT_USAGE after a complaint. */
+enum exit_status serve_options_read(struct serve_options *options, const struct argument *own, int count,
+                                    char *const arguments[]);
 
 #endif

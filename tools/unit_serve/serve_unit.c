@@ -36,7 +36,6 @@ enum exit_status serve_unit_begin(struct serve_unit *unit, uint8_t node, const c
     host_machine_init(&unit->machine, 0);
     host_machine_select(&unit->machine);
     host_machine_set_node(&unit->machine, node);
-    unit->machine.inputs = unit->kind->unit->inputs;
     enum exit_status status = serve_flash_open(&unit->flash, &unit->machine, flash_path);
     unit->kind->unit->begin(unit->unit);
     return status;
@@ -119,7 +118,8 @@ static char *put_led(const struct serve_unit *unit, unsigned index, char *at)
 
 static char *put_input(const struct serve_unit *unit, unsigned index, char *at)
 {
-    return line_put_unsigned(at, unit->machine.inputs >> index & 1U);
+    unsigned levels = (unsigned)unit->machine.inputs ^ unit->kind->unit->inputs_turned;
+    return line_put_unsigned(at, levels >> index & 1U);
 }
 
 static char *put_output(const struct serve_unit *unit, unsigned index, char *at)

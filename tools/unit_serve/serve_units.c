@@ -101,7 +101,8 @@ const char *serve_units_set_input(struct serve_units *units, const struct serve_
     for (unsigned i = 0; i < units->count; i++) {
         struct host_machine *machine = &units->list[i]->machine;
         if (order->node == 0 || machine->line.node == order->node) {
-            host_machine_set_input(machine, order->input, order->level);
+            bool turned = ((unsigned)units->kind->unit->inputs_turned >> (order->input - 1U) & 1U) != 0;
+            host_machine_set_input(machine, order->input, order->level != turned);
             return NULL;
         }
     }

@@ -90,6 +90,21 @@ void test_a_byte_makes_a_pass_of_main(void)
     TEST_ASSERT_EQUAL_UINT(1 + 3, passes);
 }
 
+static void wake_after_byte(void *context, uint64_t tick, uint8_t value)
+{
+    (void)context;
+    (void)value;
+    host_machine_wake(&machine, tick + 500);
+}
+
+void test_who_hears_a_byte_may_want_a_pass_of_main(void)
+{
+    machine.listener.line = wake_after_byte;
+    to_give = 1;
+    run_until(HOST_LINE_BYTE_TICKS + 501);
+    TEST_ASSERT_EQUAL_UINT(1 + 1, passes);
+}
+
 void test_bytes_that_are_past_come_at_once(void)
 {
     struct hal_line_byte byte;
