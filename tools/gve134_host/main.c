@@ -1,6 +1,6 @@
 /*
  * gve134-host: the firmware of the GVE134 unit on the host backend, for tools/gve134 and for tests. Subcommands sim,
- * serve, check and commands; answers are JSON on standard output, complaints one line on standard error (complain.h).
+ * serve, check, plan and commands; answers are JSON on standard output, complaints one line on standard error (complain.h).
  */
 #include <stdbool.h>
 #include <stdio.h>
@@ -8,6 +8,7 @@
 
 #include "complain.h"
 #include "gve_check.h"
+#include "gve_plan.h"
 #include "gve_serve.h"
 #include "gve_sim.h"
 #include "parent.h"
@@ -18,6 +19,7 @@ static const char usage[] =
     "                       [--curve OUT.json [--points N] [--from SECONDS] [--to SECONDS]] [--real SECONDS]\n"
     "       gve134-host serve [--help] ...\n"
     "       gve134-host check FILE\n"
+    "       gve134-host plan X Y Z <FILE\n"
     "       gve134-host commands\n"
     "\n"
     "sim      plays a vector file (- is standard input) to the simulated unit and prints a summary (JSON)\n"
@@ -32,6 +34,7 @@ static const char usage[] =
     "         --epoch TICKS   what the unit's clock shows at the start (0)\n"
     "serve    runs a unit in real time for whoever connects; serve --help says more\n"
     "check    parses a vector file (- is standard input) and prints what the unit would refuse (JSON)\n"
+    "plan     tells how long vectors take and how fast they become, without a pulse (JSON); X, Y, Z: pulses a mm\n"
     "commands prints the table of the commands (JSON)\n"
     "\n"
     "example: gve134-host sim part.gve --for 2.5 --steps steps.csv\n";
@@ -58,13 +61,16 @@ static enum exit_status run_command(const char *name, int count, char *const arg
     if (strcmp(name, "check") == 0 && count == 1) {
         return gve_check_file(arguments[0]);
     }
+    if (strcmp(name, "plan") == 0 && count == (int)GVE_PLAN_SCALES) {
+        return gve_plan_input(arguments);
+    }
     if (strcmp(name, "commands") == 0 && count == 0) {
         return gve_check_commands();
     }
     if (is_help(name)) {
         return print_text(usage);
     }
-    complain("write gve134-host sim, serve, check FILE (- is standard input), commands, or --help");
+    complain("write gve134-host sim, serve, check FILE (- is standard input), plan X Y Z, commands, or --help");
     return EXIT_USAGE;
 }
 
