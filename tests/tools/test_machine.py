@@ -208,6 +208,14 @@ def test_nothing_that_is_there_is_overwritten(tool, put, tmp_path):
     assert tool("machine", "new", tmp_path / "a.json").status == 2
 
 
+def test_the_part_for_a_gve134_unit_is_kept(tool, put):
+    axis = {"speed_steps_per_s": 5000, "accel_steps_per_s2": 20_000, "jump_steps_per_s": 200}
+    told = content(gve134={"axes": {"x": axis}, "probe": {"interrupt": 15}})
+
+    assert tool("machine", "show", put(told), "--json").json == told
+    assert tool("machine", "check", put(told)).status == 0
+
+
 def test_the_example_of_the_document_is_a_good_machine(tool, write):
     document = (ROOT / "tools/rkm04_tools/machine/README.md").read_text(encoding="utf-8")
     (example,) = re.findall(r"^```json\n(.*?)^```$", document, re.MULTILINE | re.DOTALL)

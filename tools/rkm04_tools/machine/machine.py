@@ -215,4 +215,7 @@ def _crossed(content: dict[str, Any]) -> list[str]:
                 f"motor {number}, limits: position_min_steps {low} is above "
                 f"position_max_steps {high}"
             )
+    for letter, axis in content.get("gve134", {}).get("axes", {}).items():
+        if axis.get("homing", {}).get("way_steps") == 0:
+            found.append(f"gve134, axes, {letter}, homing: way_steps 0 leads to no switch")
     return found

@@ -12,6 +12,7 @@ TYPES = {
     "number": "a number",
     "object": "an object { }",
     "array": "a list [ ]",
+    "boolean": "true or false",
 }
 SHOWN_MAX = 40
 

@@ -169,6 +169,7 @@ export const cs: Dictionary = {
     "machine.rule.integer": "musí být celé číslo",
     "machine.rule.object": "musí být objekt",
     "machine.rule.array": "musí být seznam",
+    "machine.rule.boolean": "musí být true nebo false",
     "machine.rule.required": "chybí {name}",
     "machine.rule.additionalProperties": "{name} není známo",
     "machine.rule.minimum": "{value} je příliš málo; nejméně {limit}",

@@ -166,6 +166,7 @@ export const en = {
     "machine.rule.integer": "must be a whole number",
     "machine.rule.object": "must be an object",
     "machine.rule.array": "must be a list",
+    "machine.rule.boolean": "must be true or false",
     "machine.rule.required": "lacks {name}",
     "machine.rule.additionalProperties": "nothing is known of {name}",
     "machine.rule.minimum": "{value} is too small; {limit} is the least",

@@ -31,6 +31,8 @@ export interface MachineContent {
     inputs?: string;
     input_names?: Record<string, string>;
     output_names?: Record<string, string>;
+    /** What a GVE134 unit needs to know: kept as it is. */
+    gve134?: object;
 }
 
 /** A string of JSON, with the colon that follows a name. */
