@@ -7,6 +7,7 @@ from pathlib import Path
 
 from rkm04_tools.cli import Commands, Parser, add_command
 from rkm04_tools.gve134 import check
+from rkm04_tools.gve134.gcode import options as gcode_options
 
 CHECK_NOTES = """\
 A vector file has a command in each line, as the unit's line has it, without ! and address for the
@@ -36,6 +37,7 @@ def make_parser() -> Parser:
     )  # fmt: skip
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_check(commands)
+    gcode_options.add_arguments(commands)
     return parser
 
 

@@ -1,0 +1,123 @@
+"""The words of a line of G-code: letters with their numbers, and the places of what is none.
+
+No parser from elsewhere is used. Of those that there are (gcodeparser, pygcode, tree-sitter-gcode,
+nc-gcode-interpreter) none tells the column of a word that a machine refuses; most pass over what
+they do not know (`G1 X1 garbage` is `G1 X1` to them), read `X1 . 5` as X1 or `F1e3` as F1, or keep
+positions in single precision.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+NUMBER = r"[+-]?(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)"
+WORD = re.compile(rf"([A-Za-z])[ \t]*({NUMBER})")
+WHOLE = re.compile(rf"(?:[ \t]*+[A-Za-z][ \t]*+{NUMBER})*+[ \t]*+")
+COMMENT = re.compile(r"\([^()]*+\)|;.*")
+CHUNK = re.compile(r"[^ \t]+")
+LINE_LETTERS_MAX = 1000
+"""The longest line, in characters: far more than any block has."""
+
+TEXT_SHOWN_MAX = 20
+FOREIGN = {
+    "#": "parameters (#) are not known here; write numbers",
+    "[": "expressions ([ ]) are not known here; write numbers",
+    "]": "expressions ([ ]) are not known here; write numbers",
+    "=": "assignments (=) are of another dialect; write numbers",
+    "/": "blocks that may be skipped (/) are not known here; remove the / or the line",
+    "*": "checksums (*) are of 3D printers; remove them",
+    "$": "commands of a controller ($) do not belong in a program",
+    "%": "% stands alone in its line",
+    "(": "a comment that does not end; write )",
+    ")": "a ) without its (",
+    ":": "labels (:) are of another dialect",
+    '"': "texts in quotes are of another dialect",
+}
+
+Pair = tuple[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Trouble:
+    """Something wrong in a line; the column counts from 1."""
+
+    column: int
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """Letters, as capitals, with the texts of their numbers; comments, joined; what is wrong."""
+
+    words: list[Pair]
+    comment: str
+    troubles: list[Trouble]
+
+
+def read_line(text: str) -> Line:
+    """Take a line apart, without its end."""
+    if len(text) > LINE_LETTERS_MAX:
+        message = f"the line is longer than {LINE_LETTERS_MAX} characters; is this G-code?"
+        return Line([], "", [Trouble(LINE_LETTERS_MAX + 1, message)])
+    comment = ""
+    code = text
+    if "(" in text or ";" in text:
+        comment = " ".join(filter(None, (_said(match[0]) for match in COMMENT.finditer(text))))
+        code = without_comments(text)
+    upper = code.upper() if code.isascii() else code
+    if WHOLE.fullmatch(upper):
+        return Line(WORD.findall(upper), comment, [])
+    if upper.strip(" \t") == "%":
+        return Line([("%", "")], comment, [])
+    return Line([], comment, _troubles(code))
+
+
+def columns_of(text: str) -> list[int]:
+    """The columns of the words of a line."""
+    return [match.start() + 1 for match in WORD.finditer(without_comments(text))]
+
+
+def without_comments(text: str) -> str:
+    """The line with blanks in place of comments, so that columns stay."""
+    return COMMENT.sub(lambda match: " " * len(match[0]), text)
+
+
+def _said(comment: str) -> str:
+    return (comment[1:] if comment[0] == ";" else comment[1:-1]).strip()
+
+
+def _troubles(code: str) -> list[Trouble]:
+    """What is no word; one trouble for each run of such characters up to a blank."""
+    found: list[Trouble] = []
+    place = 0
+    while place < len(code):
+        if code[place] in " \t":
+            place += 1
+        elif match := WORD.match(code, place):
+            place = match.end()
+        else:
+            chunk = CHUNK.match(code, place)
+            end = chunk.end() if chunk else len(code)
+            found.append(Trouble(place + 1, _what(code[place:end], code[end:].lstrip(" \t"))))
+            place = end
+    return found
+
+
+def _what(chunk: str, after: str) -> str:
+    first = chunk[0]
+    if first in FOREIGN:
+        return FOREIGN[first]
+    if first.isascii() and first.isalpha():
+        following = (chunk[1:] or after)[:1]
+        if following and following in "#[":
+            return FOREIGN[following]
+        return f"{first.upper()} without a number, found {_shown(chunk)}"
+    if first in "+-.0123456789":
+        return f"a number without a letter: {_shown(chunk)}"
+    return f"no word of G-code: {_shown(chunk)}"
+
+
+def _shown(chunk: str) -> str:
+    text = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in chunk)
+    return text if len(text) <= TEXT_SHOWN_MAX else f"{text[:TEXT_SHOWN_MAX]}…"
