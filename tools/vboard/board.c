@@ -96,13 +96,16 @@ static void wire_peripherals(struct board *board)
                                                           .lsi_hz = options->lsi_hz});
     }
     timer_capture_init(&board->timer[TIMERS - 1U]);
-    board->requests.listener = (struct request_listener){.model = &board->dma, .note = dma_note_request};
-    dma_init(&board->dma, (struct dma_wires){.clock = clock,
-                                             .report = report,
-                                             .nvic = &board->nvic,
-                                             .memory = &board->memory,
-                                             .bus = &board->bus,
-                                             .requests = &board->requests});
+    for (unsigned i = 0; i < DMA_CONTROLLERS; i++) {
+        board->requests.listener[i] = (struct request_listener){.model = &board->dma[i], .note = dma_note_request};
+        dma_init(&board->dma[i], (struct dma_wires){.number = i,
+                                                    .clock = clock,
+                                                    .report = report,
+                                                    .nvic = &board->nvic,
+                                                    .memory = &board->memory,
+                                                    .bus = &board->bus,
+                                                    .requests = &board->requests});
+    }
     adc_init(&board->adc, (struct adc_wires){.clock = clock, .report = report, .conditions = &board->conditions});
     for (unsigned i = 0; i < USARTS; i++) {
         usart_init(&board->usart[i], (struct usart_wires){.number = i,
@@ -110,7 +113,8 @@ static void wire_peripherals(struct board *board)
                                                           .report = report,
                                                           .nvic = &board->nvic,
                                                           .conditions = &board->conditions,
-                                                          .gpio = &board->gpio});
+                                                          .gpio = &board->gpio,
+                                                          .requests = i == 0 ? &board->requests : NULL});
     }
 }
 
@@ -135,7 +139,7 @@ static void wire_surroundings(struct board *board)
     faults_init(&board->faults, (struct faults_wires){.clock = clock,
                                                       .cpu = &board->cpu,
                                                       .memory = &board->memory,
-                                                      .dma = &board->dma,
+                                                      .dma = board->dma,
                                                       .flash = &board->flash,
                                                       .nvic = &board->nvic,
                                                       .reset = &board->reset,

@@ -76,7 +76,7 @@ struct board {
     struct requests requests;
     struct timer timer[TIMERS];
     struct usart usart[USARTS];
-    struct dma dma;
+    struct dma dma[DMA_CONTROLLERS];
     struct adc adc;
 
     struct pins pins;

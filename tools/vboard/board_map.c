@@ -48,7 +48,8 @@ static void attach_on_ahb(struct board *board)
         {"GPIOI", &port[8], gpio_read, gpio_write, NULL, 0x40022000, 1, RCC_AHB1ENR, 8},
         {"RCC", &board->rcc, rcc_read, rcc_write, NULL, 0x40023800, 1, 0, 0},
         {"FLASH", &board->flash, flash_read_register, flash_write_register, NULL, 0x40023C00, 1, 0, 0},
-        {"DMA1", &board->dma, dma_read, dma_write, NULL, 0x40026000, 4, RCC_AHB1ENR, 21},
+        {"DMA1", &board->dma[0], dma_read, dma_write, NULL, 0x40026000, 4, RCC_AHB1ENR, 21},
+        {"DMA2", &board->dma[1], dma_read, dma_write, NULL, 0x40026400, 4, RCC_AHB1ENR, 22},
     };
     attach(&board->bus, blocks, sizeof blocks / sizeof *blocks);
 }

@@ -32,7 +32,9 @@ static void reset_peripherals(struct board *board, enum reset_cause cause)
     for (unsigned i = 0; i < USARTS; i++) {
         usart_reset(&board->usart[i]);
     }
-    dma_reset(&board->dma);
+    for (unsigned i = 0; i < DMA_CONTROLLERS; i++) {
+        dma_reset(&board->dma[i]);
+    }
     adc_reset(&board->adc);
     syscfg_reset(&board->syscfg);
     supply_reset(&board->supply);
@@ -69,12 +71,13 @@ void board_reset(struct board *board, enum reset_cause cause)
 static void reset_on_ahb1(struct board *board, unsigned bit)
 {
     enum {
-        DMA1 = 21
+        DMA1 = 21,
+        DMA2 = 22
     };
     if (bit < GPIO_PORTS) {
         gpio_reset_port(&board->gpio.port[bit]);
-    } else if (bit == DMA1) {
-        dma_reset(&board->dma);
+    } else if (bit == DMA1 || bit == DMA2) {
+        dma_reset(&board->dma[bit - DMA1]);
     }
 }
 
@@ -139,8 +142,9 @@ static void on_release(void *model)
 
 static void on_stop(void *model)
 {
-    static const enum event clocked[] = {EVENT_TIM2,   EVENT_TIM3,   EVENT_TIM4,   EVENT_TIM5, EVENT_SYSTICK,
-                                         EVENT_USART1, EVENT_USART2, EVENT_USART3, EVENT_DMA,  EVENT_BUS};
+    static const enum event clocked[] = {EVENT_TIM2,    EVENT_TIM3,   EVENT_TIM4,   EVENT_TIM5,
+                                         EVENT_SYSTICK, EVENT_USART1, EVENT_USART2, EVENT_USART3,
+                                         EVENT_DMA1,    EVENT_DMA2,   EVENT_BUS};
     struct board *board = model;
     for (unsigned i = 0; i < sizeof clocked / sizeof *clocked; i++) {
         clock_set(&board->clock, clocked[i], VTIME_NEVER);

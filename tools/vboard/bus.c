@@ -110,6 +110,11 @@ bool bus_is_apb1(uint32_t address)
     return address - PERIPHERAL_BASE < APB1_BYTES;
 }
 
+bool bus_is_apb2(uint32_t address)
+{
+    return address - PERIPHERAL_BASE - APB1_BYTES < APB_BYTES - APB1_BYTES;
+}
+
 static bool is_apb(uint32_t address)
 {
     return address - PERIPHERAL_BASE < APB_BYTES;
@@ -120,19 +125,19 @@ static uint64_t later(uint64_t a, uint64_t b)
     return a > b ? a : b;
 }
 
-/* When an access has arrived that is ready at a cycle and then needs some to begin; it waits for whoever has APB1. */
+/* When an access has arrived that is ready at a cycle and then needs some to begin; it waits for whoever has the bus.
+ */
 static uint64_t take_apb(struct bus *bus, uint32_t address, uint64_t ready, unsigned begin_cycles)
 {
-    bool is_taken = bus_is_apb1(address) && bus->apb1_taken_until > ready;
-    uint64_t begin = is_taken ? bus->apb1_taken_until + MATRIX_CYCLES : ready + begin_cycles;
-    uint64_t end = begin + apb_wait(bus, address);
-    bus->apb1_taken_until = bus_is_apb1(address) ? end : bus->apb1_taken_until;
-    return end;
+    uint64_t *taken_until = &bus->taken_until[bus_is_apb1(address) ? 0 : 1];
+    uint64_t begin = *taken_until > ready ? *taken_until + MATRIX_CYCLES : ready + begin_cycles;
+    *taken_until = begin + apb_wait(bus, address);
+    return *taken_until;
 }
 
-uint64_t bus_take_apb1(struct bus *bus, uint64_t cycle)
+uint64_t bus_take_apb(struct bus *bus, uint32_t address, uint64_t cycle)
 {
-    return take_apb(bus, PERIPHERAL_BASE, cycle + ADDRESS_CYCLES, MATRIX_CYCLES);
+    return take_apb(bus, address, cycle + ADDRESS_CYCLES, MATRIX_CYCLES);
 }
 
 /* Lets an access to APB begin when the processor's one before has arrived; then a read waits for its answer, and a
@@ -222,10 +227,30 @@ void bus_deliver(struct bus *bus, uint32_t address, unsigned bytes, uint32_t val
     clock->now = now;
 }
 
+uint32_t bus_fetch(struct bus *bus, uint32_t address, unsigned bytes, uint64_t cycle)
+{
+    struct clock *clock = bus->wires.clock;
+    uint64_t now = clock->now;
+    const struct bus_block *block = find_block(bus, address);
+    const char *why = refuse(bus, block, address, bytes);
+    uint32_t value = 0;
+    clock->now = cycle;
+    if (why == NULL && !block->read(block->model, (address - block->base) & ~UINT32_C(3), &value)) {
+        why = "no register that is modelled";
+    }
+    if (why != NULL) {
+        complain_of(bus, "a DMA stream's read of", address, why);
+    }
+    clock->now = now;
+    return (value & lanes(address, bytes)) >> 8U * (address & 3U);
+}
+
 void bus_reset(struct bus *bus)
 {
     bus->apb_busy_until = 0;
-    bus->apb1_taken_until = 0;
+    for (unsigned i = 0; i < BUS_APBS; i++) {
+        bus->taken_until[i] = 0;
+    }
     clock_set(bus->wires.clock, EVENT_BUS, VTIME_NEVER);
 }
 

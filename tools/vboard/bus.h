@@ -17,7 +17,8 @@
 #include "report.h"
 
 enum {
-    BUS_BLOCKS_MAX = 24
+    BUS_BLOCKS_MAX = 28,
+    BUS_APBS = 2
 };
 
 /* How many registers a peripheral has is known by its model: reads and writes answer false for one it does not have.
@@ -65,9 +66,9 @@ struct bus {
     struct bus_wires wires;
     struct bus_block block[BUS_BLOCKS_MAX];
     unsigned blocks;
-    uint64_t apb_busy_until;   /* the processor's write that is on its way has arrived */
-    uint64_t apb1_taken_until; /* and the access to APB1 of whoever came last */
-    struct bus_write write;    /* there is one at most: the next access to APB waits for it */
+    uint64_t apb_busy_until;        /* the processor's write that is on its way has arrived */
+    uint64_t taken_until[BUS_APBS]; /* and the access to APB1 and to APB2 of whoever came last */
+    struct bus_write write;         /* there is one at most: the next access to APB waits for it */
 };
 
 /* Maps the peripherals into the processor's addresses. False: there is not memory enough. */
@@ -84,8 +85,12 @@ uint64_t bus_idle_cycle(const struct bus *bus);
 
 bool bus_is_apb1(uint32_t address);
 
-/* The DMA controller takes APB1 for a write that is ready at a cycle: when it arrives. Then it is delivered. */
-uint64_t bus_take_apb1(struct bus *bus, uint64_t cycle);
+bool bus_is_apb2(uint32_t address);
+
+/* A DMA controller takes the bus of an address on APB1 or APB2 for an access that is ready at a cycle: when it arrives.
+ * Then it is delivered, or what is there fetched. */
+uint64_t bus_take_apb(struct bus *bus, uint32_t address, uint64_t cycle);
 void bus_deliver(struct bus *bus, uint32_t address, unsigned bytes, uint32_t value, uint64_t cycle);
+uint32_t bus_fetch(struct bus *bus, uint32_t address, unsigned bytes, uint64_t cycle);
 
 #endif

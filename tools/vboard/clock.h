@@ -20,7 +20,8 @@ enum event {
     EVENT_USART1,
     EVENT_USART2,
     EVENT_USART3,
-    EVENT_DMA, /* after the timers, so that all that ask at once are heard */
+    EVENT_DMA1, /* after the timers, so that all that ask at once are heard */
+    EVENT_DMA2,
     EVENT_BUS,
     EVENT_FLASH,
     EVENT_RCC,

@@ -1,8 +1,8 @@
 /*
- * DMA1 (RM0090 chapter 10): eight streams that carry data from memory to the peripherals of APB1, each when one of its
- * requests comes. One transfer at a time is on the way to the peripherals; the stream of the highest priority is next.
- * Not modelled: the way from peripherals to memory, double buffers, bursts, contention of the memory port with the
- * processor.
+ * The two DMA controllers (RM0090 chapter 10): eight streams each that carry data from memory to the peripherals, or
+ * the other way, each when one of its requests comes. One transfer at a time is on the way to or from the peripherals;
+ * the stream of the highest priority is next. Not modelled: double buffers, bursts, contention of the memory port with
+ * the processor.
  */
 #ifndef DMA_H
 #define DMA_H
@@ -20,6 +20,7 @@
 #include "requests.h"
 
 struct dma_wires {
+    unsigned number; /* 0: DMA1 */
     struct clock *clock;
     struct report *report;
     struct nvic *nvic;
@@ -31,7 +32,7 @@ struct dma_wires {
 struct dma {
     struct dma_wires wires;
     struct dma_stream stream[DMA_STREAMS];
-    unsigned carried; /* the stream whose transfer is on its way to the peripheral; DMA_STREAMS: none */
+    unsigned carried; /* the stream whose transfer is on its way to or from the peripheral; DMA_STREAMS: none */
     uint32_t item;
     uint64_t arrives; /* cycle */
     uint64_t asked;   /* since when it was asked for */

@@ -89,7 +89,7 @@ bool dma_read(void *model, uint32_t offset, uint32_t *value)
 
 static void refuse(struct dma *dma, unsigned number, const char *what)
 {
-    report_fail(dma->wires.report, "DMA1 stream %u: %s", number, what);
+    report_fail(dma->wires.report, "DMA%u stream %u: %s", dma->wires.number + 1U, number, what);
 }
 
 static void write_cr(struct dma *dma, unsigned number, uint32_t value)

@@ -1,5 +1,5 @@
 /*
- * What the program sees of DMA1 (RM0090 section 10.5). The model is a struct dma.
+ * What the program sees of a DMA controller (RM0090 section 10.5). The model is a struct dma.
  */
 #ifndef DMA_REGISTERS_H
 #define DMA_REGISTERS_H

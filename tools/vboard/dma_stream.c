@@ -44,11 +44,11 @@ static const char *refuse_direction(const struct dma_stream *stream)
 {
     switch (stream->cr >> DMA_CR_DIR_SHIFT & 3U) {
     case FROM_PERIPHERAL:
-        return "from peripheral to memory is not modelled";
+        return is_direct(stream) ? NULL : "from peripheral to memory only direct mode is modelled";
     case TO_PERIPHERAL:
         return NULL;
     case FROM_MEMORY_TO_MEMORY:
-        return "only DMA2 can carry from memory to memory (RM0090 10.3.6)";
+        return "from memory to memory only DMA2 can carry (RM0090 10.3.6), and it is not modelled";
     default:
         return "DIR is reserved (RM0090 10.5.5)";
     }
@@ -57,7 +57,7 @@ static const char *refuse_direction(const struct dma_stream *stream)
 static const char *refuse_mode(const struct dma_stream *stream)
 {
     if ((stream->cr & DMA_CR_PFCTRL) != 0) {
-        return "no peripheral of DMA1 can be the flow controller (RM0090 10.3.15)";
+        return "only SDIO can be the flow controller (RM0090 10.3.15), and it is not modelled";
     }
     if ((stream->cr & DMA_CR_DBM) != 0) {
         return "double buffers are not modelled";
@@ -120,7 +120,18 @@ void dma_stream_begin(struct dma_stream *stream)
     stream->target = stream->par;
     stream->level = 0;
     stream->filling = true;
+    stream->stored_flags = 0;
+    if (dma_stream_from_peripheral(stream)) {
+        stream->source = stream->par;
+        stream->target = stream->m0ar;
+        return;
+    }
     begin_round(stream);
+}
+
+bool dma_stream_from_peripheral(const struct dma_stream *stream)
+{
+    return (stream->cr >> DMA_CR_DIR_SHIFT & 3U) == FROM_PERIPHERAL;
 }
 
 /* Direct mode: one item, as soon as the FIFO is empty. FIFO mode: from the threshold on until it is full. */
@@ -189,6 +200,46 @@ bool dma_stream_count(struct dma_stream *stream)
     stream->ndtr = stream->ndtr_written;
     stream->target = stream->par;
     return false;
+}
+
+/* Section 10.5.6: the number counts transfers at the peripheral. The flags tell of those that are complete. */
+void dma_stream_fetched(struct dma_stream *stream, uint32_t item)
+{
+    uint32_t bytes = dma_stream_item_bytes(stream);
+    bool steps = (stream->cr & DMA_CR_PINC) != 0;
+    for (uint32_t i = 0; i < bytes; i++) {
+        stream->fifo[i] = (uint8_t)(item >> 8U * i);
+    }
+    stream->level = bytes;
+    stream->source += steps ? bytes : 0U;
+    stream->transfers++;
+    stream->ndtr--;
+    stream->stored_flags |= is_half(stream) ? DMA_FLAG_HALF : 0U;
+    if (stream->ndtr == 0) {
+        stream->stored_flags |= DMA_FLAG_COMPLETE;
+        bool circular = (stream->cr & DMA_CR_CIRC) != 0;
+        stream->ndtr = circular ? stream->ndtr_written : 0U;
+        stream->source = circular ? stream->par : stream->source;
+    }
+}
+
+bool dma_stream_store(struct dma_stream *stream, uint8_t *data)
+{
+    uint32_t flags = stream->stored_flags;
+    memcpy(data, stream->fifo, stream->level);
+    stream->target += (stream->cr & DMA_CR_MINC) != 0 ? stream->level : 0U;
+    stream->level = 0;
+    stream->flags |= flags;
+    stream->stored_flags = 0;
+    if ((flags & DMA_FLAG_COMPLETE) == 0) {
+        return false;
+    }
+    stream->target = stream->m0ar;
+    if ((stream->cr & DMA_CR_CIRC) != 0) {
+        return false;
+    }
+    dma_stream_end(stream);
+    return true;
 }
 
 void dma_stream_end(struct dma_stream *stream)

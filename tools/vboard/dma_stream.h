@@ -1,6 +1,6 @@
 /*
- * One stream of a DMA controller, from memory to a peripheral (RM0090 sections 10.3.5 to 10.3.13): its registers, its
- * FIFO, and what is counted. When something happens is for dma.c.
+ * One stream of a DMA controller (RM0090 sections 10.3.5 to 10.3.13), from memory to a peripheral or the other way: its
+ * registers, its FIFO, and what is counted. When something happens is for dma.c.
  */
 #ifndef DMA_STREAM_H
 #define DMA_STREAM_H
@@ -62,10 +62,11 @@ struct dma_stream {
     bool filling;    /* FIFO mode: until the FIFO is full */
     uint32_t source; /* addresses of the next load and the next store */
     uint32_t target;
-    uint32_t unread_bytes; /* of this round that have not been loaded */
+    uint32_t unread_bytes; /* to a peripheral: of this round that have not been loaded */
+    uint32_t stored_flags; /* from a peripheral: flags that come with the next store */
     uint32_t level;        /* bytes in the FIFO */
     uint8_t fifo[DMA_FIFO_BYTES];
-    uint64_t load_due; /* cycle at which data come from memory; NEVER: none are on their way */
+    uint64_t load_due; /* cycle at which data come from memory, or get there; NEVER: none are on their way */
     uint64_t stop_due;
     uint64_t enabled_cycle;
     uint64_t transfers; /* since reset */
@@ -92,6 +93,14 @@ bool dma_stream_has_item(const struct dma_stream *stream);
 
 /* The oldest item leaves the FIFO. */
 uint32_t dma_stream_take(struct dma_stream *stream);
+
+/* Whether it carries from a peripheral to memory. */
+bool dma_stream_from_peripheral(const struct dma_stream *stream);
+
+/* Of such a stream: an item has been fetched from the peripheral, and is counted; and it gets to memory. True: that was
+ * the last one, and the stream has disabled itself. */
+void dma_stream_fetched(struct dma_stream *stream, uint32_t item);
+bool dma_stream_store(struct dma_stream *stream, uint8_t *data);
 
 /* It has arrived at the peripheral. True: that was the last one, and the stream has disabled itself. */
 bool dma_stream_count(struct dma_stream *stream);

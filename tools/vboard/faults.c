@@ -72,7 +72,7 @@ static bool read_loss(struct faults *faults, const char *at, const char *end, st
 static bool read_stream(struct faults *faults, const char *at, const char *end, struct fault fault)
 {
     uint64_t number = 0;
-    if (!line_read_fixed(&at, end, 0, DMA_STREAMS - 1, &number) || at != end) {
+    if (!line_read_fixed(&at, end, 0, DMA_CONTROLLERS * DMA_STREAMS - 1, &number) || at != end) {
         return false;
     }
     fault.address = (uint32_t)number;
@@ -186,7 +186,7 @@ static void apply(struct faults *faults, const struct fault *fault)
         nvic_lose(faults->wires.nvic, fault->address, fault->kind == FAULT_LOSE);
         break;
     case FAULT_DMA:
-        dma_lead_astray(faults->wires.dma, fault->address);
+        dma_lead_astray(&faults->wires.dma[fault->address / DMA_STREAMS], fault->address % DMA_STREAMS);
         break;
     case FAULT_RESET:
         reset_request(faults->wires.reset, RESET_PIN);

@@ -12,17 +12,24 @@ enum {
 };
 
 struct group {
-    const char *before; /* of the names, before and after the number from 1 */
+    const char *before; /* of the names, before and after the number */
     const char *after;
     unsigned first;  /* enum signal */
     unsigned length; /* 0: one without a number */
+    unsigned first_number;
 };
 
 static const struct group groups[] = {
-    {"m", "_step", SIGNAL_STEP, PINS_MOTORS}, {"m", "_dir", SIGNAL_DIRECTION, PINS_MOTORS},
-    {"m", "_led", SIGNAL_LED, PINS_MOTORS},   {"bi", "", SIGNAL_INPUT, PINS_INPUTS},
-    {"bo", "", SIGNAL_OUTPUT, PINS_OUTPUTS},  {"de", "", SIGNAL_DRIVER, 0},
-    {"m", "_en", SIGNAL_ENABLE, PINS_MOTORS}, {"s1_", "", SIGNAL_SWITCH, PINS_SWITCHES},
+    {"m", "_step", SIGNAL_STEP, PINS_MOTORS, 1},
+    {"m", "_dir", SIGNAL_DIRECTION, PINS_MOTORS, 1},
+    {"m", "_led", SIGNAL_LED, PINS_MOTORS, 1},
+    {"bi", "", SIGNAL_INPUT, PINS_INPUTS, 1},
+    {"bo", "", SIGNAL_OUTPUT, PINS_OUTPUTS, 1},
+    {"de", "", SIGNAL_DRIVER, 0, 0},
+    {"m", "_en", SIGNAL_ENABLE, PINS_MOTORS, 1},
+    {"s1_", "", SIGNAL_SWITCH, PINS_SWITCHES, 1},
+    {"led", "", SIGNAL_MORE_LED, PINS_MORE_LEDS, PINS_MORE_LEDS_FIRST},
+    {"pwm", "", SIGNAL_PWM, 0, 0},
 };
 
 static const char *const usarts[] = {"USART1", "USART2", "USART3"};
@@ -37,10 +44,11 @@ static bool find_in_group(const struct group *group, const char *name, unsigned 
     name += length;
     *signal = group->first;
     if (group->length > 0) {
-        if (*name < '1' || *name >= '1' + (int)group->length) {
+        int first = '0' + (int)group->first_number;
+        if (*name < first || *name >= first + (int)group->length) {
             return false;
         }
-        *signal += (unsigned)(*name - '1');
+        *signal += (unsigned)(*name - first);
         name++;
     }
     return strcmp(name, group->after) == 0;
@@ -91,7 +99,7 @@ static const char *take_line(struct pins *pins, const char *name, const char *pl
     }
     unsigned signal = find_signal(name);
     if (signal == SIGNAL_NONE) {
-        return "no such signal; m1_step, m1_dir, m1_led, m1_en, bi1, bo1, de, s1_1 and line are known";
+        return "no such signal; m1_step, m1_dir, m1_led, m1_en, led5, bi1, bo1, pwm, de, s1_1 and line are known";
     }
     struct pin pin;
     if (!pins_read_name(place, &pin)) {

@@ -16,6 +16,8 @@ enum {
     PINS_INPUTS = 8,
     PINS_OUTPUTS = 8,
     PINS_SWITCHES = 4,
+    PINS_MORE_LEDS = 4,
+    PINS_MORE_LEDS_FIRST = 5, /* its number */
 };
 
 /* Signals by number. */
@@ -25,9 +27,11 @@ enum signal {
     SIGNAL_LED = SIGNAL_DIRECTION + PINS_MOTORS,
     SIGNAL_INPUT = SIGNAL_LED + PINS_MOTORS,
     SIGNAL_OUTPUT = SIGNAL_INPUT + PINS_INPUTS,
-    SIGNAL_DRIVER = SIGNAL_OUTPUT + PINS_OUTPUTS, /* of the line: 1 sends */
-    SIGNAL_ENABLE = SIGNAL_DRIVER + 1,            /* of the motor drivers */
-    SIGNAL_SWITCH = SIGNAL_ENABLE + PINS_MOTORS,  /* S1-1 to S1-4: 1 is closed */
+    SIGNAL_DRIVER = SIGNAL_OUTPUT + PINS_OUTPUTS,  /* of the line: 1 sends */
+    SIGNAL_ENABLE = SIGNAL_DRIVER + 1,             /* of the motor drivers */
+    SIGNAL_MORE_LED = SIGNAL_ENABLE + PINS_MOTORS, /* LEDs that belong to no motor, from 5 on */
+    SIGNAL_PWM = SIGNAL_MORE_LED + PINS_MORE_LEDS,
+    SIGNAL_SWITCH = SIGNAL_PWM + 1, /* S1-1 to S1-4: 1 is closed */
     SIGNALS = SIGNAL_SWITCH + PINS_SWITCHES,
     SIGNAL_NONE = SIGNALS,
 };

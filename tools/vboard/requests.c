@@ -3,6 +3,17 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+static void raise(struct requests *requests, unsigned number, uint64_t cycle)
+{
+    requests->high |= UINT32_C(1) << number;
+    requests->since[number] = cycle;
+    for (unsigned i = 0; i < REQUEST_LISTENERS; i++) {
+        if (requests->listener[i].note != NULL) {
+            requests->listener[i].note(requests->listener[i].model, cycle);
+        }
+    }
+}
+
 void requests_raise(struct requests *requests, unsigned timer, unsigned source, uint64_t cycle)
 {
     uint32_t line = request_line(timer, source);
@@ -10,11 +21,12 @@ void requests_raise(struct requests *requests, unsigned timer, unsigned source, 
         requests->lost++;
         return;
     }
-    requests->high |= line;
-    requests->since[timer * REQUEST_SOURCES + source] = cycle;
-    if (requests->listener.note != NULL) {
-        requests->listener.note(requests->listener.model, cycle);
-    }
+    raise(requests, timer * REQUEST_SOURCES + source, cycle);
+}
+
+void requests_raise_receiver(struct requests *requests, uint64_t cycle)
+{
+    raise(requests, REQUEST_USART1_RX, cycle);
 }
 
 void requests_lower(struct requests *requests, uint32_t lines)

@@ -1,6 +1,7 @@
 /*
- * The lines by which the timers ask the DMA controller for transfers (RM0090 sections 10.3.2 and 18.4.4). A line that
- * was raised stays high until the controller acknowledges it or the timer takes it back; an event meanwhile is lost.
+ * The lines by which timers and USART1 ask the DMA controllers for transfers (RM0090 sections 10.3.2, 18.4.4 and
+ * 30.3.13). A line that was raised stays high until the controller acknowledges it or who has raised it takes it back;
+ * an event of a timer meanwhile is lost.
  */
 #ifndef REQUESTS_H
 #define REQUESTS_H
@@ -19,7 +20,9 @@ enum request_source {
 
 enum {
     REQUEST_TIMERS = 4,
-    REQUEST_LINES = REQUEST_TIMERS * REQUEST_SOURCES,
+    REQUEST_USART1_RX = REQUEST_TIMERS * REQUEST_SOURCES,
+    REQUEST_LINES,
+    REQUEST_LISTENERS = 2,
 };
 
 /* Who is told that a line has gone high; null: nobody. */
@@ -29,10 +32,10 @@ struct request_listener {
 };
 
 struct requests {
-    struct request_listener listener;
-    uint32_t high;                 /* a bit a line */
-    uint64_t since[REQUEST_LINES]; /* cycle */
-    uint64_t lost;                 /* events that found their line high */
+    struct request_listener listener[REQUEST_LISTENERS]; /* the controllers */
+    uint32_t high;                                       /* a bit a line */
+    uint64_t since[REQUEST_LINES];                       /* cycle */
+    uint64_t lost;                                       /* events that found their line high */
 };
 
 /* `timer` is 0 for TIM2. */
@@ -42,6 +45,9 @@ static inline uint32_t request_line(unsigned timer, unsigned source)
 }
 
 void requests_raise(struct requests *requests, unsigned timer, unsigned source, uint64_t cycle);
+
+/* The line by which USART1 asks for what it has received to be fetched. */
+void requests_raise_receiver(struct requests *requests, uint64_t cycle);
 
 /* Lines, a bit each, go low: they were acknowledged, or are taken back. */
 void requests_lower(struct requests *requests, uint32_t lines);

@@ -21,6 +21,7 @@ struct row {
 #define GPIOA_BASE UINT32_C(0x40020000)
 #define FLASH_BASE UINT32_C(0x40023C00)
 #define DMA1_BASE UINT32_C(0x40026000)
+#define DMA2_BASE UINT32_C(0x40026400)
 #define CORE_BASE UINT32_C(0xE000E000)
 
 #define USART(base, instances)                                                                                         \
@@ -30,6 +31,12 @@ struct row {
         {base, 0x400, instances, 0x10, 0x10, 0x7F6F}, /* CR2 */                                                        \
         {base, 0x400, instances, 0x14, 0x14, 0xFFF},  /* CR3 */                                                        \
         {base, 0x400, instances, 0x18, 0x18, 0xFFFF}  /* GTPR */
+
+#define DMA(base)                                                                                                      \
+    {base, 0, 1, 0x08, 0x0C, 0x0F7D0F7D},        /* LIFCR, HIFCR */                                                    \
+        {base, 0x18, 8, 0x10, 0x10, 0x0FEFFFFF}, /* SxCR */                                                            \
+        {base, 0x18, 8, 0x14, 0x14, 0xFFFF},     /* SxNDTR */                                                          \
+        {base, 0x18, 8, 0x24, 0x24, 0xBF}        /* SxFCR */
 
 static const struct row rows[] = {
     /* RM0090 section 18.4; a status register is written with ones wherever nothing is to be cleared. */
@@ -62,10 +69,8 @@ static const struct row rows[] = {
     {FLASH_BASE, 0, 1, 0x10, 0x10, 0x8301037F}, /* CR */
     {FLASH_BASE, 0, 1, 0x14, 0x14, 0x0FFFFFEF}, /* OPTCR */
     /* 10.5; FS of FCR is read-only, and written as it was read */
-    {DMA1_BASE, 0, 1, 0x08, 0x0C, 0x0F7D0F7D},    /* LIFCR, HIFCR */
-    {DMA1_BASE, 0x18, 8, 0x10, 0x10, 0x0FEFFFFF}, /* SxCR */
-    {DMA1_BASE, 0x18, 8, 0x14, 0x14, 0xFFFF},     /* SxNDTR */
-    {DMA1_BASE, 0x18, 8, 0x24, 0x24, 0xBF},       /* SxFCR */
+    DMA(DMA1_BASE),
+    DMA(DMA2_BASE),
     /* PM0214 4.5, 4.3 (82 interrupts, four bits of priority) and 4.4 */
     {CORE_BASE, 0, 1, 0x010, 0x010, 0x00010007}, /* SysTick: CTRL */
     {CORE_BASE, 0, 1, 0x014, 0x014, 0x00FFFFFF}, /* LOAD */

@@ -216,13 +216,14 @@ static void print_peripherals(const struct board *board)
     (void)printf("\"refreshes\":%" PRIu64 "},\n", board->iwdg.refreshes);
 }
 
-/* Of the streams that have carried something; times from the request to the arrival at the peripheral. */
+/* Of the streams that have carried something, those of DMA2 from 8 on; times from the request to the arrival at the
+ * peripheral. */
 static void print_dma(const struct board *board)
 {
     const char *between = "";
     (void)printf("\"dma\":{\"lost\":%" PRIu64 ",\"streams\":[", board->requests.lost);
-    for (unsigned i = 0; i < DMA_STREAMS; i++) {
-        const struct dma_stream *stream = &board->dma.stream[i];
+    for (unsigned i = 0; i < DMA_CONTROLLERS * DMA_STREAMS; i++) {
+        const struct dma_stream *stream = &board->dma[i / DMA_STREAMS].stream[i % DMA_STREAMS];
         if (stream->transfers > 0) {
             (void)printf("%s{\"stream\":%u,\"transfers\":%" PRIu64 ",\"wait_max\":%" PRIu64 "}", between, i,
                          stream->transfers, stream->wait_most);

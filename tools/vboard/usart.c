@@ -30,7 +30,8 @@ enum {
     CR1_OVER8 = 1 << 15,
     CR1_MODELLED = 0xA1FC, /* no parity, 9 bits, mute mode or break; PEIE does nothing then */
     CR3_EIE = 1 << 0,
-    CR3_MODELLED = 0x801, /* error interrupt, one sample a bit */
+    CR3_DMAR = 1 << 6,
+    CR3_MODELLED = 0x801, /* error interrupt, one sample a bit; DMAR of USART1 besides */
     FRAME_BITS = 10,
     TOLERANCE_PERCENT = 3, /* table 141: 3.33 % for 8 bits with a fraction in BRR */
 };
@@ -82,13 +83,33 @@ uint64_t usart_baud(const struct usart *usart)
     return cycles == 0 ? 0 : (usart->wires.clock->time.hclk_hz + cycles / 2U) / cycles;
 }
 
+/* Section 30.3.13: RXNE asks for a transfer. */
+static void update_request(struct usart *usart)
+{
+    struct requests *requests = usart->wires.requests;
+    if (requests == NULL) {
+        return;
+    }
+    bool asks = (usart->cr3 & CR3_DMAR) != 0 && (usart->sr & SR_RXNE) != 0;
+    if (asks && !usart->asks) {
+        requests_raise_receiver(requests, usart->wires.clock->moment);
+    } else if (!asks) {
+        requests_lower(requests, UINT32_C(1) << REQUEST_USART1_RX);
+    }
+    usart->asks = asks;
+}
+
+/* Section 30.4: with EIE, errors call an interrupt only while DMAR is set. */
 static void update_interrupt(struct usart *usart)
 {
     uint32_t sr = usart->sr;
     uint32_t cr1 = usart->cr1;
+    bool errors_call = (usart->cr3 & (CR3_EIE | CR3_DMAR)) == (CR3_EIE | CR3_DMAR);
+    update_request(usart);
     bool wanted = ((cr1 & CR1_RXNEIE) != 0 && (sr & (SR_RXNE | SR_ORE)) != 0) ||
                   ((cr1 & CR1_TXEIE) != 0 && (sr & SR_TXE) != 0) || ((cr1 & CR1_TCIE) != 0 && (sr & SR_TC) != 0) ||
-                  ((cr1 & CR1_IDLEIE) != 0 && (sr & SR_IDLE) != 0);
+                  ((cr1 & CR1_IDLEIE) != 0 && (sr & SR_IDLE) != 0) ||
+                  (errors_call && (sr & (SR_FE | SR_NF | SR_ORE)) != 0);
     nvic_set_line(usart->wires.nvic, irqs[usart->wires.number], wanted);
 }
 
@@ -165,7 +186,8 @@ static bool rates_fit(uint64_t baud, uint64_t line_baud)
     return difference * 100U <= line_baud * TOLERANCE_PERCENT;
 }
 
-/* Section 30.3.3: an overrun keeps what is in RDR and loses the new byte. */
+/* Section 30.3.3: an overrun keeps what is in RDR and loses the new byte, and all that come until ORE has been ended.
+ */
 void usart_receive(struct usart *usart, uint8_t value, unsigned damage, uint64_t baud, uint64_t cycle)
 {
     if ((usart->cr1 & (CR1_UE | CR1_RE)) != (CR1_UE | CR1_RE) ||
@@ -178,7 +200,7 @@ void usart_receive(struct usart *usart, uint8_t value, unsigned damage, uint64_t
         value = (uint8_t)~value;
     }
     usart->idle_due = cycle + (FRAME_BITS + 1U) * bit_cycles(usart);
-    if ((usart->sr & SR_RXNE) != 0) {
+    if ((usart->sr & (SR_RXNE | SR_ORE)) != 0) {
         usart->sr |= SR_ORE;
         usart->overruns++;
     } else {
@@ -319,7 +341,7 @@ static bool write_register(void *model, uint32_t offset, uint32_t value)
         return (value & 0x7F60U) == 0;
     case USART_CR3:
         usart->cr3 = value;
-        return (value & ~(uint32_t)CR3_MODELLED) == 0;
+        return (value & ~(uint32_t)(CR3_MODELLED | (usart->wires.requests != NULL ? CR3_DMAR : 0))) == 0;
     case USART_GTPR:
         return value == 0;
     default:

@@ -1,6 +1,6 @@
 /*
  * USART1 to USART3 as asynchronous receivers and transmitters of 8 bits without parity (RM0090 chapter 30). Times of
- * bytes follow from BRR and the clock of the bus.
+ * bytes follow from BRR and the clock of the bus. USART1 asks DMA2 for what it has received to be fetched (DMAR).
  */
 #ifndef USART_H
 #define USART_H
@@ -13,6 +13,7 @@
 #include "gpio.h"
 #include "nvic.h"
 #include "report.h"
+#include "requests.h"
 
 enum {
     USARTS = 3
@@ -45,6 +46,7 @@ struct usart_wires {
     struct nvic *nvic;
     const struct conditions *conditions;
     const struct gpio *gpio;
+    struct requests *requests; /* null: none that is modelled */
 };
 
 struct usart {
@@ -64,6 +66,7 @@ struct usart {
     uint64_t shift_due;
     uint64_t idle_due;    /* the line has been quiet for a byte then */
     uint32_t status_read; /* flags that were seen by a read of SR: a read of DR clears them */
+    bool asks;            /* the line to DMA2 was raised for the byte in RDR */
     uint64_t sent;
     uint64_t taken;
     uint64_t overruns;

@@ -36,6 +36,10 @@ static void declare_all(struct waves *waves)
     for (unsigned i = 0; i < PINS_OUTPUTS; i++) {
         declare(waves, VCD_WIRE, SIGNAL_OUTPUT + i, "bo", i, "");
     }
+    for (unsigned i = 0; i < PINS_MORE_LEDS; i++) {
+        declare(waves, VCD_WIRE, SIGNAL_MORE_LED + i, "led", PINS_MORE_LEDS_FIRST - 1U + i, "");
+    }
+    vcd_declare(&waves->vcd, VCD_WIRE, SIGNAL_PWM, (struct vcd_name){.before = "pwm", .after = ""});
     vcd_declare(&waves->vcd, VCD_WIRE, SIGNAL_DRIVER, (struct vcd_name){.before = "de", .after = ""});
     for (unsigned i = 0; i < PINS_MOTORS; i++) {
         declare(waves, VCD_REAL, SIGNAL_POSITION + i, "m", i, "_position");

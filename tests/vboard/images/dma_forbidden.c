@@ -106,7 +106,7 @@ static void do_enabled(uint32_t number)
 static void do_settings(uint32_t number)
 {
     static const uint32_t settings[] = {
-        CHSEL(3) | CR_PSIZE_WORD,                    /* from the peripheral */
+        CHSEL(3) | CR_PSIZE_WORD,                    /* allowed: from the peripheral */
         CHSEL(3) | 2u << 6 | CR_PSIZE_WORD,          /* memory to memory */
         CHSEL(3) | 3u << 6 | CR_PSIZE_WORD,          /* no direction */
         CHSEL(3) | CR_WORDS | 1u << 5,               /* flow controller */
@@ -134,6 +134,9 @@ static void do_fifo(uint32_t number)
         break;
     case 62:
         DMA_M0AR(5) = (uint32_t)words + 2;
+        break;
+    case 63:
+        DMA_CR(5) = CHSEL(3) | CR_PSIZE_WORD | CR_MSIZE_WORD; /* from the peripheral */
         break;
     default:
         break;
