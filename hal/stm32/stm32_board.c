@@ -45,6 +45,7 @@ void hal_board_init(void)
 {
     start_cause = find_cause();
     stm32_step_start(stm32_board_clock.crystal);
+    stm32_pwm_start(&stm32_board_clock);
     stm32_pins_start();
     stm32_supply_start();
     stm32_flash_start(*(const volatile uint16_t *)(uintptr_t)stm32_part_flash_kb_at);
@@ -87,15 +88,17 @@ uint32_t hal_board_late_steps(void)
 /* The look at the line lets the bus go where the transmitter raises no interrupt (an emulator). */
 void hal_board_idle(uint64_t wake_tick)
 {
+    uint64_t look_tick = hal_time_now() + stm32_line_look_ticks();
+    uint64_t end_tick = wake_tick < look_tick ? wake_tick : look_tick;
     stm32_watchdog_main_lives();
     (void)hal_line_is_idle();
     while (!stm32_event_take()) {
         uint64_t now = hal_time_now();
-        if (now >= wake_tick) {
+        if (now >= end_tick) {
             break;
         }
-        if (wake_tick - now < TICKS_PER_MS) {
-            stm32_event_alarm((uint32_t)(wake_tick - now));
+        if (end_tick - now < TICKS_PER_MS) {
+            stm32_event_alarm((uint32_t)(end_tick - now));
         }
         stm32_event_sleep();
     }

@@ -20,6 +20,7 @@ _Noreturn static void stop(uint32_t cause, uint32_t exception, uint32_t pc)
 {
     stm32_step_make_safe();
     stm32_pins_make_safe();
+    stm32_pwm_make_safe();
     stm32_fault_record = (struct stm32_fault){
         .magic = STM32_FAULT_MAGIC,
         .cause = cause,

@@ -51,6 +51,7 @@ enum {
     PRIORITY_PLACE = 4, /* four bits of priority, at the top of a byte; PM0214 4.3.7 */
 };
 
+static_assert(IMAGE_STEP_HIGH_NS == 0U, "an interrupt cannot make the width of a pulse that the unit promises");
 static_assert((RING_PULSES & (RING_PULSES - 1)) == 0, "pulses are counted modulo the ring");
 
 /* What the edges write is read by all others with the interrupt of edges held off, or is one word. */
@@ -74,6 +75,8 @@ struct stm32_gpio_channel {
     bool active;                  /* pulses have been laid, and the client has not said that none is left */
     bool backward;                /* DIR with the pulse laid last */
     bool connected;
+    bool falling;  /* the active edge of STEP falls */
+    bool reversed; /* the levels of DIR are the other way round */
     struct hal_step_pulse ring[RING_PULSES];
 };
 

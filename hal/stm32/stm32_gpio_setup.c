@@ -13,7 +13,7 @@ static const uint8_t direction_pins[UNIT_MOTORS] = {STM32_PIN_DIR_1, STM32_PIN_D
 uint32_t stm32_gpio_direction_bits(unsigned motor)
 {
     const struct stm32_gpio_channel *channel = &stm32_gpio.channel[motor];
-    bool high = (channel->connected && channel->backward) == (BOARD_DIR_LEVEL == 1U);
+    bool high = ((channel->connected && channel->backward) != channel->reversed) == (BOARD_DIR_LEVEL == 1U);
     return UINT32_C(1) << (direction_pins[motor] % 16U + (high ? 0U : 16U));
 }
 
@@ -26,7 +26,7 @@ static void wait_until_past(uint32_t start, uint32_t ticks)
 /* What BSRR takes for a level of STEP. */
 static uint32_t bits_of(unsigned motor, bool active)
 {
-    bool high = active == (BOARD_STEP_LEVEL == 1U);
+    bool high = (active != stm32_gpio.channel[motor].falling) == (BOARD_STEP_LEVEL == 1U);
     return UINT32_C(1) << (step_pins[motor] % 16U + (high ? 0U : 16U));
 }
 
@@ -36,20 +36,30 @@ static void connect(struct stm32_gpio_channel *channel, unsigned motor, bool con
     channel->high_bits = connected ? bits_of(motor, true) : 0U;
 }
 
-/* Waits a few microseconds: what DIR has to stand still after the last pulse, and before the next. */
+/* After the last pulse, and before the next, DIR has to stand still. */
+static void wait_before_change(const struct stm32_gpio_channel *channel)
+{
+    wait_until_past(channel->risen_tick, HOLD_TICKS);
+    while (channel->high) {
+    }
+}
+
+static void show_direction(unsigned motor)
+{
+    *stm32_gpio.channel[motor].direction = stm32_gpio_direction_bits(motor);
+    wait_until_past(TIM2_CNT, SETUP_TICKS);
+}
+
 static void set_pins(unsigned motor, bool backward, bool connected)
 {
     struct stm32_gpio_channel *channel = &stm32_gpio.channel[motor];
     if (channel->backward == backward && channel->connected == connected) {
         return;
     }
-    wait_until_past(channel->risen_tick, HOLD_TICKS);
-    while (channel->high) {
-    }
+    wait_before_change(channel);
     channel->backward = backward;
     connect(channel, motor, connected);
-    *channel->direction = stm32_gpio_direction_bits(motor);
-    wait_until_past(TIM2_CNT, SETUP_TICKS);
+    show_direction(motor);
 }
 
 void hal_step_set_direction(unsigned motor, bool backward)
@@ -61,6 +71,19 @@ void hal_step_set_direction(unsigned motor, bool backward)
 void hal_step_connect(unsigned motor, bool connected)
 {
     set_pins(motor, stm32_gpio.channel[motor].backward, connected && stm32_gpio.may_move);
+}
+
+/* No edge is pending: the pin goes to its new level at rest. */
+void hal_step_set_polarity(unsigned motor, bool falling, bool turned)
+{
+    struct stm32_gpio_channel *channel = &stm32_gpio.channel[motor];
+    wait_before_change(channel);
+    channel->falling = falling;
+    channel->reversed = turned;
+    channel->low_bits = bits_of(motor, false);
+    connect(channel, motor, channel->connected);
+    *channel->pin = channel->low_bits;
+    show_direction(motor);
 }
 
 static void start_timer(void)

@@ -19,7 +19,7 @@ static const uint8_t output_pins[UNIT_OUTPUTS] = {
     STM32_PIN_BO_1, STM32_PIN_BO_2, STM32_PIN_BO_3, STM32_PIN_BO_4,
     STM32_PIN_BO_5, STM32_PIN_BO_6, STM32_PIN_BO_7, STM32_PIN_BO_8,
 };
-static const uint8_t led_pins[UNIT_MOTORS] = {STM32_PIN_LED_1, STM32_PIN_LED_2, STM32_PIN_LED_3, STM32_PIN_LED_4};
+static const uint8_t led_pins[] = {STM32_LED_PINS};
 static const uint8_t switch_pins[4] = {STM32_PIN_S1_1, STM32_PIN_S1_2, STM32_PIN_S1_3, STM32_PIN_S1_4};
 
 /* All LEDs blink together: no crystal. What the unit says of them is not shown then. */
@@ -48,14 +48,14 @@ void hal_io_write_outputs(uint8_t levels)
     }
 }
 
-static void write_led(unsigned motor, bool on)
+static void write_led(unsigned led, bool on)
 {
-    stm32_pin_write(led_pins[motor], on == (BOARD_LED_LEVEL == 1U));
+    stm32_pin_write(led_pins[led], on == (BOARD_LED_LEVEL == 1U));
 }
 
 void hal_io_set_led(unsigned led, bool on)
 {
-    if (!blinking && led < UNIT_MOTORS) {
+    if (!blinking && led < sizeof led_pins) {
         write_led(led, on);
     }
 }
@@ -63,8 +63,8 @@ void hal_io_set_led(unsigned led, bool on)
 void stm32_io_blink(bool on)
 {
     blinking = true;
-    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
-        write_led(motor, on);
+    for (unsigned led = 0; led < sizeof led_pins; led++) {
+        write_led(led, on);
     }
 }
 

@@ -22,6 +22,10 @@ enum {
     USE_TIM3_CH2 = USE_TIM3_CH1,
     USE_TIM3_CH3 = USE_TIM3_CH1,
     USE_TIM3_CH4 = USE_TIM3_CH1,
+    USE_TIM4_CH1 = USE_TIM3_CH1,
+    USE_TIM4_CH2 = USE_TIM3_CH1,
+    USE_TIM4_CH3 = USE_TIM3_CH1,
+    USE_TIM4_CH4 = USE_TIM3_CH1,
     USE_TIM5_CH1 = MODE_ALTERNATE | 2 << USE_ALTERNATE_PLACE,
     USE_TIM5_CH2 = USE_TIM5_CH1,
     USE_TIM5_CH3 = USE_TIM5_CH1,
@@ -38,7 +42,7 @@ struct use {
 
 static const struct use uses[] = {
 #define X(signal, port, pin, use) {(uint8_t)STM32_PIN_##signal, (uint8_t)USE_##use},
-    BOARD_PINS(X) BOARD_ENABLE_PINS(X)
+    BOARD_PINS(X) BOARD_ENABLE_PINS(X) STM32_PWM_PINS(X) STM32_MORE_LED_PINS(X)
 #undef X
 #define X(port, pin, what) {(uint8_t)(16 * STM32_PORT_##port + (pin)), (uint8_t)USE_IN_UP},
         BOARD_PULLED_UP(X)
@@ -79,7 +83,7 @@ static const uint8_t outputs[] = {
     STM32_PIN_BO_1, STM32_PIN_BO_2, STM32_PIN_BO_3, STM32_PIN_BO_4,
     STM32_PIN_BO_5, STM32_PIN_BO_6, STM32_PIN_BO_7, STM32_PIN_BO_8,
 };
-static const uint8_t leds[] = {STM32_PIN_LED_1, STM32_PIN_LED_2, STM32_PIN_LED_3, STM32_PIN_LED_4};
+static const uint8_t leds[] = {STM32_LED_PINS};
 
 void stm32_pins_make_safe(void)
 {

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "board.h"
+#include "image.h"
 #include "stm32f4.h"
 
 enum {
@@ -28,9 +29,28 @@ enum {
 #define BOARD_ENABLE_IDLE_MS 0U
 #endif
 
+/* What only some boards have, and only some units need: a PWM output, and more than four LEDs. */
+#if IMAGE_PWM && defined BOARD_PWM_PINS
+#define STM32_PWM_PINS(X) BOARD_PWM_PINS(X)
+#define STM32_PWM_LEVEL BOARD_PWM_LEVEL
+#else
+#define STM32_PWM_PINS(X)
+#define STM32_PWM_LEVEL 1U
+#endif
+#if IMAGE_LEDS > 4 && defined BOARD_MORE_LED_PINS
+#define STM32_MORE_LED_PINS(X) BOARD_MORE_LED_PINS(X)
+#else
+#define STM32_MORE_LED_PINS(X)
+#endif
+
+/* All LEDs that the unit has, for a list. */
+#define STM32_LED_PIN(signal, port, pin, use) STM32_PIN_##signal,
+#define STM32_LED_PINS                                                                                                 \
+    STM32_PIN_LED_1, STM32_PIN_LED_2, STM32_PIN_LED_3, STM32_PIN_LED_4, STM32_MORE_LED_PINS(STM32_LED_PIN)
+
 enum stm32_pin {
 #define X(signal, port, pin, use) STM32_PIN_##signal = 16 * STM32_PORT_##port + (pin),
-    BOARD_PINS(X) BOARD_ENABLE_PINS(X)
+    BOARD_PINS(X) BOARD_ENABLE_PINS(X) STM32_PWM_PINS(X) STM32_MORE_LED_PINS(X)
 #undef X
 };
 

@@ -3,7 +3,7 @@
  *
  *   priority 0  TIM2     stm32_step.c   masked only with all interrupts (PRIMASK), for less than 2 us; for some 30 us
  *                                       where pulses are taken back and others laid
- *   priority 1  USART    stm32_line.c
+ *   priority 1  USART    stm32_line_half.c or stm32_line_full.c
  *   priority 2  SysTick  stm32_tick.c   held off by main through BASEPRI, for less than 2 us
  *               EXTI     stm32_tick.c   likewise
  *   priority 3  PendSV   stm32_tick.c   held off by main through BASEPRI, while it plans
@@ -76,6 +76,10 @@ void stm32_driver_tick(void);
 void stm32_pins_start(void);
 void stm32_pins_make_safe(void);
 
+/* stm32_pwm.c. The output is 0 from the start on; safe, before the start, too. */
+void stm32_pwm_start(const struct stm32_clock *clock);
+void stm32_pwm_make_safe(void);
+
 /* stm32_io.c. All LEDs blinking together say that there is no crystal. */
 uint8_t stm32_io_node(void);
 void stm32_io_blink(bool on);
@@ -110,11 +114,14 @@ void stm32_edge_start(void);
 void stm32_edge_hold(void);
 void stm32_edge_let_through(void);
 
-/* stm32_line.c */
+/* stm32_line_half.c or stm32_line_full.c */
 void stm32_line_start(const struct stm32_clock *clock);
 void stm32_line_interrupt(void);
-/* Lets the bus go when a transmission does not come to its end. Every millisecond. */
+/* Every millisecond. Half duplex: lets the bus go when a transmission does not come to its end; full duplex: fetches
+ * what has come. */
 void stm32_line_tick(void);
+/* Main is to look at the line so many ticks after its last look at the latest; UINT32_MAX: what comes wakes it. */
+uint32_t stm32_line_look_ticks(void);
 
 /* stm32_supply.c. After the step timer, before the watchdog. Watches the supply; takes 0.25 ms. */
 void stm32_supply_start(void);

@@ -124,6 +124,8 @@ struct stm32_channel {
     bool turns;               /* nothing is laid any more before DIR has changed */
     bool backward;            /* DIR with the pulse laid last */
     bool connected;
+    bool reversed;        /* the levels of DIR are the other way round */
+    uint32_t falling_bit; /* of the channel in TIM_CCER: its output is inverted */
     struct hal_step_pulse ring[RING_PULSES];
 };
 
@@ -148,10 +150,10 @@ static inline void set_mode(const struct stm32_output *output, uint32_t mode)
     *output->mode = *output->modes;
 }
 
-/* The level of the DIR pin: 0 while it is not connected. */
+/* The level of the DIR pin: that of forward while it is not connected. */
 static inline bool direction_level(const struct stm32_channel *channel)
 {
-    return (channel->connected && channel->backward) == (BOARD_DIR_LEVEL == 1U);
+    return ((channel->connected && channel->backward) != channel->reversed) == (BOARD_DIR_LEVEL == 1U);
 }
 
 /* Whether matches of the channel ask its stream for the next edge. */

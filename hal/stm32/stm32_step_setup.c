@@ -90,20 +90,35 @@ static void wait_until_past(uint32_t start, uint32_t ticks)
     }
 }
 
-/* Waits a few microseconds: what DIR has to stand still after the last pulse, and before the next. */
+/* After the last pulse, and before the next, DIR has to stand still. */
+static void wait_before_change(const struct stm32_channel *channel)
+{
+    wait_until_past(channel->last_tick, HOLD_TICKS);
+}
+
+static void wait_after_change(void)
+{
+    wait_until_past(TIM2_CNT, SETUP_TICKS);
+}
+
+static void show_direction(const struct stm32_channel *channel)
+{
+    hal_step_hold();
+    set_mode(&channel->direction, direction_level(channel) ? MODE_HIGH : MODE_LOW);
+    hal_step_release();
+}
+
 static void set_pins(unsigned motor, bool backward, bool connected)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
     if (channel->backward == backward && channel->connected == connected) {
         return;
     }
-    wait_until_past(channel->last_tick, HOLD_TICKS);
+    wait_before_change(channel);
     channel->backward = backward;
     channel->connected = connected;
-    hal_step_hold();
-    set_mode(&channel->direction, direction_level(channel) ? MODE_HIGH : MODE_LOW);
-    hal_step_release();
-    wait_until_past(TIM2_CNT, SETUP_TICKS);
+    show_direction(channel);
+    wait_after_change();
 }
 
 void hal_step_set_direction(unsigned motor, bool backward)
@@ -116,6 +131,24 @@ void hal_step_set_direction(unsigned motor, bool backward)
 void hal_step_connect(unsigned motor, bool connected)
 {
     set_pins(motor, stm32_step.channel[motor].backward, connected && stm32_step.may_move);
+}
+
+/* The channel at rest forces its output inactive, so the pin changes once, with the polarity of that. */
+static void set_falling(const struct stm32_channel *channel, bool falling)
+{
+    bool inverted = falling == (BOARD_STEP_LEVEL == 1U);
+    uint32_t others = TIM_CCER(channel->timer) & ~channel->falling_bit;
+    TIM_CCER(channel->timer) = inverted ? others | channel->falling_bit : others;
+}
+
+void hal_step_set_polarity(unsigned motor, bool falling, bool turned)
+{
+    struct stm32_channel *channel = &stm32_step.channel[motor];
+    wait_before_change(channel);
+    set_falling(channel, falling);
+    channel->reversed = turned;
+    show_direction(channel);
+    wait_after_change();
 }
 
 static uint32_t both(uint32_t mode)
@@ -190,9 +223,11 @@ static void set_up(unsigned motor, bool may_move)
         .clear = source->stream < 4U ? &DMA1_LIFCR : &DMA1_HIFCR,
         .flags = (uint32_t)STREAM_FLAGS << (stream % 2U * 6U + stream / 2U * 16U),
         .connected = may_move,
+        .falling_bit = TIM_CCER_CC1P << (4U * source->channel),
     };
     set_up_stream(channel, source->request);
-    TIM_CCER(base) |= (TIM_CCER_CC1E | (BOARD_STEP_LEVEL == 1U ? 0U : TIM_CCER_CC1P)) << (4U * source->channel);
+    set_falling(channel, false);
+    TIM_CCER(base) |= TIM_CCER_CC1E << (4U * source->channel);
     TIM_CCER(TIM3_BASE) |= TIM_CCER_CC1E << (4U * turn);
 }
 

@@ -5,20 +5,32 @@
 #ifndef STM32_STEP_TIMES_H
 #define STM32_STEP_TIMES_H
 
+#include <assert.h>
 #include <stdbool.h>
 #include <stdint.h>
 
 #include "base_tick.h"
 #include "board.h"
+#include "image.h"
 
 #define TICKS_OF_NS(ns) (((ns) * TICKS_PER_US + 999U) / 1000U)
 
+/* The width of a pulse is the board's, or that of the image. Then two edges are a period of the highest rate apart,
+ * which is 2 ticks less where both were rounded. */
 enum {
-    HIGH_TICKS = TICKS_OF_NS(BOARD_STEP_HIGH_NS),
-    LOW_TICKS = TICKS_OF_NS(BOARD_STEP_LOW_NS),
+    STEP_RATE_MAX = 200000,
+    ROUNDED_TICKS = 2,
+    HIGH_TICKS = TICKS_OF_NS(IMAGE_STEP_HIGH_NS != 0U ? IMAGE_STEP_HIGH_NS : BOARD_STEP_HIGH_NS),
+    LEFT_TICKS = TICK_HZ / STEP_RATE_MAX - HIGH_TICKS - ROUNDED_TICKS,
+    BOARD_LOW_TICKS = TICKS_OF_NS(BOARD_STEP_LOW_NS),
+    LOW_TICKS = IMAGE_STEP_HIGH_NS != 0U && BOARD_LOW_TICKS > LEFT_TICKS ? LEFT_TICKS : BOARD_LOW_TICKS,
     SETUP_TICKS = TICKS_OF_NS(BOARD_DIR_SETUP_NS),
     HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS) + HIGH_TICKS, /* after a rising edge, while main waits */
 };
+
+static_assert(IMAGE_STEP_HIGH_NS == 0U ||
+                  (IMAGE_STEP_HIGH_NS >= BOARD_STEP_HIGH_NS && BOARD_LOW_TICKS <= LEFT_TICKS + ROUNDED_TICKS),
+              "the drivers of the board want wider pulses than the unit makes, or more time between them");
 
 /* Of ticks less than 25 s apart. */
 static inline bool is_before(uint32_t tick, uint32_t other)

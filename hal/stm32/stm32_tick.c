@@ -5,6 +5,7 @@
 #include "hal_io.h"
 #include "hal_run.h"
 #include "hal_time.h"
+#include "image.h"
 #include "stm32_private.h"
 #include "stm32f4.h"
 
@@ -60,7 +61,7 @@ static void every_millisecond(void)
     stm32_line_tick();
     stm32_driver_tick();
     stm32_watchdog_tick();
-    if (!tick.crystal) {
+    if (!tick.crystal && IMAGE_LEDS_BLINK != 0) {
         stm32_io_blink(tick.milliseconds / BLINK_MS % 2U != 0);
     }
 }

@@ -40,9 +40,11 @@
 #define RCC_CFGR_PPRE2(n) ((n) << 13)
 #define RCC_AHB1ENR_GPIOAEN (1U << 0)
 #define RCC_AHB1ENR_DMA1EN (1U << 21)
+#define RCC_AHB1ENR_DMA2EN (1U << 22)
 #define RCC_APB1RSTR_TIM5RST (1U << 3)
 #define RCC_APB1ENR_TIM2EN (1U << 0)
 #define RCC_APB1ENR_TIM3EN (1U << 1)
+#define RCC_APB1ENR_TIM4EN (1U << 2)
 #define RCC_APB1ENR_TIM5EN (1U << 3)
 #define RCC_APB1ENR_USART2EN (1U << 17)
 #define RCC_APB1ENR_USART3EN (1U << 18)
@@ -123,6 +125,7 @@
  * TIM5 captures the low-speed oscillator before that. */
 #define TIM2_BASE 0x40000000U
 #define TIM3_BASE 0x40000400U /* of 16 bits: DIR */
+#define TIM4_BASE 0x40000800U /* of 16 bits: PWM */
 #define TIM5_BASE 0x40000C00U
 #define TIM_CR1(base) STM32_REGISTER((base) + 0x00U)   /* 18.4.1 */
 #define TIM_DIER(base) STM32_REGISTER((base) + 0x0CU)  /* 18.4.4 */
@@ -141,6 +144,7 @@
 #define TIM5_CCR4 STM32_REGISTER(TIM5_BASE + 0x40U)    /* 18.4.16 */
 #define TIM5_OR STM32_REGISTER(TIM5_BASE + 0x50U)      /* 18.4.20 */
 #define TIM_CR1_CEN (1U << 0)
+#define TIM_CR1_ARPE (1U << 7)
 #define TIM_DIER_CC1IE (1U << 1)
 #define TIM_DIER_CC4IE (1U << 4)
 #define TIM_DIER_CC1DE (1U << 9)
@@ -149,7 +153,9 @@
 #define TIM_EGR_UG (1U << 0)
 #define TIM_EGR_CC1G (1U << 1)
 #define TIM_EGR_CC4G (1U << 4)
+#define TIM_CCMR1_OC1PE (1U << 3)
 #define TIM_CCMR1_OC1M(n) ((n) << 4)
+#define TIM_CCMR1_OC2PE (1U << 11)
 #define TIM_CCMR1_OC2M(n) ((n) << 12)
 #define TIM_CCER_CC1E (1U << 0)
 #define TIM_CCER_CC1P (1U << 1)
@@ -158,11 +164,14 @@
 #define TIM5_CCMR2_IC4PSC(n) ((n) << 10)
 #define TIM5_OR_TI4_RMP(n) ((n) << 6)
 
-/* What carries the edges into the timers; the streams count from 0 */
+/* What carries the edges into the timers, and on DMA2 what the line has received; the streams count from 0 */
 #define DMA1_BASE 0x40026000U
 #define DMA1_LIFCR STM32_REGISTER(DMA1_BASE + 0x08U) /* 10.5.3 */
 #define DMA1_HIFCR STM32_REGISTER(DMA1_BASE + 0x0CU) /* 10.5.4 */
 #define DMA1_STREAM(n) (DMA1_BASE + 0x10U + 0x18U * (n))
+#define DMA2_BASE 0x40026400U
+#define DMA2_LIFCR STM32_REGISTER(DMA2_BASE + 0x08U) /* 10.5.3 */
+#define DMA2_STREAM(n) (DMA2_BASE + 0x10U + 0x18U * (n))
 #define DMA_CR(stream) STM32_REGISTER((stream) + 0x00U)   /* 10.5.5 */
 #define DMA_NDTR(stream) STM32_REGISTER((stream) + 0x04U) /* 10.5.6 */
 #define DMA_PAR(stream) STM32_REGISTER((stream) + 0x08U)  /* 10.5.7 */
@@ -199,6 +208,7 @@
 #define USART_DR(base) STM32_REGISTER((base) + 0x04U)  /* 30.6.2 */
 #define USART_BRR(base) STM32_REGISTER((base) + 0x08U) /* 30.6.3 */
 #define USART_CR1(base) STM32_REGISTER((base) + 0x0CU) /* 30.6.4 */
+#define USART_CR3(base) STM32_REGISTER((base) + 0x14U) /* 30.6.6 */
 #define USART_SR_FE (1U << 1)
 #define USART_SR_NF (1U << 2)
 #define USART_SR_ORE (1U << 3)
@@ -211,6 +221,8 @@
 #define USART_CR1_TCIE (1U << 6)
 #define USART_CR1_TXEIE (1U << 7)
 #define USART_CR1_UE (1U << 13)
+#define USART_CR3_EIE (1U << 0)
+#define USART_CR3_DMAR (1U << 6)
 
 /* Independent watchdog */
 #define IWDG_BASE 0x40003000U

@@ -58,7 +58,7 @@ FIELDS = {
     "PLLQ": "PLLQ0",
 }
 INSTANCES = {"GPIO": "GPIOA", "USART": "USART1", "TIM": "TIM2", "DMA": "DMA1"}
-STREAM = re.compile(r"DMA1_STREAM\(n\) \(DMA1_BASE \+ (0x\w+)U \+ (0x\w+)U \* \(n\)\)")
+STREAM = re.compile(r"DMA(\d)_STREAM\(n\) \(DMA\1_BASE \+ (0x\w+)U \+ (0x\w+)U \* \(n\)\)")
 CORE = {"STK", "SCB", "DWT"}  # blocks of the processor, which the description does not have
 
 
@@ -157,10 +157,10 @@ def test_the_ports_are_one_stride_apart() -> None:
 
 
 def test_the_streams_are_one_stride_apart_and_alike() -> None:
-    match = STREAM.search(TEXT)
-    assert match
-    first, stride = (int(number, 16) for number in match.groups())
+    rows = {(int(m[2], 16), int(m[3], 16)) for m in STREAM.finditer(TEXT)}
+    ((first, stride),) = rows
     registers = peripherals()["DMA1"].registers
+    assert peripherals()["DMA2"].registers == registers
     for number in range(8):
         assert stream_offset(number) == first + stride * number
         for row in ("CR", "NDTR", "PAR", "M0AR", "FCR"):
@@ -200,6 +200,7 @@ def test_every_definition_of_the_header_is_read() -> None:
         "GPIO_STRIDE",
         "GPIO_REGISTER",
         "DMA1_STREAM",
+        "DMA2_STREAM",
         "FLASH_KEY_1",
         "FLASH_KEY_2",
     }

@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "gve_command.h"
+#include "../command/gve_command.h"
 #include "hal_line.h"
 
 enum {

@@ -45,6 +45,15 @@
     X(S1_3, B, 4, IN_UP)                                                                                               \
     X(S1_4, B, 5, IN_UP)
 
+/* What some units have besides: a PWM output, and LEDs 5 to 8. */
+#define BOARD_PWM_PINS(X) X(PWM, B, 6, TIM4_CH1)
+#define BOARD_PWM_LEVEL 1U
+#define BOARD_MORE_LED_PINS(X)                                                                                         \
+    X(LED_5, C, 12, OUT)                                                                                               \
+    X(LED_6, D, 2, OUT)                                                                                                \
+    X(LED_7, B, 3, OUT)                                                                                                \
+    X(LED_8, B, 7, OUT)
+
 /* Pins without a signal that are pulled up, so that a part beside them rests. */
 #define BOARD_PULLED_UP(X)
 

@@ -1,0 +1,26 @@
+/*
+ * What is fixed when an image of this unit is built. The STM32 backend includes it, as it does the header of the board.
+ */
+#ifndef IMAGE_H
+#define IMAGE_H
+
+/* The line: its rate, one of six, and whether it hears while it sends (hal_line.h). FIRMWARE_LINE_BD of the build takes
+ * another rate. */
+#ifndef IMAGE_LINE_BD
+#define IMAGE_LINE_BD 115200U
+#endif
+#define IMAGE_LINE_FULL_DUPLEX 1
+
+/* The width of a pulse at STEP; 0: that of the board. */
+#define IMAGE_STEP_HIGH_NS 2500U
+
+/* Of the 8 LEDs of hal_io.h those that the unit has, whether all of them blink without the crystal, and whether there
+ * is a PWM output. */
+#define IMAGE_LEDS 8
+#define IMAGE_LEDS_BLINK 0
+#define IMAGE_PWM 1
+
+/* The stack; tools/rkm04_tools/board_size.py proves how much of it can be needed. */
+#define IMAGE_STACK_BYTES 5120
+
+#endif

@@ -1,0 +1,123 @@
+#include "stm32_line_private.h"
+
+enum {
+    STALL_MS = 10, /* twenty characters */
+
+    /* The transmitter stays on, as its start would send an idle character first (RM0090 30.3.2). */
+    LISTENING = USART_CR1_UE | USART_CR1_TE | USART_CR1_RE | USART_CR1_RXNEIE,
+    DRIVING = USART_CR1_UE | USART_CR1_TE | USART_CR1_TXEIE,
+    LETTING_GO = USART_CR1_UE | USART_CR1_TE | USART_CR1_TCIE,
+};
+
+static struct {
+    volatile bool driving;
+    uint8_t stall_ms;
+} bus;
+
+static void receive(uint32_t status)
+{
+    uint8_t value = (uint8_t)USART_DR(STM32_LINE_BASE); /* also ends the errors, RM0090 30.6.1 */
+    stm32_line_keep(TIM2_CNT, value, (status & (USART_SR_FE | USART_SR_NF | USART_SR_ORE)) != 0);
+}
+
+static void let_go(void)
+{
+    stm32_pin_write(STM32_PIN_LINE_DE, false);
+    bus.driving = false;
+    USART_CR1(STM32_LINE_BASE) = LISTENING;
+}
+
+/* Gives the transmitter its next byte; after the last one it waits for the end of the stop bit. */
+static void send_next(void)
+{
+    if (stm32_line.sending_out == stm32_line.sending_in) {
+        USART_CR1(STM32_LINE_BASE) = LETTING_GO;
+        return;
+    }
+    bus.stall_ms = 0;
+    USART_DR(STM32_LINE_BASE) = stm32_line.sending[stm32_line.sending_out % SENDING_MAX];
+    stm32_line.sending_out++;
+    USART_CR1(STM32_LINE_BASE) = DRIVING;
+}
+
+/* The receiver is off while the unit sends: it does not hear itself. */
+static void serve(void)
+{
+    uint32_t status = USART_SR(STM32_LINE_BASE);
+    if (!bus.driving) {
+        if ((status & (USART_SR_RXNE | USART_SR_ORE)) != 0) {
+            receive(status);
+        }
+    } else if (stm32_line.sending_out != stm32_line.sending_in) {
+        if ((status & USART_SR_TXE) != 0) {
+            send_next();
+        }
+    } else if ((status & USART_SR_TC) != 0) {
+        let_go();
+    } else {
+        send_next();
+    }
+}
+
+void stm32_line_interrupt(void)
+{
+    serve();
+    stm32_event = true;
+}
+
+bool hal_line_read(struct hal_line_byte *byte)
+{
+    return stm32_line_take(byte);
+}
+
+/* Serves the transmitter too, so that a byte goes out where the transmitter raises no interrupts (an emulator). */
+bool hal_line_write(uint8_t byte)
+{
+    if (stm32_line.sending_in - stm32_line.sending_out == (uint32_t)SENDING_MAX) {
+        return false;
+    }
+    stm32_line.sending[stm32_line.sending_in % SENDING_MAX] = byte;
+    uint32_t mask = stm32_mask();
+    stm32_line.sending_in++;
+    if (!bus.driving) {
+        bus.driving = true;
+        bus.stall_ms = 0;
+        stm32_pin_write(STM32_PIN_LINE_DE, true);
+        USART_CR1(STM32_LINE_BASE) = DRIVING;
+    }
+    serve();
+    stm32_unmask(mask);
+    return true;
+}
+
+bool hal_line_is_idle(void)
+{
+    uint32_t mask = stm32_mask();
+    if (bus.driving) {
+        serve();
+    }
+    stm32_unmask(mask);
+    return !bus.driving;
+}
+
+void stm32_line_tick(void)
+{
+    uint32_t mask = stm32_mask();
+    if (bus.driving && ++bus.stall_ms > STALL_MS) {
+        stm32_line.sending_out = stm32_line.sending_in;
+        let_go();
+    }
+    stm32_unmask(mask);
+}
+
+uint32_t stm32_line_look_ticks(void)
+{
+    return UINT32_MAX;
+}
+
+void stm32_line_start(const struct stm32_clock *clock)
+{
+    STM32_LINE_CLOCK_ENABLE();
+    USART_BRR(STM32_LINE_BASE) = STM32_LINE_DIVIDER(STM32_LINE_CLOCK_HZ(clock), IMAGE_LINE_BD);
+    USART_CR1(STM32_LINE_BASE) = LISTENING;
+}

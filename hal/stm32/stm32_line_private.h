@@ -1,0 +1,57 @@
+/*
+ * What both lines, stm32_line_half.c and stm32_line_full.c, have in common: two rings whose counts wrap with 32 bits.
+ * Each count is written on one side only: of what was received, `in` where bytes come and `out` by main; of what is
+ * sent the other way round.
+ */
+#ifndef STM32_LINE_PRIVATE_H
+#define STM32_LINE_PRIVATE_H
+
+#include <assert.h>
+
+#include "hal_line.h"
+#include "image.h"
+#include "stm32_line.h"
+#include "stm32_pins.h"
+#include "stm32_private.h"
+
+enum {
+    /* Powers of two. Half duplex: 66 ms of a full line; full duplex: what may come while the flash is written. */
+    RECEIVED_MAX = IMAGE_LINE_FULL_DUPLEX ? 512 : 128,
+    SENDING_MAX = 64
+};
+
+struct stm32_received {
+    uint32_t tick;
+    uint8_t value;
+    bool broken;
+};
+
+struct stm32_line {
+    struct stm32_received received[RECEIVED_MAX];
+    uint8_t sending[SENDING_MAX];
+    volatile uint32_t received_in;
+    volatile uint32_t received_out;
+    volatile uint32_t sending_in;
+    volatile uint32_t sending_out;
+};
+extern struct stm32_line stm32_line;
+
+/* What BRR holds: clocks of the bus in a bit, of which there are 16 samples (RM0090 30.3.4). */
+#define STM32_LINE_DIVIDER(hz, bd) (((hz) + (bd) / 2U) / (bd))
+
+/* Keeps a byte. One too many is lost, and the one before it broken. */
+static inline void stm32_line_keep(uint32_t tick, uint8_t value, bool broken)
+{
+    if (stm32_line.received_in - stm32_line.received_out == (uint32_t)RECEIVED_MAX) {
+        stm32_line.received[(stm32_line.received_in - 1U) % RECEIVED_MAX].broken = true;
+        return;
+    }
+    stm32_line.received[stm32_line.received_in % RECEIVED_MAX] =
+        (struct stm32_received){.tick = tick, .value = value, .broken = broken};
+    stm32_line.received_in++;
+}
+
+/* The oldest one, for hal_line_read. */
+bool stm32_line_take(struct hal_line_byte *byte);
+
+#endif
