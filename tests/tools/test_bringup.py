@@ -346,8 +346,10 @@ def test_option_bytes_are_held_against_what_board_options_wants(control, verdict
 
 
 def test_an_image_is_flashed_by_its_name(tool, monkeypatch):
-    def built(name: str, target: str = "all", what: str = board.UNIT) -> board.Image:
-        return board.image_of(name, what)
+    def built(
+        name: str, target: str = "all", what: str = board.UNIT, baud: int | None = None
+    ) -> board.Image:
+        return board.image_of(name, what, baud)
 
     monkeypatch.setattr(board, "build", built)
 

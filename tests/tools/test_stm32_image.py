@@ -41,7 +41,7 @@ def test_the_stack_has_a_margin(image):
 
 
 def test_what_must_run_from_ram_does(image):
-    assert ram_code.main([str(image.file("elf"))]) == 0
+    assert ram_code.main(["rkm04", str(image.file("elf"))]) == 0
 
 
 def test_the_version_is_baked_in(image):
@@ -63,11 +63,11 @@ def test_no_path_of_the_machine_is_in_the_image(image):
 
 HEADING = "Relocation section '.rel.ram' at offset 0x1 contains 999 entries:"
 GOOD = [HEADING, *["20003de4  00000102 R_ARM_ABS32  20003000   helper"] * ram_code.REFERENCES_MIN]
-ENTRIES = [f"20003000 T {name}" for name in ram_code.ENTRIES]
+ENTRIES = [f"20003000 T {name}" for name in [*ram_code.ENTRIES, *ram_code.UNIT_ENTRIES["rkm04"]]]
 
 
 def test_good_relocations_have_nothing_wrong():
-    assert list(ram_code.find_errors(GOOD, ENTRIES)) == []
+    assert list(ram_code.find_errors("rkm04", GOOD, ENTRIES)) == []
 
 
 @pytest.mark.parametrize(
@@ -89,7 +89,7 @@ def test_good_relocations_have_nothing_wrong():
     ],
 )
 def test_a_planted_fault_is_found(relocations, symbols, complaint):
-    errors = list(ram_code.find_errors(relocations, symbols))
+    errors = list(ram_code.find_errors("rkm04", relocations, symbols))
 
     assert len(errors) == 1
     assert complaint in errors[0]
@@ -101,7 +101,7 @@ def test_references_of_other_sections_do_not_count():
         "08000000  1e R_ARM_ABS32  08003000   far",
     ]
 
-    assert list(ram_code.find_errors([*GOOD, *other], ENTRIES)) == []
+    assert list(ram_code.find_errors("rkm04", [*GOOD, *other], ENTRIES)) == []
 
 
 def graph(**calls: set[str]) -> Graph:
@@ -169,7 +169,7 @@ def test_size_shows_the_budgets(tool):
 
 
 def test_size_fails_over_the_budget(tool, monkeypatch):
-    monkeypatch.setattr(board_size, "budgets", lambda: board_size.Sizes(1, 10**6, 10**6))
+    monkeypatch.setattr(board_size, "budgets", lambda _: board_size.Sizes(1, 10**6, 10**6))
 
     result = tool("board", "size")
 

@@ -277,4 +277,4 @@ def test_the_readme_tells_the_level_of_every_kind_of_wire(name):
     kinds = {wire.kind for wire in wires(name)}
 
     assert set(levels(name)) == kinds
-    assert kinds - {"EN"} == {"STEP", "DIR", "LINE", "BI", "BO", "LED", "S1"}
+    assert kinds - {"EN", "PWM"} == {"STEP", "DIR", "LINE", "BI", "BO", "LED", "S1"}

@@ -32,6 +32,13 @@ TURN_CHANNELS = {
     "TIM3_CH3": {"B0", "C8"},
     "TIM3_CH4": {"B1", "C9"},
 }
+# And of the one that makes the PWM (2).
+PWM_CHANNELS = {
+    "TIM4_CH1": {"B6", "D12"},
+    "TIM4_CH2": {"B7", "D13"},
+    "TIM4_CH3": {"B8", "D14"},
+    "TIM4_CH4": {"B9", "D15"},
+}
 CHANNELS = {"STEP": TIMER_CHANNELS, "DIR": TURN_CHANNELS}
 LINE_PINS = {
     "USART1": {"TX": {"A9", "B6"}, "RX": {"A10", "B7"}},
@@ -53,13 +60,14 @@ SIGNALS = [
     *(f"{name}_{i}" for name in ("BI", "BO") for i in range(1, 9)),
     *("LINE_DE", "LINE_TX", "LINE_RX"),
 ]
+MAY_BE = {"PWM", *(f"LED_{i}" for i in range(5, 9))}
 ENABLES = [["EN_ALL"], [f"EN_{i}" for i in range(1, 5)]]
 INPUTS = {"BI", "S1"}
 
 # RM0090 8.3.2: pins of the debug port that are pulled up from a reset on, until the firmware has
 # set them up. What must be safe meanwhile cannot be there.
 PULLED_UP = {"A15": "JTDI", "B4": "NJTRST"}
-SAFE_AT_RESET = {"STEP", "DIR", "BO", "LINE"}
+SAFE_AT_RESET = {"STEP", "DIR", "BO", "LINE", "PWM"}
 
 
 def use_errors(pin: Pin, line: str, step_class: str) -> Iterator[str]:
@@ -67,8 +75,8 @@ def use_errors(pin: Pin, line: str, step_class: str) -> Iterator[str]:
     kind, _, which = pin.signal.partition("_")
     if kind in SAFE_AT_RESET and pin.pin in PULLED_UP:
         yield f"{pin.signal}: P{pin.pin} is pulled up at reset as {PULLED_UP[pin.pin]}"
-    channels = CHANNELS.get(kind, {})
-    if channels and step_class == "2":
+    channels = PWM_CHANNELS if kind == "PWM" else CHANNELS.get(kind, {})
+    if channels and kind in CHANNELS and step_class == "2":
         if pin.use != (wanted := "GPIO" if kind == "STEP" else "OUT"):
             yield f"{pin.signal} must be {wanted}, as BOARD_STEP_CLASS says, not {pin.use}"
     elif channels:
@@ -110,7 +118,7 @@ def find_errors(text: str) -> Iterator[str]:
         yield "BOARD_STEP_CLASS must be 1 or 2"
     names = [pin.signal for pin in board.pins]
     yield from enable_errors(names)
-    own = {name for name in names if not name.startswith("EN_")}
+    own = {name for name in names if not name.startswith("EN_")} - MAY_BE
     for name in sorted(own ^ set(SIGNALS)):
         yield f"{name} {'is not a signal' if name in names else 'has no pin'}"
     owners: dict[str, str] = {}

@@ -14,6 +14,11 @@ if(NOT loader_bytes)
     set(loader_bytes 0)
 endif()
 
+# The unit says how large its stack is.
+set(image_header ${PROJECT_SOURCE_DIR}/firmware/${FIRMWARE_UNIT}/image/image.h)
+file(STRINGS ${image_header} stack REGEX "^#define IMAGE_STACK_BYTES ")
+string(REGEX REPLACE "^#define IMAGE_STACK_BYTES " "" stack_bytes "${stack}")
+
 # firmware_add_image(<target> <name> <library> <source>...): a main and the library that it needs, for the board.
 function(firmware_add_image target name library)
     add_executable(${target} ${ARGN})
@@ -21,20 +26,23 @@ function(firmware_add_image target name library)
     target_link_libraries(${target} PRIVATE ${library} hal hal_stm32 warnings)
     # Relocations stay in the image (-q): they tell the checks what refers to what.
     target_link_options(${target} PRIVATE -nostartfiles --specs=nano.specs
-        -Wl,--defsym=stm32_loader_bytes=${loader_bytes} -T ${script}
+        -Wl,--defsym=stm32_loader_bytes=${loader_bytes} -Wl,--defsym=stm32_stack_bytes=${stack_bytes} -T ${script}
         -Wl,--gc-sections -Wl,-q -Wl,--fatal-warnings -Wl,-Map=${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name}.map)
 endfunction()
 firmware_add_image(unit_image ${image} ${FIRMWARE_UNIT} firmware/${FIRMWARE_UNIT}/main.c)
-firmware_add_image(bench_image ${image}-bench firmware_inside hal/stm32/bench/bench_main.c)
+if(FIRMWARE_UNIT STREQUAL rkm04)
+    firmware_add_image(bench_image ${image}-bench firmware_inside hal/stm32/bench/bench_main.c)
 
-# What a new board is tried with.
-set(bringup bringup-${FIRMWARE_BOARD})
-set(bringup_output ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${bringup})
-file(GLOB bringup_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/hal/stm32/bringup/*.c)
-firmware_add_image(bringup_image ${bringup} engine_step ${bringup_sources})
-target_link_libraries(bringup_image PRIVATE base)
-target_include_directories(bringup_image PRIVATE ${PROJECT_SOURCE_DIR}/hal/stm32/boards/${FIRMWARE_BOARD})
-target_compile_definitions(bringup_image PRIVATE BRINGUP_BOARD="${FIRMWARE_BOARD}")
+    # What a new board is tried with; it speaks as the RKM04 unit does.
+    set(bringup bringup-${FIRMWARE_BOARD})
+    set(bringup_output ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${bringup})
+    file(GLOB bringup_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/hal/stm32/bringup/*.c)
+    firmware_add_image(bringup_image ${bringup} engine_step ${bringup_sources})
+    target_link_libraries(bringup_image PRIVATE base)
+    target_include_directories(bringup_image PRIVATE ${PROJECT_SOURCE_DIR}/hal/stm32/boards/${FIRMWARE_BOARD}
+        ${PROJECT_SOURCE_DIR}/firmware/${FIRMWARE_UNIT}/image)
+    target_compile_definitions(bringup_image PRIVATE BRINGUP_BOARD="${FIRMWARE_BOARD}")
+endif()
 
 # For the tests that ask for them.
 firmware_add_image(take_back_image ${image}-take-back firmware_inside tests/vboard/images/take_back_main.c)
@@ -48,16 +56,19 @@ add_custom_command(OUTPUT ${output}.hex ${output}.bin
     COMMAND ${CMAKE_OBJCOPY} -O ihex ${elf} ${output}.hex
     COMMAND ${CMAKE_OBJCOPY} -O binary ${elf} ${output}.bin
     DEPENDS unit_image VERBATIM COMMENT "Files for flashing")
-add_custom_command(OUTPUT ${bringup_output}.hex ${bringup_output}.bin
-    COMMAND ${CMAKE_OBJCOPY} -O ihex $<TARGET_FILE:bringup_image> ${bringup_output}.hex
-    COMMAND ${CMAKE_OBJCOPY} -O binary $<TARGET_FILE:bringup_image> ${bringup_output}.bin
-    DEPENDS bringup_image VERBATIM COMMENT "Files for flashing, to try the board")
+set(files ${output}.hex ${output}.bin)
+if(TARGET bringup_image)
+    add_custom_command(OUTPUT ${bringup_output}.hex ${bringup_output}.bin
+        COMMAND ${CMAKE_OBJCOPY} -O ihex $<TARGET_FILE:bringup_image> ${bringup_output}.hex
+        COMMAND ${CMAKE_OBJCOPY} -O binary $<TARGET_FILE:bringup_image> ${bringup_output}.bin
+        DEPENDS bringup_image VERBATIM COMMENT "Files for flashing, to try the board")
+    list(APPEND files ${bringup_output}.hex ${bringup_output}.bin)
+endif()
 add_custom_command(OUTPUT checked.stamp
     COMMAND ${run_check} checks.board_pins ${board_header}
-    COMMAND ${run_check} checks.ram_code ${elf}
+    COMMAND ${run_check} checks.ram_code ${FIRMWARE_UNIT} ${elf}
     COMMAND ${CMAKE_COMMAND} -E touch checked.stamp
     DEPENDS unit_image ${board_header} ${checks}/board_pins.py ${checks}/ram_code.py
         ${PROJECT_SOURCE_DIR}/tools/rkm04_tools/board_header.py
     VERBATIM COMMENT "Checking pins, and what runs from RAM")
-add_custom_target(board_files ALL
-    DEPENDS ${output}.hex ${output}.bin ${bringup_output}.hex ${bringup_output}.bin checked.stamp)
+add_custom_target(board_files ALL DEPENDS ${files} checked.stamp)

@@ -126,7 +126,7 @@ def _yes(met: bool | None) -> str:
 def budgets() -> dict[str, float]:
     """The budgets of hal/stm32/budgets.json by their names."""
     found = json.loads(board_size.BUDGETS.read_text())
-    return {name: float(value) for name, value in found.items()}
+    return {name: float(value) for name, value in found.items() if not isinstance(value, dict)}
 
 
 def run(options: Namespace) -> int:

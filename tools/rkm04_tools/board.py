@@ -25,6 +25,14 @@ BOARDS = ROOT / "hal" / "stm32" / "boards"
 UNIT, BRINGUP = "rkm04", "bringup"
 IMAGES = (UNIT, BRINGUP)
 """That of the unit, and the one that a new board is tried with."""
+VERSIONS = {
+    UNIT: ("firmware/rkm04/rkm04.h", r'RKM04_VERSION "([^"]+)"'),
+    "gve134": ("firmware/gve134/command/gve_commands.def", r'"\?", "0,([^"]*)"'),
+}
+"""Of each unit that there is an image of, where its version stands."""
+RATES = (38_400, 57_600, 115_200, 230_400, 460_800, 921_600)
+"""Of a line of full duplex; hal/stm32 asserts that they fit."""
+LINE_BD = re.compile(r"^#define IMAGE_LINE_BD (\d+)U$", re.MULTILINE)
 DEFAULT_BOARD = "f405"
 COMPILER = "arm-none-eabi-gcc"
 FLASH_ADDRESS = 0x0800_0000
@@ -52,6 +60,11 @@ class Image:
     def name(self) -> str:
         """Unit and board."""
         return f"{self.what}-{self.board}"
+
+    @property
+    def unit(self) -> str:
+        """Whose it is; what a new board is tried with speaks as RKM04 does."""
+        return UNIT if self.what == BRINGUP else self.what
 
     def file(self, suffix: str) -> Path:
         """The file of one kind: elf, hex, bin."""
@@ -86,31 +99,68 @@ FLASHERS = {
 }
 
 
-def names() -> list[str]:
-    """The boards that there are."""
-    return sorted(path.parent.name for path in BOARDS.glob("*/board.h"))
+def names(unit: str = UNIT) -> list[str]:
+    """The boards that there are for a unit."""
+    there = sorted(path.parent.name for path in BOARDS.glob("*/board.h"))
+    return [name for name in there if not refusal(unit, name)]
 
 
-def version() -> str:
+def version(unit: str = UNIT) -> str:
     """The version that the image answers with."""
-    match = re.search(r'RKM04_VERSION "([^"]+)"', (ROOT / "firmware/rkm04/rkm04.h").read_text())
+    file, pattern = VERSIONS[unit]
+    match = re.search(pattern, (ROOT / file).read_text())
     return match[1] if match else ""
 
 
-def image_of(board: str, what: str = UNIT) -> Image:
+def image_header(unit: str) -> str:
+    """What is fixed when an image of a unit is built."""
+    return (ROOT / "firmware" / unit / "image/image.h").read_text()
+
+
+def is_full_duplex(unit: str) -> bool:
+    """Whether the line of a unit hears while it sends."""
+    return "#define IMAGE_LINE_FULL_DUPLEX 1\n" in image_header(unit)
+
+
+def line_bd(unit: str) -> int:
+    """The rate that the line of a unit has as a rule."""
+    (rate,) = LINE_BD.findall(image_header(unit))
+    return int(rate)
+
+
+def refusal(unit: str, board: str) -> str:
+    """Why a board cannot have the image of a unit, or empty; as hal/stm32 asserts it."""
+    if not is_full_duplex(unit):
+        return ""
+    values = read_board((BOARDS / board / "board.h").read_text()).values
+    if values["BOARD_USART"].rstrip("U") != "1":
+        return "its line is not on USART1, which full duplex needs"
+    if values.get("BOARD_STEP_CLASS", "1") != "1":
+        return "an interrupt makes its steps, whose width cannot be kept then"
+    return ""
+
+
+def image_of(board: str, what: str = UNIT, baud: int | None = None) -> Image:
     """Where a board's image is built: the default one where the preset builds it."""
-    if board not in names():
-        raise Failure(f"{board}: no such board; there are {', '.join(names())}")
-    folder = "stm32" if board == DEFAULT_BOARD else f"stm32-{board}"
-    return Image(board, ROOT / "build" / folder, what)
+    image = Image(board, ROOT / "build", what)
+    if not (BOARDS / board / "board.h").exists():
+        raise Failure(f"{board}: no such board; there are {', '.join(names(image.unit))}")
+    if why := refusal(image.unit, board):
+        raise Failure(f"{board} cannot be a unit {image.unit}: {why}")
+    parts = ["stm32"]
+    parts += [image.unit] if image.unit != UNIT else []
+    parts += [board] if board != DEFAULT_BOARD else []
+    parts += [str(baud)] if baud not in (None, line_bd(image.unit)) else []
+    return Image(board, image.folder / "-".join(parts), what)
 
 
-def build(board: str, target: str = "all", what: str = UNIT) -> Image:
+def build(board: str, target: str = "all", what: str = UNIT, baud: int | None = None) -> Image:
     """Build the image of a board, with the compiler installed if need be, or another target."""
-    image = image_of(board, what)
+    image = image_of(board, what, baud)
     if not shutil.which(COMPILER):
         _call([str(ROOT / "tools" / "setup"), "board"], "the compiler cannot be installed")
     configure = ["cmake", "--preset", "stm32", "-B", str(image.folder), f"-DFIRMWARE_BOARD={board}"]
+    configure += [f"-DFIRMWARE_UNIT={image.unit}", f"-DFIRMWARE_LINE_BD={baud or ''}"]
     with _alone_in(image.folder) as lock:
         if not _is_set_up(image.folder):
             _call(configure, "the build cannot be set up", lock)
@@ -146,21 +196,22 @@ def _call(command: list[str], complaint: str, *kept: int) -> None:
 
 def run_build(options: Namespace) -> int:
     """`board build`: say where the files are."""
-    image = build(options.board, what=options.image)
+    image = build(options.board, what=options.image, baud=options.baud)
     files = [str(image.file(kind).relative_to(ROOT)) for kind in ("elf", "hex", "bin")]
     if options.json:
-        print(json.dumps({"board": image.board, "version": version(), "files": files}))
+        told = {"board": image.board, "version": version(image.unit), "files": files}
+        print(json.dumps(told))
     else:
-        print(f"{image.name}, version {version()}")
+        print(f"{image.name}, version {version(image.unit)}")
         print("\n".join(files))
     return DONE
 
 
 def run_size(options: Namespace) -> int:
     """`board size`: the memory that the image needs, beside its budgets."""
-    image = build(options.board)
-    sizes = asdict(board_size.measure(image.file("elf"), image.folder))
-    budgets = asdict(board_size.budgets())
+    image = build(options.board, what=options.image)
+    sizes = asdict(board_size.measure(image.file("elf"), image.folder, image.unit))
+    budgets = asdict(board_size.budgets(image.unit))
     over = [name for name, size in sizes.items() if size > budgets[name]]
     if options.json:
         answer = {name: {"bytes": size, "budget": budgets[name]} for name, size in sizes.items()}
@@ -208,7 +259,7 @@ def run_flash(options: Namespace) -> int:
     """`board flash`: write the image into the board, or show how."""
     if options.tool == "stm32flash" and not options.port:
         raise Failure("stm32flash needs --port, the serial device that the board is connected to")
-    image = build(options.board, what=options.image)
+    image = build(options.board, what=options.image, baud=options.baud)
     command = flash_command(options.tool, image, options.probe, options.port or "")
     if options.dry_run:
         print(json.dumps({"command": command}) if options.json else shlex.join(command))

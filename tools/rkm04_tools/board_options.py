@@ -107,7 +107,7 @@ def new_control(old: int, level: str) -> int:
 
 def run(options: Namespace) -> int:
     """Show old and new; ask; write; look whether it is so."""
-    board.image_of(options.board)
+    board.image_of(options.board, options.image)
     level = wanted_level(options.board, options.level)
     if options.dry_run:
         return _show_commands(options, level)

@@ -15,13 +15,15 @@ from rkm04_tools.objects import Graph, binutil, short
 
 BUDGETS = Path(__file__).resolve().parents[2] / "hal/stm32/budgets.json"
 
-# Calls through a pointer, which the compiler does not see: who calls, and what.
+# Calls through a pointer, which the compiler does not see: who calls, and what. An image has one
+# unit.
 POINTER_CALLS = {
-    **{function: {"rkm04_lay_isr"} for function in ("ask", "append", "begin", "refill")},
-    "stm32_tick_interrupt": {"rkm04_tick_isr"},
-    "stm32_edge_interrupt": {"rkm04_tick_isr"},
-    "look_at_inputs": {"rkm04_tick_isr"},
-    "stm32_plan_interrupt": {"rkm04_plan_isr"},
+    **{function: {"{unit}_lay_isr"} for function in ("ask", "append", "begin", "refill")},
+    "stm32_tick_interrupt": {"{unit}_tick_isr"},
+    "stm32_edge_interrupt": {"{unit}_tick_isr"},
+    "look_at_inputs": {"{unit}_tick_isr"},
+    "stm32_plan_interrupt": {"{unit}_plan_isr"},
+    **{function: {"speed_of"} for function in ("group_plan", "change")},
     "messages_answer": {
         *("answer_version", "answer_set_command", "answer_store_flash", "answer_get_position"),
         *("answer_get_command", "answer_get_table", "answer_get_progress", "answer_get_status"),
@@ -84,7 +86,7 @@ def call_graph(folder: Path) -> Graph:
     return graph
 
 
-def deepest(function: str, graph: Graph, path: tuple[str, ...] = ()) -> int:
+def deepest(function: str, graph: Graph, path: tuple[str, ...] = (), unit: str = "rkm04") -> int:
     """The deepest stack below and with a function."""
     name = short(function)
     if function in path:
@@ -98,16 +100,17 @@ def deepest(function: str, graph: Graph, path: tuple[str, ...] = ()) -> int:
         if name not in POINTER_CALLS:
             raise Unknown(f"{name} calls through a pointer; add it to POINTER_CALLS")
         callees.remove(INDIRECT)
-        callees |= {known for known in graph.frames if short(known) in POINTER_CALLS[name]}
-    below = [deepest(callee, graph, (*path, function)) for callee in sorted(callees)]
+        named = {call.format(unit=unit) for call in POINTER_CALLS[name]}
+        callees |= {known for known in graph.frames if short(known) in named}
+    below = [deepest(callee, graph, (*path, function), unit) for callee in sorted(callees)]
     return graph.frames[function] + max(below, default=0)
 
 
-def stack_parts(graph: Graph) -> dict[str, int]:
+def stack_parts(graph: Graph, unit: str) -> dict[str, int]:
     """What each priority needs, frames included."""
     absent = SOME_BOARDS - graph.frames.keys()
     parts = {
-        level[0]: max(deepest(root, graph) for root in level if root not in absent)
+        level[0]: max(deepest(root, graph, unit=unit) for root in level if root not in absent)
         + EXCEPTION_FRAME
         for level in LEVELS
     }
@@ -127,15 +130,16 @@ def sections(image: Path) -> dict[str, tuple[int, int]]:
     return found
 
 
-def measure(image: Path, folder: Path) -> Sizes:
+def measure(image: Path, folder: Path, unit: str = "rkm04") -> Sizes:
     found = sections(image)
     return Sizes(
         flash=sum(found[name][0] for name in LOADED),
         ram=sum(size for size, address in found.values() if address in RAM),
-        stack=sum(stack_parts(call_graph(folder)).values()),
+        stack=sum(stack_parts(call_graph(folder), unit).values()),
     )
 
 
-def budgets() -> Sizes:
+def budgets(unit: str = "rkm04") -> Sizes:
     values = json.loads(BUDGETS.read_text())
+    values |= values.get(unit, {})
     return Sizes(**{name: values[f"{name}_bytes"] for name in asdict(Sizes(0, 0, 0))})

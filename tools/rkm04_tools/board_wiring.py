@@ -19,6 +19,9 @@ STEP_CLASSES = {
 }
 AT_ONCE = "an edge acts at once"
 EVERY_MS = "looked at every millisecond, as {} has its line for edges"
+MORE = {"PWM", *(f"LED_{number}" for number in range(5, 9))}
+"""What RKM04 does not have, and what it has that units with a line of full duplex do not."""
+FEWER = {f"S1_{number}" for number in range(1, 5)}
 LEVELS = {"EN": "ENABLE", "LINE": ""}
 """As a header names the level of a kind, where not as the kind; empty: it has none."""
 
@@ -56,13 +59,17 @@ def _what(header: Board, pin: Pin) -> str:
         return _input(header.pins, pin)
     if kind == "EN":
         return _enable(header)
+    if kind == "PWM":
+        return f"{pin.use.replace('_CH', ' channel ')}, 1 kHz"
     return pin.use if pin.signal in ("LINE_TX", "LINE_RX") else ""
 
 
-def wires(header: Board) -> Iterator[Wire]:
-    """All signals, in the order of the header."""
+def wires(header: Board, unit: str = board.UNIT) -> Iterator[Wire]:
+    """The signals of a unit, in the order of the header."""
     for pin in header.pins:
         kind = pin.signal.partition("_")[0]
+        if pin.signal in (MORE if unit == board.UNIT else FEWER):
+            continue
         level = header.values.get(f"BOARD_{LEVELS.get(kind, kind)}_LEVEL", "")
         one = {"1U": "high", "0U": "low"}.get(level, "")
         yield Wire(pin.signal, f"P{pin.pin}", one, _what(header, pin))
@@ -70,8 +77,8 @@ def wires(header: Board) -> Iterator[Wire]:
 
 def run(options: Namespace) -> int:
     """`board pins`."""
-    name = board.image_of(options.board).board
-    shown = list(wires(read_board((board.BOARDS / name / "board.h").read_text())))
+    name = board.image_of(options.board, options.image).board
+    shown = list(wires(read_board((board.BOARDS / name / "board.h").read_text()), options.image))
     if options.json:
         print(json.dumps({"board": name, "pins": [asdict(wire) for wire in shown]}))
     else:

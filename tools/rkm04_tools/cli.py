@@ -182,7 +182,7 @@ def make_parser() -> Parser:
     machine_options.add_arguments(commands, add_command)
     _add_compare(commands)
     _add_bench(commands)
-    _add_board(commands)
+    add_board(commands)
     _add_bringup(commands)
     _add_serve(commands)
     _add_service(commands)
@@ -333,31 +333,38 @@ done when the whole image had been written before. The size of the part's flash 
 stm32flash does not tell it."""
 
 
-def _add_board(commands: Commands) -> None:
-    """The five of them."""
+def add_board(commands: Commands, unit: str = board.UNIT) -> None:
+    """`board` of the tools of a unit."""
     title = "build, measure and flash the firmware of a board"
     command = commands.add_parser("board", help=title, description=title, allow_abbrev=False)
     actions = command.add_subparsers(metavar="ACTION", required=True)
     build = "build the image: .elf, .hex and .bin"
+    other = board.names(unit)[-1]
     parts = [
-        _add(actions, "build", board.run_build, build, "rkm04 board build --board f407-discovery"),
+        _add(actions, "build", board.run_build, build, f"{unit} board build --board {other}"),
         _add(actions, "size", board.run_size, "flash, RAM and stack beside their budgets",
-             "rkm04 board size --json"),
+             f"{unit} board size --json"),
         _add(actions, "flash", board.run_flash, "build the image and write it into the board",
-             "rkm04 board flash --tool dfu-util --dry-run"),
+             f"{unit} board flash --tool dfu-util --dry-run"),
         _add(actions, "options", board_options.run,
              "show the option bytes of the part, and set its brown-out reset",
-             "rkm04 board options --board f407-discovery"),
+             f"{unit} board options --board {other}"),
         _add(actions, "pins", board_wiring.run, "which signal is on which pin, and how exact it is",
-             "rkm04 board pins --board f407-discovery"),
+             f"{unit} board pins --board {other}"),
     ]  # fmt: skip
     for part in parts:
         part.add_argument("--board", metavar="NAME", default=board.DEFAULT_BOARD,
-                          help=f"one of {', '.join(board.names())}")  # fmt: skip
+                          help=f"one of {', '.join(board.names(unit))}")  # fmt: skip
+        part.set_defaults(image=unit, baud=None)
     for part in (parts[0], parts[2]):
-        part.add_argument("--image", choices=board.IMAGES, default=board.UNIT,
-                          help="that of the unit, or the one a new board is tried with "
-                               f"(default: {board.UNIT})")  # fmt: skip
+        if unit == board.UNIT:
+            part.add_argument("--image", choices=board.IMAGES, default=board.UNIT,
+                              help="that of the unit, or the one a new board is tried with "
+                                   f"(default: {board.UNIT})")  # fmt: skip
+        else:
+            part.add_argument("--baud", type=int, choices=board.RATES, default=board.line_bd(unit),
+                              help="the rate of the line "
+                                   f"(default: {board.line_bd(unit)})")  # fmt: skip
     board_options.add_arguments(parts[3])
     flash = parts[2]
     flash.epilog = f"{BOOT0}\n\n{flash.epilog}"

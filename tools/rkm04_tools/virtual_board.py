@@ -26,8 +26,15 @@ NAMES = {
     "S1": "s1_{}", "EN": "m{}_en",
 }  # fmt: skip
 
+MORE_LEDS = {f"LED_{number}": f"led{number}" for number in range(5, 9)}
+"""LEDs that belong to no motor."""
+
 LEVELS = {"EN": "ENABLE"}
 """As a board header names the level of a kind, where not as its wires."""
+
+
+def _low(level: str) -> str:
+    return " low" if level == "0U" else ""
 
 
 def pins(board: Board) -> str:
@@ -38,10 +45,11 @@ def pins(board: Board) -> str:
         level = board.values.get(f"BOARD_{LEVELS.get(kind, kind)}_LEVEL", "1U")
         if pin.signal == "LINE_DE":
             lines.append(f"de P{pin.pin}")
+        elif kind == "PWM" or pin.signal in MORE_LEDS:
+            lines.append(f"{MORE_LEDS.get(pin.signal, 'pwm')} P{pin.pin}{_low(level)}")
         elif kind in NAMES:
-            low = " low" if level == "0U" else ""
             number = "1" if which == "ALL" else which
-            lines.append(f"{NAMES[kind].format(number)} P{pin.pin}{low}")
+            lines.append(f"{NAMES[kind].format(number)} P{pin.pin}{_low(level)}")
     usart = board.values["BOARD_USART"].rstrip("U")
     return "\n".join([*lines, f"line USART{usart}", ""])
 

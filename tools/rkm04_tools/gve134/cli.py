@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from rkm04_tools.cli import Commands, Parser, add_command
+from rkm04_tools.cli import Commands, Parser, add_board, add_command
 from rkm04_tools.gve134 import check
 from rkm04_tools.gve134.gcode import options as gcode_options
 
@@ -38,6 +38,7 @@ def make_parser() -> Parser:
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_check(commands)
     gcode_options.add_arguments(commands)
+    add_board(commands, "gve134")
     return parser
 
 
