@@ -199,8 +199,10 @@ static void check_lines(struct checker *checker)
 {
     struct gve_file lines = gve_file_of(checker->file);
     while (gve_file_next(&lines, &checker->line)) {
-        checker->commands++;
-        check_command(checker);
+        if (!checker->line.probes) {
+            checker->commands++;
+            check_command(checker);
+        }
     }
     if (checker->packet) {
         tell(checker, checker->packet_line, checker->packet_column, GVE_DAMAGED,

@@ -1,6 +1,7 @@
 #include "gve_file.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "line.h"
 
@@ -9,6 +10,7 @@
 
 enum {
     MS_DECIMALS = 6,
+    S_DECIMALS = 9,
     INTERPOLATOR = '0',
     SPINDLE = '7',
 };
@@ -99,6 +101,50 @@ static uint32_t take_address(const uint8_t *bytes, uint32_t begin, uint32_t end,
     return begin;
 }
 
+static bool begins_with(const uint8_t *bytes, uint32_t begin, uint32_t end, const char *text)
+{
+    size_t length = strlen(text);
+    return end - begin >= length && memcmp(&bytes[begin], text, length) == 0;
+}
+
+/* Reads ;@wait and seconds into the time that the host waits before the next command. */
+static bool take_wait(struct gve_file *file, uint32_t begin, uint32_t end)
+{
+    static const char mark[] = ";@wait ";
+    uint64_t ns = 0;
+    const uint8_t *bytes = file->file->bytes;
+    const char *at = (const char *)&bytes[begin] + sizeof mark - 1U;
+    if (!begins_with(bytes, begin, end, mark) ||
+        !line_read_fixed(&at, (const char *)&bytes[end], S_DECIMALS, NS_MAX, &ns) || at != (const char *)&bytes[end]) {
+        return false;
+    }
+    file->wait_ns = file->wait_ns + ns > NS_MAX ? NS_MAX : file->wait_ns + ns;
+    return true;
+}
+
+/* Reads a comment. True: it asks for more of the host than to wait. */
+static bool take_comment(struct gve_file *file, uint32_t begin, uint32_t stop, struct gve_file_line *line)
+{
+    static const char pause[] = ";@pause";
+    const uint8_t *bytes = file->file->bytes;
+    uint32_t first = skip_blanks(bytes, begin, stop);
+    uint32_t end = stop;
+    while (end > first && is_blank(bytes[end - 1U])) {
+        end--;
+    }
+    bool names_pause = begins_with(bytes, first, end, pause);
+    uint8_t after = names_pause && first + sizeof pause - 1U < end ? bytes[first + sizeof pause - 1U] : (uint8_t)' ';
+    if (!begins_with(bytes, first, end, ";@") || take_wait(file, first, end) || (names_pause && is_blank(after))) {
+        return false;
+    }
+    line->place = first - begin;
+    line->probes = begins_with(bytes, first, end, ";@probe") && end - first == sizeof ";@probe" - 1U;
+    if (!line->probes) {
+        line->wrong = "for the host there are ;@wait with seconds, ;@pause with a text, and ;@probe";
+    }
+    return true;
+}
+
 bool gve_file_next(struct gve_file *file, struct gve_file_line *line)
 {
     const uint8_t *bytes = file->file->bytes;
@@ -115,6 +161,11 @@ bool gve_file_next(struct gve_file *file, struct gve_file_line *line)
             line->place = first - begin;
             line->length = end - first;
             line->text = &bytes[first];
+            line->wait_ns = line->timed ? 0 : file->wait_ns;
+            file->wait_ns = line->timed ? file->wait_ns : 0;
+            return true;
+        }
+        if (take_comment(file, begin, stop, line)) {
             return true;
         }
     }

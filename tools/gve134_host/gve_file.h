@@ -5,6 +5,8 @@
  *   L1000,1000,20                              a command without ! and address is for the interpolator
  *   !7V300                                     with them for the unit that it names: 0 or 7
  *   @250.5 H                                   beside the others, 250.5 ms after the start; up to 6 decimals
+ *   ;@wait 2.5                                 comments to the unit: the host waits 2.5 s before the next command;
+ *   ;@probe                                    goes back to where the sensor was touched (gve_probing.h)
  */
 #ifndef GVE_FILE_H
 #define GVE_FILE_H
@@ -17,7 +19,8 @@
 
 struct gve_file {
     const struct infile *file;
-    uint32_t next; /* offset of the next line */
+    uint32_t next;    /* offset of the next line */
+    uint64_t wait_ns; /* for which the lines before it ask */
 };
 
 /* What stands in a line. */
@@ -28,7 +31,9 @@ struct gve_file_line {
     uint32_t length; /* of the command's text; 0 where there is no command */
     uint8_t address; /* enum gve_address */
     bool timed;
+    bool probes;       /* it is no command, but ;@probe */
     uint64_t ns;       /* of one that is timed: from the start */
+    uint64_t wait_ns;  /* for which the host waits before it; of one that is not timed */
     const char *wrong; /* what is wrong with it, if it is not the command itself; else null */
     const uint8_t *text;
 };

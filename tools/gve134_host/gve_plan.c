@@ -209,7 +209,7 @@ static bool take_line(struct planner *planner, const char *text, uint64_t number
     if (strncmp(text, PAUSE_MARK, strlen(PAUSE_MARK)) == 0) {
         planner->pauses++;
     }
-    if (!gve_file_next(&lines, &line)) {
+    if (!gve_file_next(&lines, &line) || line.probes) {
         return true;
     }
     uint32_t length = line.length <= (uint32_t)GVE_TEXT_BYTES_MAX ? line.length : 0;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base_tick.h"
+#include "units.h"
 
 enum {
     INTERPOLATOR = '0',
@@ -109,12 +110,31 @@ static struct gve_player_waiting take_waiting(struct gve_player *player)
 
 /* ---- the lines that follow each other -------------------------------------------------------------------------- */
 
+/* The next command of a probing is sent as if it stood in the file, in its line. */
+static void send_probing(struct gve_player *player, uint64_t wait_ticks)
+{
+    struct gve_file_line *line = &player->next.line;
+    line->address = GVE_ADDRESS_INTERPOLATOR;
+    line->text = (const uint8_t *)player->probing.text;
+    line->length = (uint32_t)strlen(player->probing.text);
+    player->next.opcode = gve_command_read(line->text, line->length, GVE_ADDRESS_INTERPOLATOR).command.opcode;
+    player->next_waits = false;
+    player->next_tick = player->machine->now + wait_ticks;
+}
+
 static void go_on(struct gve_player *player)
 {
     struct gve_script_place before = player->script.place;
     player->next_waits = false;
     player->next_tick = player->machine->now;
     player->has_next = gve_script_next(&player->script, &player->next);
+    if (player->has_next) {
+        player->next_tick += units_ticks_of_ns(player->next.line.wait_ns);
+    }
+    if (player->has_next && player->next.line.probes) {
+        gve_probing_begin(&player->probing);
+        send_probing(player, 0);
+    }
     if (player->has_next && player->next.opcode == GVE_PACKET_BEGIN) {
         player->packet_before = before;
     }
@@ -251,6 +271,35 @@ static void tell(struct gve_player *player, const struct gve_player_waiting *ans
     }
 }
 
+/* The answer to a command of a probing. What does not end well is told, and is the end of the file. */
+static void finish_probing(struct gve_player *player, const struct gve_player_waiting *answered, enum verdict verdict,
+                           const struct gve_told_text *text)
+{
+    enum gve_probing_result result = GVE_PROBING_WRONG;
+    if (verdict == VERDICT_DONE) {
+        result = gve_probing_take(&player->probing, text->bytes, text->length);
+    }
+    player->commands += result == GVE_PROBING_ASKS ? 0U : 1U;
+    player->repeats += result == GVE_PROBING_ASKS ? 1U : 0U;
+    switch (result) {
+    case GVE_PROBING_SENDS:
+        send_probing(player, 0);
+        break;
+    case GVE_PROBING_ASKS:
+        send_probing(player, REPEAT_TICKS);
+        break;
+    case GVE_PROBING_DONE:
+        go_on(player);
+        break;
+    case GVE_PROBING_UNTOUCHED:
+    case GVE_PROBING_WRONG:
+    default:
+        tell(player, answered, VERDICT_WRONG, text);
+        player->has_next = false;
+        break;
+    }
+}
+
 static void finish(struct gve_player *player, const struct gve_player_waiting *answered, struct gve_told_text *text)
 {
     enum verdict verdict = judge(player, answered->line.opcode, text);
@@ -261,8 +310,12 @@ static void finish(struct gve_player *player, const struct gve_player_waiting *a
     if (verdict == VERDICT_DONE) {
         count_vectors(player, answered->line.opcode);
     }
-    tell(player, answered, verdict, text);
+    if (!answered->timed && player->probing.phase != GVE_PROBING_NONE) {
+        finish_probing(player, answered, verdict, text);
+        return;
+    }
     player->commands++;
+    tell(player, answered, verdict, text);
     if (!answered->timed) {
         player->next_repeats = 0;
         go_on(player);

@@ -6,6 +6,9 @@
  * with a time goes at that time beside them, as soon as the line is free: not inside of another line or a packet. So
  * several lines may wait for their answers.
  *
+ * Where the file says ;@probe the player does what a host does there (gve_probing.h); if nothing was touched, the file
+ * ends with that.
+ *
  * Commands and answers are in order, so an answer is that of the first line that waits; the unit keeps that order also
  * where H acts at once. But J leaves everything before it that has not been answered without an answer. So nothing is
  * sent after J until its answer has come and 100 ms have passed, which a unit may need to be ready. The last answer of
@@ -19,6 +22,7 @@
 #include <stdint.h>
 
 #include "gve_command.h"
+#include "gve_probing.h"
 #include "gve_script.h"
 #include "gve_told.h"
 #include "host_machine.h"
@@ -47,6 +51,8 @@ struct gve_player {
     uint64_t next_tick;          /* when it may be sent */
     uint32_t next_repeats;       /* how often it, or its packet, has been answered with code 1 */
 
+    struct gve_probing probing; /* between ;@probe and its end; `next` is a command of its own */
+
     bool packet;                           /* between *S and *E */
     struct gve_script_place packet_before; /* the place before the *S */
     uint32_t packet_commands;              /* sent of it */
@@ -64,7 +70,7 @@ struct gve_player {
 
     struct gve_told told;
     uint64_t commands; /* that were answered with a code other than 1, or need no answer */
-    uint64_t repeats;  /* answers with code 1 */
+    uint64_t repeats;  /* answers with code 1, and of probing axes that still move */
     uint64_t vectors;  /* that the unit has taken */
     uint64_t silent;   /* lines without an answer, because of J */
 };

@@ -10,6 +10,10 @@
 
 static void read_command(struct gve_script_line *line)
 {
+    if (line->line.probes) {
+        line->opcode = GVE_OPCODES;
+        return;
+    }
     struct gve_reading reading =
         gve_command_read(line->line.text, line->line.length, (enum gve_address)line->line.address);
     assert(reading.fault == GVE_FAULT_NONE);

@@ -1,6 +1,7 @@
 /*
  * gve134-host: the firmware of the GVE134 unit on the host backend, for tools/gve134 and for tests. Subcommands sim,
- * serve, check, plan and commands; answers are JSON on standard output, complaints one line on standard error (complain.h).
+ * serve, check, plan and commands; answers are JSON on standard output, complaints one line on standard error
+ * (complain.h).
  */
 #include <stdbool.h>
 #include <stdio.h>
