@@ -101,6 +101,7 @@ static inline void rig_set_up(void)
     rig_pwm = 0;
     rig_leds = 0;
     memset(rig_position, 0, sizeof rig_position);
+    memset(rig_pulse_tick, 0, sizeof rig_pulse_tick);
     memset(rig_pulses, 0, sizeof rig_pulses);
     memset(&unit, 0xA5, sizeof unit);
     rig_begin();
