@@ -24,14 +24,19 @@ class Bar:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        self.clear()
+
+    def clear(self) -> None:
+        """Take the bar away, before something else is printed."""
         if self._shown:
             print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+        self._shown = False
 
-    def show(self, done: int, total: int) -> None:
-        """Say how many of how many parts are done."""
+    def show(self, done: int, total: int, more: str = "") -> None:
+        """Say how many of how many parts are done, and what else there is to say."""
         if total < 2 or not sys.stderr.isatty():
             return
         self._shown = True
         filled = ("#" * (WIDTH * done // total)).ljust(WIDTH, ".")
-        text = f"{self.what} [{filled}] {done}/{total}, {100 * done // total} %"
+        text = f"{self.what} [{filled}] {done}/{total}, {100 * done // total} %{more}"
         print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)

@@ -187,7 +187,7 @@ def make_parser() -> Parser:
     _add_serve(commands)
     _add_service(commands)
     add_client_commands(partial(_add, commands))
-    _add_completion(commands)
+    completion.add_command(commands, "rkm04", add_command)
     return parser
 
 
@@ -317,13 +317,6 @@ def _add_bench(commands: Commands) -> None:
         help="with --target stm32: only show where the cycles of a step interrupt go; OUT gets "
         "every instruction",
     )
-
-
-def _add_completion(commands: Commands) -> None:
-    title = "print what a shell needs to complete commands, options, ports and boards"
-    command = _add(commands, "completion", completion.run, title,
-                   completion.EXAMPLE, has_json=False)  # fmt: skip
-    completion.add_arguments(command)
 
 
 BOOT0 = """\

@@ -28,7 +28,7 @@ from rkm04_tools.sending import Plan, held_commands, plan_program
 from rkm04_tools.source import named
 from rkm04_tools.status import status_text
 from rkm04_tools.table import table, thousands
-from rkm04_tools.watch import run_watch
+from rkm04_tools.watch import require_looks, run_watch
 
 
 def run_version(options: Namespace) -> int:
@@ -216,10 +216,7 @@ def _tell_archive(options: Namespace, saved: Sequence[archive.Saved], what: str)
 
 def run_watching(options: Namespace) -> int:
     """Show positions and programs until Ctrl-C."""
-    if not 0 < options.interval < 1e6:
-        raise Failure(f"--interval {options.interval:g}: write seconds, more than 0")
-    if options.count is not None and options.count < 1:
-        raise Failure(f"--count {options.count}: write how often to look, 1 or more")
+    require_looks(options)
     node = reading_node_of(options)
     with open_line(port_of(options)) as line:
         return run_watch(line.unit(node), options)

@@ -18,13 +18,13 @@ from rkm04_tools.source import read_source
 PORT_VARIABLE, NODE_VARIABLE = "RKM04_PORT", "RKM04_NODE"
 
 
-def port_of(options: Namespace) -> str:
+def port_of(options: Namespace, variable: str = PORT_VARIABLE) -> str:
     """The port that is named by option or environment."""
-    port: str | None = options.port or os.environ.get(PORT_VARIABLE)
+    port: str | None = options.port or os.environ.get(variable)
     if not port:
         raise Failure(
             "no port; name it with --port (COM5, /dev/ttyUSB0, socket://127.0.0.1:5000) "
-            f"or in {PORT_VARIABLE}"
+            f"or in {variable}"
         )
     return port
 

@@ -1,24 +1,26 @@
 """`completion`: what a shell needs to complete commands, options, ports and boards.
 
-The scripts for the shells only ask `rkm04 completion --words ...` what can stand in place of the
-last word, so ports are those that are plugged in, and all shells offer the same.
+The scripts for the shells only ask the tool, `rkm04 completion --words ...`, what can stand in
+place of the last word, so ports are those that are plugged in, and all shells offer the same.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 from rkm04_tools.board import names
 from rkm04_tools.failure import DONE
 
 WORDS = "--words"
+TITLE = "print what a shell needs to complete commands, options, ports and boards"
 EXAMPLE = (
-    "source <(tools/rkm04 completion bash)                              # now, or in ~/.bashrc\n"
-    "  tools/rkm04 completion zsh > ~/.zfunc/_rkm04                       # a folder of $fpath\n"
-    "  tools/rkm04 completion fish > ~/.config/fish/completions/rkm04.fish"
+    "source <(tools/NAME completion bash)                              # now, or in ~/.bashrc\n"
+    "  tools/NAME completion zsh > ~/.zfunc/_NAME                       # a folder of $fpath\n"
+    "  tools/NAME completion fish > ~/.config/fish/completions/NAME.fish"
 )
 ROOT = Path("/")
 PORTS = ("dev/ttyUSB*", "dev/ttyACM*", "dev/serial/by-id/*")
@@ -28,42 +30,47 @@ VIRTUAL_PORT = "socket://127.0.0.1:5000"
 # Where nothing is offered the shells offer files.
 SCRIPTS = {
     "bash": """\
-_rkm04() {
+_NAME() {
     local IFS=$'\\n'
     COMPREPLY=($('TOOL' completion --words "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null))
 }
-complete -o default -F _rkm04 rkm04
+complete -o default -F _NAME NAME
 """,
     "zsh": """\
-#compdef rkm04
-_rkm04() {
+#compdef NAME
+_NAME() {
     local -a found
     found=(${(f)"$('TOOL' completion --words "${(@)words[2,CURRENT]}" 2>/dev/null)"})
     if (( $#found )); then compadd -a found; else _files; fi
 }
-if [[ $funcstack[1] == _rkm04 ]]; then _rkm04; else compdef _rkm04 rkm04; fi
+if [[ $funcstack[1] == _NAME ]]; then _NAME; else compdef _NAME NAME; fi
 """,
     "fish": """\
-complete -c rkm04 -a "('TOOL' completion --words (commandline -opc)[2..-1] (commandline -ct))"
+complete -c NAME -a "('TOOL' completion --words (commandline -opc)[2..-1] (commandline -ct))"
 """,
 }
 
 
-def add_arguments(command: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
+def add_command(commands: Any, tool: str, add: Callable[..., argparse.ArgumentParser]) -> None:
+    """Add the command to those of a tool; `add` is `cli.add_command`."""
+    example = EXAMPLE.replace("NAME", tool)
+    command = add(commands, "completion", run, TITLE, example, has_json=False)
     command.add_argument("shell", choices=list(SCRIPTS), help="the shell that is to complete")
+    command.set_defaults(tool=tool)
 
 
 def run(options: argparse.Namespace) -> int:
     """Print the script."""
-    tool = Path(__file__).resolve().parents[1] / "rkm04"
-    print(SCRIPTS[options.shell].replace("TOOL", str(tool)), end="")
+    tool = Path(__file__).resolve().parents[1] / options.tool
+    script = SCRIPTS[options.shell].replace("TOOL", str(tool))
+    print(script.replace("NAME", options.tool), end="")
     return DONE
 
 
 def offered(parser: argparse.ArgumentParser, words: Sequence[str]) -> list[str]:
     """What can stand in place of the last word, after the others; it begins as that does."""
     *before, begun = words or [""]
+    tool = parser.prog
     pending: argparse.Action | None = None
     for word in before:
         if pending:
@@ -73,25 +80,25 @@ def offered(parser: argparse.ArgumentParser, words: Sequence[str]) -> list[str]:
             pending = action if action and action.nargs != 0 else None
         else:
             parser = _commands(parser).get(word, parser)
-    return [each for each in _choices(parser, pending, begun) if each.startswith(begun)]
+    return [each for each in _choices(parser, pending, begun, tool) if each.startswith(begun)]
 
 
 def _choices(
-    parser: argparse.ArgumentParser, pending: argparse.Action | None, begun: str
+    parser: argparse.ArgumentParser, pending: argparse.Action | None, begun: str, tool: str
 ) -> list[str]:
     if pending:
-        return _values(pending)
+        return _values(pending, tool)
     if begun.startswith("-"):
         return sorted(option for option in parser._option_string_actions if option[:2] == "--")
     positional = (action for action in parser._actions if not action.option_strings)
-    return [value for action in positional for value in _values(action)]
+    return [value for action in positional for value in _values(action, tool)]
 
 
-def _values(action: argparse.Action) -> list[str]:
+def _values(action: argparse.Action, tool: str) -> list[str]:
     if action.choices is not None:
         return sorted(map(str, action.choices))
     if action.dest == "port":
-        own = filter(None, [os.environ.get("RKM04_PORT"), VIRTUAL_PORT])
+        own = filter(None, [os.environ.get(f"{tool.upper()}_PORT"), VIRTUAL_PORT])
         return sorted({*own, *(str(path) for pattern in PORTS for path in ROOT.glob(pattern))})
     if action.dest == "node":
         return [str(node) for node in range(1, 17)]

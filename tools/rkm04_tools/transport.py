@@ -10,7 +10,9 @@ import errno
 import os
 import re
 import socket
+import struct
 import time
+from contextlib import suppress
 from typing import Protocol
 
 import serial
@@ -30,9 +32,9 @@ CHUNK_BYTES = 4096
 ADDRESS = re.compile(r"socket://(\[[^\]]+\]|[^:/\[\]]+):(\d{1,5})/?")
 
 
-def seconds_on_line(count: int) -> float:
+def seconds_on_line(count: int, baud: int = BAUD) -> float:
     """The time that bytes take at the speed of the line."""
-    return count * BITS_PER_BYTE / BAUD
+    return count * BITS_PER_BYTE / baud
 
 
 class Transport(Protocol):
@@ -50,14 +52,21 @@ class Transport(Protocol):
         """Give the port back; may be called again."""
 
 
-def open_transport(name: str) -> Transport:
+class Port(Transport, Protocol):
+    """An open port that was opened here."""
+
+    def abandon(self) -> None:
+        """Close the port, and let nothing of what was sent go out any more that still waits."""
+
+
+def open_transport(name: str, baud: int = BAUD) -> Port:
     """Open a port by its name: a device, a pty or socket://HOST:PORT."""
     if name.startswith("socket://"):
         match = ADDRESS.fullmatch(name)
         if not match or not 0 < int(match[2]) < 65_536:
             raise Failure(f"{name}: write socket://HOST:PORT, as in socket://127.0.0.1:5000")
         return SocketTransport(name, match[1].strip("[]"), int(match[2]))
-    return SerialTransport(name)
+    return SerialTransport(name, baud)
 
 
 class SocketTransport:
@@ -99,16 +108,22 @@ class SocketTransport:
         """Close the connection."""
         self._socket.close()
 
+    def abandon(self) -> None:
+        """Close the connection, see Port: without a time to linger the system drops the rest."""
+        with suppress(OSError):
+            self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        self._socket.close()
+
 
 class SerialTransport:
     """A serial device, a pty, or another URL that pyserial knows."""
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, baud: int = BAUD) -> None:
         self.name = name
         try:
             self._port = serial.serial_for_url(
                 name,
-                baudrate=BAUD,
+                baudrate=baud,
                 timeout=SLICE_SECONDS,
                 write_timeout=WRITE_SECONDS,
                 exclusive=True,
@@ -139,6 +154,12 @@ class SerialTransport:
 
     def close(self) -> None:
         """Close the port."""
+        self._port.close()
+
+    def abandon(self) -> None:
+        """Close the port, see Port."""
+        with suppress(OSError):
+            self._port.reset_output_buffer()
         self._port.close()
 
 

@@ -6,11 +6,11 @@ import json
 import sys
 import time
 from argparse import Namespace
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from rkm04_tools.failure import DONE
+from rkm04_tools.failure import DONE, Failure
 from rkm04_tools.line import Unit
 from rkm04_tools.line_errors import LineError, PortError, UnknownMessage
 from rkm04_tools.messages import ALL_MOTORS, MOTORS, Progress
@@ -127,6 +127,15 @@ class Watcher:
         return Look(number, now, position, speed, motor.progress(), steps)
 
 
+@dataclass(frozen=True)
+class Shown:
+    """What was seen: for scripts, as a table that is redrawn, and as a line."""
+
+    answer: dict[str, Any]
+    drawn: str
+    line: str
+
+
 class Screen:
     """Shows looks: redrawn on a terminal, else one line each."""
 
@@ -134,29 +143,18 @@ class Screen:
         self._as_json = as_json
         self._drawn = 0
 
-    def show(self, seconds: float, looks: Sequence[Look], levels: Levels | None) -> None:
+    def show(self, seconds: float, shown: Shown) -> None:
         """Show what was seen."""
         if self._as_json:
-            motors = [look.as_json() for look in looks]
-            seen = {"seconds": round(seconds, 3), "motors": motors}
-            seen |= levels.as_json() if levels else {}
-            print(json.dumps(seen), flush=True)
+            print(json.dumps({"seconds": round(seconds, 3), **shown.answer}), flush=True)
         elif sys.stdout.isatty():
-            text = table([HEAD, *(look.as_row() for look in looks)], "rrrrrr")
-            self._draw(f"{text}\n{levels.as_text()}" if levels else text)
+            self._draw(shown.drawn)
         else:
-            texts = [look.as_text() for look in looks]
-            shown = "  ".join([*texts, levels.as_text()] if levels else texts)
-            print(f"{seconds:.1f} s  {shown}", flush=True)
+            print(f"{seconds:.1f} s  {shown.line}", flush=True)
 
     def show_error(self, seconds: float, error: LineError) -> None:
         """Say that nothing was seen, and why."""
-        if self._as_json:
-            print(json.dumps({"seconds": round(seconds, 3), "error": str(error)}), flush=True)
-        elif sys.stdout.isatty():
-            self._draw(str(error))
-        else:
-            print(f"{seconds:.1f} s  {error}", flush=True)
+        self.show(seconds, Shown({"error": str(error)}, str(error), str(error)))
 
     def _draw(self, text: str) -> None:
         up = f"\x1b[{self._drawn}A\r\x1b[J" if self._drawn else ""
@@ -165,16 +163,40 @@ class Screen:
 
 
 def run_watch(unit: Unit, options: Namespace) -> int:
-    """Look until Ctrl-C or as often as asked for; a unit that is away for a while is waited for."""
+    """Look at motors until Ctrl-C or as often as asked for."""
     numbers = list(MOTORS) if options.motor == ALL_MOTORS else [options.motor]
-    watcher, screen = Watcher(unit, numbers), Screen(options.json)
+    watcher = Watcher(unit, numbers)
+    return watch(options, lambda: _shown(watcher.look(), watcher.levels()))
+
+
+def _shown(looks: Sequence[Look], levels: Levels | None) -> Shown:
+    answer: dict[str, Any] = {"motors": [look.as_json() for look in looks]}
+    text = table([HEAD, *(look.as_row() for look in looks)], "rrrrrr")
+    line = "  ".join(look.as_text() for look in looks)
+    if not levels:
+        return Shown(answer, text, line)
+    told = levels.as_text()
+    return Shown(answer | levels.as_json(), f"{text}\n{told}", f"{line}  {told}")
+
+
+def require_looks(options: Namespace) -> None:
+    """Refuse times and counts that are none."""
+    if not 0 < options.interval < 1e6:
+        raise Failure(f"--interval {options.interval:g}: write seconds, more than 0")
+    if options.count is not None and options.count < 1:
+        raise Failure(f"--count {options.count}: write how often to look, 1 or more")
+
+
+def watch(options: Namespace, look: Callable[[], Shown]) -> int:
+    """Look until Ctrl-C or as often as asked for; a unit that is away for a while is waited for."""
+    screen = Screen(options.json)
     started = time.monotonic()
     done = 0
     try:
         while True:
             seconds = time.monotonic() - started
             try:
-                screen.show(seconds, watcher.look(), watcher.levels())
+                screen.show(seconds, look())
             except PortError:
                 raise
             except LineError as error:

@@ -6,6 +6,7 @@ import json
 import sys
 from argparse import Namespace
 from dataclasses import asdict, dataclass
+from typing import TextIO
 
 from rkm04_tools.failure import DONE, NOT_SO, Failure
 from rkm04_tools.gve134 import host
@@ -22,17 +23,17 @@ class Checked:
     source: Source
     parsed: host.Parsed
 
-    def report(self) -> None:
+    def report(self, out: TextIO | None = None) -> None:
         """Print the errors, each with its line and a caret, and the verdict."""
         name, errors = self.source.name, self.parsed.errors
         for error in errors[:SHOWN_MAX]:
-            print(f"{name}:{error.line}:{error.column}: error: {error.message}")
-            print(self.source.excerpt(Place(error.line, error.column)))
+            print(f"{name}:{error.line}:{error.column}: error: {error.message}", file=out)
+            print(self.source.excerpt(Place(error.line, error.column)), file=out)
         total = len(errors) + self.parsed.more
         if (more := total - SHOWN_MAX) > 0:
-            print(f"{name}: and {_count(more, 'more error')}")
+            print(f"{name}: and {_count(more, 'more error')}", file=out)
         verdict = _count(total, "error") if total else _count(self.parsed.commands, "command")
-        print(f"{name}: {verdict}")
+        print(f"{name}: {verdict}", file=out)
 
     def as_json(self) -> dict[str, object]:
         """For scripts."""

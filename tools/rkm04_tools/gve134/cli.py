@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from rkm04_tools import completion
 from rkm04_tools.cli import Commands, Parser, add_board, add_command
 from rkm04_tools.gve134 import check
+from rkm04_tools.gve134.client_options import add_client_commands
 from rkm04_tools.gve134.gcode import options as gcode_options
 
 CHECK_NOTES = """\
@@ -39,6 +41,8 @@ def make_parser() -> Parser:
     _add_check(commands)
     gcode_options.add_arguments(commands)
     add_board(commands, "gve134")
+    add_client_commands(commands, add_command)
+    completion.add_command(commands, "gve134", add_command)
     return parser
 
 

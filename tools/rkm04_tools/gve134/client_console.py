@@ -1,0 +1,129 @@
+"""`console`: commands as they are typed, answers in words."""
+
+from __future__ import annotations
+
+import re
+import sys
+from argparse import Namespace
+from dataclasses import dataclass
+
+from rkm04_tools.failure import DONE, INTERRUPTED, NOT_SO
+from rkm04_tools.gve134 import answers
+from rkm04_tools.gve134.answers import Answer, canonical
+from rkm04_tools.gve134.client_base import unit_of
+from rkm04_tools.gve134.job import COMMENT, LINE_OWN
+from rkm04_tools.gve134.link import MEMORY_SECONDS
+from rkm04_tools.gve134.sending import LONG_SECONDS
+from rkm04_tools.gve134.stopping import Stopper, halt_at_signal
+from rkm04_tools.gve134.unit import Unit, is_memory_write
+from rkm04_tools.line_errors import LineError, PortError
+
+TYPED = re.compile(r"(?:![07])?[\x20-\x7e]+")
+PROMPT = "> "
+SUM_CHARACTERS = 4
+"""Address, comma and two digits, within the characters of a line."""
+
+
+def run_console(options: Namespace) -> int:
+    """Talk until the end of input; of a script whether all was done."""
+    is_typed = sys.stdin.isatty()
+    with unit_of(options) as unit, Stopper(unit) as stopper:
+        unit.link.connect()
+        print(f"{unit.link.version}; Ctrl-D ends, Ctrl-C halts", file=sys.stderr)
+        console = Console(unit)
+        while True:
+            try:
+                line = _line(stopper, is_typed)
+                if not line:
+                    break
+                console.take(line.strip())
+            except KeyboardInterrupt:
+                status = halt_at_signal(unit, stopper)
+                if not is_typed or status != INTERRUPTED:
+                    return status
+            except PortError:
+                raise
+            except LineError as error:
+                if not is_typed:
+                    raise
+                print(f"gve134: {error}", file=sys.stderr)
+                _forget_typed()
+    return DONE if is_typed or not console.refused else NOT_SO
+
+
+def _line(stopper: Stopper, is_typed: bool) -> str:
+    """The next line; empty: there is none."""
+    with stopper.at_once():
+        if is_typed:
+            print(PROMPT, end="", flush=True)
+        return sys.stdin.readline()
+
+
+def _forget_typed() -> None:
+    """What was typed while nobody answered was meant for then."""
+    import termios
+
+    termios.tcflush(sys.stdin.fileno(), termios.TCIFLUSH)
+
+
+@dataclass
+class Console:
+    """Sends what is typed. `refused` counts the answers that were not `done`."""
+
+    unit: Unit
+    refused: int = 0
+    _packet: list[str] | None = None
+
+    def take(self, line: str) -> None:
+        """Send a line, and show what comes back."""
+        text = canonical(line.partition(COMMENT)[0].strip().removeprefix("!0"))
+        if not text:
+            return
+        if wrong := self._wrong(text):
+            print(f"{text}: {wrong}", file=sys.stderr)
+            self.refused += 1
+            return
+        answer = self._in_packet(text)
+        if answer is None:
+            return
+        self.refused += answer.code != answers.DONE
+        print(f"{answer.text}  {answer.words}", flush=True)
+
+    def _wrong(self, text: str) -> str:
+        """Why a line is not sent; empty: it is."""
+        if not TYPED.fullmatch(text) or "!" in text[1:]:
+            return "not sent: a command has letters, digits and signs, and ! only before 0 or 7"
+        if len(text) > answers.TEXT_CHARACTERS_MAX - SUM_CHARACTERS:
+            return "not sent: it is longer than a line of the unit"
+        if text in LINE_OWN[:2]:
+            return "not sent: checksums are the line's; --no-sums begins a console without them"
+        return ""
+
+    def _in_packet(self, text: str) -> Answer | None:
+        """What is between *S and *E is sent at once; None: it is kept until then."""
+        if text == "*S":
+            self._packet = []
+            return None
+        if self._packet is not None and text.startswith("*E"):
+            packet, self._packet = self._packet, None
+            if text != f"*E{len(packet)}":
+                print(f"the packet has {len(packet)} commands; nothing was sent", file=sys.stderr)
+                self.refused += 1
+                return None
+            return self.unit.link.send_packet(packet)
+        if self._packet is not None and text not in ("H", "J"):
+            self._packet.append(text)
+            return None
+        self._packet = None
+        return self._ask(text)
+
+    def _ask(self, text: str) -> Answer:
+        link = self.unit.link
+        if text == "H":
+            self.unit.halt()
+            return Answer(answers.DONE, inta=True)
+        if text in ("J", "!7J"):
+            return link.reset(answers.addressed(text)[0])
+        if text.startswith("W"):
+            return link.ask_long(text, LONG_SECONDS)
+        return link.ask(text, MEMORY_SECONDS) if is_memory_write(text) else link.ask(text)

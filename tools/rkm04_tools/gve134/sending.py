@@ -1,0 +1,249 @@
+"""A vector file on its way to the unit: in order, in packets where it can be, with its room.
+
+Runs of C and B go in packets. A packet that finds no room costs its time on the line, so it is
+halved, and the next ones grow again: while the queue has little room they are small, and the unit
+does not run dry while a large one is sent in vain. None takes longer on the line than H may have
+to wait. A packet that the file itself has (*S to *E) is sent as it stands.
+
+What is refused ends the job, and so does an interrupt: INTA that no command of the file has
+brought about.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from rkm04_tools.failure import NOT_SO, Failure
+from rkm04_tools.gve134 import answers
+from rkm04_tools.gve134.answers import Answer, encoded
+from rkm04_tools.gve134.job import Command, Job
+from rkm04_tools.gve134.link import MEMORY_SECONDS
+from rkm04_tools.gve134.link_errors import Refused
+from rkm04_tools.gve134.state import INTA, INTCOM, RUN, Flags, named, positions_text
+from rkm04_tools.gve134.unit import Unit, is_memory_write
+from rkm04_tools.transport import BITS_PER_BYTE
+
+PACKET_COMMANDS_MAX = 64
+PACKET_COMMANDS_MIN = 8
+PACKET_GROWTH = 8
+PACKET_SECONDS = 0.15
+"""What H may have to wait for: a packet on the line."""
+PACKET_BYTES_MIN = 300
+NO_ROOM_SECONDS = 0.01
+WAITS_MAX = 3
+"""What is refused so often while nothing moves is refused for good."""
+LONG_SECONDS = 86_400.0
+BEGINS_ANEW = ("D", "G", "J", "H", "R")
+"""What may stand first in a file for a unit that was interrupted."""
+
+Tell = Callable[[int], None]
+
+
+class Interrupted(Failure):
+    """The unit has stopped the axes by itself."""
+
+    def __init__(self, message: str, causes: list[str]) -> None:
+        super().__init__(message, NOT_SO)
+        self.causes = causes
+
+
+@dataclass
+class Sender:
+    """Sends a job. `sent` counts its vectors that the unit has taken, `lines` its commands."""
+
+    unit: Unit
+    job: Job
+    tell: Tell = lambda sent: None
+    sent: int = 0
+    lines: int = 0
+    packets: int = 0
+    size: int = PACKET_COMMANDS_MAX
+    inta: bool = False
+    _waits: int = 0
+
+    def send(self) -> None:
+        """Send all of it; return when the unit has taken the last command."""
+        commands = iter(self.job)
+        self._begin()
+        pending: deque[Command] = deque()
+        while True:
+            run = self._fill(pending, commands)
+            if run:
+                self._send_run(pending, run)
+            elif pending:
+                self._send_single(pending.popleft(), commands)
+            else:
+                return
+            self.tell(self.sent)
+
+    def _begin(self) -> None:
+        """Refuse to add to what was interrupted, unless the file begins with what ends that."""
+        flags = self.unit.flags()
+        self.inta = flags.has(INTA)
+        first = next(iter(self.job), None)
+        if self.inta and first is not None and first.letter not in BEGINS_ANEW:
+            raise Failure(f"the unit is {flags.text}; nothing was sent", NOT_SO)
+
+    # ---- runs of C and B ----
+
+    def _fill(self, pending: deque[Command], commands: Iterator[Command]) -> int:
+        """Take commands until the next packet is full or ends; return how many it has."""
+        room, count = self._bytes_max(), 0
+        while count < self.size:
+            if count == len(pending):
+                command = next(commands, None)
+                if command is None:
+                    return count
+                pending.append(command)
+            room -= len(encoded(pending[count].text, self.unit.link.sums))
+            if not pending[count].goes_in_packets or room < 0:
+                return count
+            count += 1
+        return count
+
+    def _bytes_max(self) -> float:
+        baud = self.unit.link.wire.baud
+        return max(PACKET_BYTES_MIN, baud * PACKET_SECONDS / BITS_PER_BYTE)
+
+    def _send_run(self, pending: deque[Command], count: int) -> None:
+        run = [pending[place] for place in range(count)]
+        if count == 1:
+            self._send_single(pending.popleft(), iter(()))
+            return
+        answer = self._packet(run)
+        self._judge(run[0], answer)
+        if answer.code == answers.NO_ROOM:
+            if self.size == PACKET_COMMANDS_MIN:
+                self._wait_for_room(run[0])
+            self.size = max(PACKET_COMMANDS_MIN, self.size // 2)
+            return
+        self.size = min(PACKET_COMMANDS_MAX, self.size + PACKET_GROWTH)
+        self._taken(run)
+        for _ in run:
+            pending.popleft()
+
+    def _packet(self, run: list[Command]) -> Answer:
+        self.packets += 1
+        return self.unit.link.send_packet([command.text for command in run])
+
+    # ---- all else ----
+
+    def _send_single(self, command: Command, commands: Iterator[Command]) -> None:
+        whole = [command]
+        if command.text == "*S":
+            whole, end = _packet_of_file(commands)
+            command = end or command
+        while True:
+            answer = self._packet(whole) if command.text == "*S" else self._ask(command)
+            self._judge(command, answer)
+            if answer.code == answers.NO_ROOM:
+                self._wait_for_room(command)
+            elif answer.code == answers.NOT_WHILE_MOVING:
+                self._wait_for_rest(command, answer)
+            else:
+                break
+        self._taken(whole)
+
+    def _ask(self, command: Command) -> Answer:
+        if command.letter == "W":
+            return self.unit.link.ask_long(command.text, LONG_SECONDS)
+        if command.text == "H":
+            self.unit.halt()
+            self.inta = True
+            return Answer(answers.DONE, inta=True)
+        if command.text in ("J", "!7J"):
+            self.inta = False
+            return self.unit.link.reset(answers.addressed(command.text)[0])
+        if is_memory_write(command.text):
+            return self.unit.link.ask(command.text, MEMORY_SECONDS)
+        return self.unit.link.ask(command.text)
+
+    def _taken(self, commands: list[Command]) -> None:
+        self._waits = 0
+        self.lines += len(commands)
+        self.sent += sum(command.is_vector for command in commands)
+
+    # ---- answers ----
+
+    def _judge(self, command: Command, answer: Answer) -> None:
+        """Notice an interrupt, and what the unit refuses for good."""
+        is_new = answer.inta and not self.inta
+        if is_new and not (command.letter == "R" or command.text.startswith("SW6")):
+            raise self.interrupted(self._where(command))
+        self.inta = answer.inta
+        waits = answer.code in (answers.NO_ROOM, answers.NOT_WHILE_MOVING) and not answer.inta
+        if answer.code != answers.DONE and not waits:
+            raise self._refused(command, answer)
+
+    def _refused(self, command: Command, answer: Answer) -> Failure:
+        after = f"; the {self.sent} vectors before it are executed" if self.sent else ""
+        return Refused(self._where(command), answer, f"refused: {answer.words}{after}")
+
+    def _where(self, command: Command) -> str:
+        return f"{self.job.source.name}:{command.line}: {command.text}"
+
+    def finish(self) -> Flags:
+        """Wait until the axes stand."""
+        flags = self.unit.wait_until_stands(lambda: self.tell(self.sent))
+        if flags.has(INTA) and not self.inta:
+            raise self.interrupted(self.job.source.name)
+        return flags
+
+    def interrupted(self, where: str) -> Failure:
+        """What has stopped the axes, and where they stand."""
+        flags = self.unit.wait_until_stands()
+        causes = causes_of(self.unit, flags)
+        latched = self.unit.link.ask("PL")
+        at = f", positions at that moment {latched.values}" if latched.values else ""
+        text = f"INTERRUPTED by {', '.join(causes) or 'what the unit does not tell'}{at}; the axes "
+        text += f"stand at {positions_text(self.unit.positions())}; {flags.text}; "
+        text += f"{self.sent} of {self.job.vectors} vectors were sent"
+        return Interrupted(f"{where}: {text}", causes)
+
+    def _wait_for_room(self, command: Command) -> None:
+        """Wait a little; where nothing moves there will never be room."""
+        self.tell(self.sent)
+        self.unit.link.pause(NO_ROOM_SECONDS)
+        if not self.unit.flags().has(RUN):
+            self._waits += 1
+        if self._waits > WAITS_MAX:
+            raise Failure(
+                f"{self._where(command)}: no room, though nothing moves: after K there is room "
+                "for one L at a time and for no C",
+                NOT_SO,
+            )
+
+    def _wait_for_rest(self, command: Command, answer: Answer) -> None:
+        """Wait until nothing moves; what is refused then is refused for good."""
+        flags = self.unit.wait_until_stands(lambda: self.tell(self.sent))
+        if flags.has(INTA):
+            raise self.interrupted(self._where(command))
+        self._waits += 1
+        if self._waits > WAITS_MAX:
+            raise self._refused(command, answer)
+
+
+def _packet_of_file(commands: Iterator[Command]) -> tuple[list[Command], Command | None]:
+    """The commands after *S up to *E; none where H or J ends the packet, which is the second."""
+    whole: list[Command] = []
+    for each in commands:
+        if each.text.startswith("*E"):
+            break
+        if each.goes_in_packets:
+            whole.append(each)
+        elif each.text == "*S":
+            whole = []
+        else:
+            return [each], each
+    return whole, None
+
+
+def causes_of(unit: Unit, flags: Flags) -> list[str]:
+    """The names of what has stopped the axes."""
+    low, high = (int(unit.order(f"SR{n}").values, 16) for n in (4, 5))
+    causes = named(low, high)
+    if flags.has(INTCOM):
+        causes.append("H")
+    return causes
