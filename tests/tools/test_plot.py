@@ -50,7 +50,7 @@ def test_a_move_that_is_not_done_keeps_its_speed():
 
 
 def test_the_position_starts_before_the_first_pulse_and_lasts_to_the_end():
-    time, position = position_line(pulses([100, 200], [-1, 0]), -1, end=0.5, hz=1000)
+    time, position = position_line(pulses([100, 200], [-1, 0]), 0, end=0.5, hz=1000)
 
     assert (time.tolist(), position.tolist()) == ([0, 0.1, 0.2, 0.5], [0, -1, 0, 0])
 

@@ -17,7 +17,7 @@ static const char *const leds[HAL_IO_LEDS] = {
 
 static const char *const stop_texts[AXIS_CAUSES] = {
     [AXIS_CAUSE_NONE] = "none",    [AXIS_CAUSE_PAUSE] = "pause", [AXIS_CAUSE_HIGH] = "interrupt",
-    [AXIS_CAUSE_LOW] = "low",      [AXIS_CAUSE_ABORT] = "abort", [AXIS_CAUSE_COMMAND] = "halt",
+    [AXIS_CAUSE_LOW] = "low",      [AXIS_CAUSE_ABORT] = "reset", [AXIS_CAUSE_COMMAND] = "halt",
     [AXIS_CAUSE_LIMIT] = "switch", [AXIS_CAUSE_FAULT] = "fault",
 };
 
@@ -74,6 +74,7 @@ const struct unit_kind gve_kind_of_unit = {
     .leds = leds,
     .has_pwm = true,
     .moves_together = true,
+    .traces_positions = true,
     .inputs_used = 0xCF,
     .inputs_turned = 0xFF,
     .inputs_wrong = "the input must be 1 to 4, 7 or 8, then a comma",

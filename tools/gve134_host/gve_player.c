@@ -342,7 +342,7 @@ static bool is_resetting(struct gve_player *player, uint64_t tick)
 {
     uint32_t last = (player->waiting_first + player->waiting_count - 1U) % GVE_PLAYER_WAITING_MAX;
     const struct gve_player_waiting *waiting = &player->waiting[last];
-    return player->waiting_count > 0 && waiting->line.opcode == GVE_RESET && tick > waiting->heard_tick;
+    return player->waiting_count > 0 && waiting->line.opcode == GVE_RESET && tick >= waiting->heard_tick;
 }
 
 static void take_answer(struct gve_player *player, struct gve_told_text *text)

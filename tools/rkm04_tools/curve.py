@@ -6,16 +6,19 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rkm04_tools.record import Floats, Move, Pulses
+from rkm04_tools.record import Floats, Ints, Move, Pulses
 
 COLUMNS = 2000
 """More columns than the drawing has pixels across."""
 
 
-def speed_line(pulses: Pulses, moves: Sequence[Move], hz: int) -> tuple[Floats, Floats]:
+def speed_line(
+    pulses: Pulses, moves: Sequence[Move], hz: int, signs: Ints | None = None
+) -> tuple[Floats, Floats]:
     """Seconds and steps/s: the mean speed of each interval in its middle, 0 outside moves.
 
-    The first interval of a move counts from its start.
+    The first interval of a move counts from its start. `signs` are the directions of the pulses
+    where they are not those of their moves.
     """
     if not moves or not len(pulses.tick):
         return np.zeros(0), np.zeros(0)
@@ -24,7 +27,7 @@ def speed_line(pulses: Pulses, moves: Sequence[Move], hz: int) -> tuple[Floats, 
     sign = np.array([m.sign for m in moves], dtype=np.int64)
     own = np.maximum(np.searchsorted(start, pulses.tick, side="left") - 1, 0)
     before = np.maximum(np.concatenate(([0], pulses.tick[:-1])), start[own])
-    speed = sign[own] * hz / np.maximum(pulses.tick - before, 1)
+    speed = (sign[own] if signs is None else signs) * hz / np.maximum(pulses.tick - before, 1)
     first = np.searchsorted(pulses.tick, start, side="right")
     last = np.searchsorted(pulses.tick, end, side="right") - 1
     moved = last >= first
@@ -54,12 +57,12 @@ def thinned(time: Floats, value: Floats, end: float) -> tuple[Floats, Floats]:
     return times.ravel(), values.ravel()
 
 
-def position_line(pulses: Pulses, sign: int, end: float, hz: int) -> tuple[Floats, Floats]:
+def position_line(pulses: Pulses, first: int, end: float, hz: int) -> tuple[Floats, Floats]:
     """Seconds and steps: corners of a line that keeps each position until the next pulse.
 
-    `sign` is that of the first move.
+    `first` is the position at the start.
     """
     position = pulses.position
     time = np.concatenate(([0.0], pulses.tick / hz, [end]))
-    steps = np.concatenate((position[:1] - sign, position, position[-1:]))
+    steps = np.concatenate(([first], position, position[-1:]))
     return time, steps.astype(np.float64)

@@ -111,13 +111,16 @@ def opcode_rows() -> list[OpcodeRow]:
     return [OpcodeRow(**row) for row in rows]
 
 
-def simulate(arguments: Sequence[str], pipes: Sequence[int] = ()) -> dict[str, Any]:
-    """Run programs, which may write to these open pipes; the answer is the summary."""
+def simulate(
+    arguments: Sequence[str], pipes: Sequence[int] = (), program: Path | None = None
+) -> dict[str, Any]:
+    """Run a simulation, which may write to these open pipes; the answer is the summary."""
     command = ["sim", *arguments]
     seconds = next((b for a, b in pairwise(arguments) if a == "--for"), "")
     if sys.stderr.isatty():
         command += ["--progress", str(PROGRESS_AFTER_SECONDS)]
-    return _answer(command, progress="simulating", pipes=pipes, of_seconds=float(seconds or 0))
+    path = program or program_path()
+    return ask(path, command, progress="simulating", pipes=pipes, of_seconds=float(seconds or 0))
 
 
 def measure() -> dict[str, Any]:
@@ -136,18 +139,23 @@ def program_path() -> Path:
     return path
 
 
-def _answer(
+def _answer(arguments: Sequence[str], given: bytes = b"", progress: str = "") -> dict[str, Any]:
+    return ask(program_path(), arguments, given, progress)
+
+
+def ask(
+    program: Path,
     arguments: Sequence[str],
     given: bytes = b"",
     progress: str = "",
     pipes: Sequence[int] = (),
     of_seconds: float = 0,
 ) -> dict[str, Any]:
-    """Run the program to its end and return what it answers.
+    """Run a C program of ours to its end and return what it answers.
 
     On a terminal `progress` is shown, with per cent where the program tells its unit time.
     """
-    command = [str(program_path()), *arguments]
+    command = [str(program), *arguments]
     pipe = subprocess.PIPE
     with subprocess.Popen(
         command, stdin=pipe, stdout=pipe, stderr=pipe, env=child.bound(), pass_fds=pipes
@@ -158,10 +166,10 @@ def _answer(
             process.kill()
             raise
     if process.returncode != 0:
-        raise _failed(process.returncode, complaint.decode(errors="replace"))
+        raise _failed(program.name, process.returncode, complaint.decode(errors="replace"))
     answer = json.loads(out)
     if not isinstance(answer, dict):
-        raise Failure(f"{PROGRAM} {arguments[0]} did not answer with an object; build it again")
+        raise Failure(f"{program.name} {arguments[0]} gave no object as its answer; build it again")
     return answer
 
 
@@ -188,16 +196,16 @@ def _communicate(
     return answer
 
 
-def _failed(status: int, complaint: str) -> Failure:
+def _failed(program: str, status: int, complaint: str) -> Failure:
     """Pass on the program's own line, or say that it crashed."""
     line = (
         PROGRESS.sub(b"", complaint.encode())
         .decode()
         .strip()
         .rpartition("\n")[2]
-        .removeprefix(f"{PROGRAM}: ")
+        .removeprefix(f"{program}: ")
     )
     if status > 0 and line:
         return Failure(line)
     how = f"signal {-status}" if status < 0 else f"status {status}"
-    return Failure(f"{PROGRAM} ended with {how}: this is a fault of the tool")
+    return Failure(f"{program} ended with {how}: this is a fault of the tool")

@@ -9,7 +9,7 @@ from __future__ import annotations
 import logging
 import os
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -61,8 +61,19 @@ def require_format(path: Path) -> None:
         raise Failure(f"{path}: a plot is .svg or .png; give it a name that ends so")
 
 
-def draw(record: Record, title: str, signals: Sequence[Signal], path: Path) -> None:
-    """Draw a simulation into a file; its name says the format."""
+def draw(
+    record: Record,
+    title: str,
+    signals: Sequence[Signal],
+    path: Path,
+    names: Mapping[int, str] | None = None,
+) -> None:
+    """Draw a simulation into a file; its name says the format. `names` are those of the motors."""
+    save(path, lambda: _figure(record, title, signals, names or {}))
+
+
+def save(path: Path, make_figure: Callable[[], Figure]) -> None:
+    """Draw a figure into a file."""
     _prepare_library()
     import matplotlib
 
@@ -71,7 +82,7 @@ def draw(record: Record, title: str, signals: Sequence[Signal], path: Path) -> N
         warnings.simplefilter("ignore")
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(STYLE)
-        figure = _figure(record, title, signals)
+        figure = make_figure()
         try:
             with finished_or_absent(path) as part:
                 dateless = {"Date": None} if kind == "svg" else None
@@ -87,7 +98,9 @@ def _prepare_library() -> None:
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
 
 
-def _figure(record: Record, title: str, signals: Sequence[Signal]) -> Figure:
+def _figure(
+    record: Record, title: str, signals: Sequence[Signal], names: Mapping[int, str]
+) -> Figure:
     from matplotlib.figure import Figure
 
     motors = sorted(record.pulses)
@@ -97,8 +110,9 @@ def _figure(record: Record, title: str, signals: Sequence[Signal]) -> Figure:
     figure = Figure(figsize=(PAGE_INCHES[0], page))
     panels = _panels(figure, heights or [1.0], page)
     for index, motor in enumerate(motors):
-        _draw_speed(panels[2 * index], record, motor)
-        _draw_position(panels[2 * index + 1], record, motor)
+        name = names.get(motor, f"motor {motor}")
+        _draw_speed(panels[2 * index], record, motor, name)
+        _draw_position(panels[2 * index + 1], record, motor, name)
     if signals:
         _draw_signals(panels[-1], signals, record.seconds)
     if not motors:
@@ -135,14 +149,15 @@ def _panels(figure: Figure, heights: Sequence[float], page: float) -> list[Axes]
     return panels
 
 
-def _draw_speed(axes: Axes, record: Record, motor: int) -> None:
+def _draw_speed(axes: Axes, record: Record, motor: int, name: str) -> None:
     moves = record.moves(motor)
-    time, speed = speed_line(record.pulses[motor], moves, record.tick_hz)
+    signs = record.signs(motor)
+    time, speed = speed_line(record.pulses[motor], moves, record.tick_hz, signs)
     axes.axhline(0, color="0.5", linewidth=0.6)
     time, speed = thinned(time, speed, record.seconds)
     axes.plot([0, *time, record.seconds], [0, *speed, speed[-1]], color=SPEED_COLOUR)
-    _label(axes, f"motor {motor}\nspeed\n(steps/s)")
-    stops = [e for e in record.events if e.motor == motor and e.name in ("stop", "error")]
+    _label(axes, f"{name}\nspeed\n(steps/s)")
+    stops = [e for e in record.events if e.motor in (0, motor) and e.name in ("stop", "error")]
     for event in stops[:STOPS_SHOWN_MAX]:
         _mark_stop(axes, event, record)
 
@@ -163,12 +178,12 @@ def _mark_stop(axes: Axes, event: Event, record: Record) -> None:
     )
 
 
-def _draw_position(axes: Axes, record: Record, motor: int) -> None:
-    sign = next((move.sign for move in record.moves(motor) if move.sign), 1)
-    line = position_line(record.pulses[motor], sign, record.seconds, record.tick_hz)
+def _draw_position(axes: Axes, record: Record, motor: int, name: str) -> None:
+    first = record.first_position(motor)
+    line = position_line(record.positions(motor), first, record.seconds, record.tick_hz)
     time, position = thinned(*line, record.seconds)
     axes.plot(time, position, color=POSITION_COLOUR, drawstyle="steps-post")
-    _label(axes, f"motor {motor}\nposition\n(steps)")
+    _label(axes, f"{name}\nposition\n(steps)")
 
 
 def _label(axes: Axes, text: str) -> None:

@@ -59,11 +59,40 @@ class Record:
     events: list[Event]
     inputs: list[tuple[float, int, int]]
     """Milliseconds, input, level, sorted by time."""
+    turns: bool = False
+    """Motors may turn in a move, and counters begin at 0: positions tell the directions."""
 
     @property
     def seconds(self) -> float:
         """How long it lasted."""
         return self.end / self.tick_hz
+
+    def signs(self, motor: int) -> Ints | None:
+        """The direction of each pulse of a motor that may turn in a move."""
+        if not self.turns:
+            return None
+        change = np.diff(self.pulses[motor].position, prepend=0)
+        told = np.abs(change) == 1  # else the counter has been written in between
+        after = np.minimum(np.arange(len(change)) + 1, len(change) - 1)
+        return np.sign(np.where(told, change, change[after]))
+
+    def positions(self, motor: int) -> Pulses:
+        """The pulses of a motor, and positions that commands have written."""
+        pulses = self.pulses[motor]
+        written = [e for e in self.events if e.name == "position" and e.motor == motor]
+        if not written:
+            return pulses
+        tick = np.append(pulses.tick, [e.tick for e in written])
+        position = np.append(pulses.position, [int(e.value) for e in written])
+        order = np.argsort(tick, kind="stable")
+        return Pulses(tick[order], position[order])
+
+    def first_position(self, motor: int) -> int:
+        """The position of a motor at the start."""
+        if self.turns:
+            return 0
+        sign = next((move.sign for move in self.moves(motor) if move.sign), 1)
+        return int(self.pulses[motor].position[0]) - sign
 
     def moves(self, motor: int) -> list[Move]:
         """The moves of a motor."""
@@ -88,7 +117,9 @@ class Record:
         return int(np.sign(last - before))
 
 
-def read_record(steps: Path, trace: Path, inputs: Path | None, seconds: float) -> Record:
+def read_record(
+    steps: Path, trace: Path, inputs: Path | None, seconds: float, *, turns: bool = False
+) -> Record:
     """Read the files of a simulation that lasted so long."""
     hz, table = _read_steps(steps)
     return Record(
@@ -97,6 +128,7 @@ def read_record(steps: Path, trace: Path, inputs: Path | None, seconds: float) -
         {int(m): _of_motor(table, int(m)) for m in np.unique(table[:, 1])},
         _read_trace(trace),
         read_inputs(inputs) if inputs else [],
+        turns,
     )
 
 

@@ -75,8 +75,8 @@ def summary(answer: Mapping[str, Any], runs: Sequence[Run], limit: str) -> str:
     if answer["late_steps"]:
         notes.append(f"{thousands(answer['late_steps'])} pulses came too late")
     if answer["outputs"]:
-        notes.append(f"outputs that are on: {', '.join(_numbers(answer['outputs']))}")
-    lines = [table([HEAD, *map(_row, runs)], "rlrrrrrl"), "", _times(answer), _end(answer, limit)]
+        notes.append(f"outputs that are on: {', '.join(numbers_of(answer['outputs']))}")
+    lines = [table([HEAD, *map(_row, runs)], "rlrrrrrl"), "", times(answer), _end(answer, limit)]
     return "\n".join([*lines, *notes])
 
 
@@ -94,12 +94,13 @@ def _row(run: Run) -> tuple[str, ...]:
     )
 
 
-def _numbers(levels: int) -> list[str]:
+def numbers_of(levels: int) -> list[str]:
     """The numbers of the outputs that are 1."""
     return [str(bit + 1) for bit in range(levels.bit_length()) if levels >> bit & 1]
 
 
-def _times(answer: Mapping[str, Any]) -> str:
+def times(answer: Mapping[str, Any]) -> str:
+    """Unit time and real time of a simulation."""
     unit, real = answer["seconds"], answer["real_seconds"]
     ratio = f": {rounded(answer['ratio'])} times faster than real time" if unit else ""
     return f"unit time {unit:.6f} s, real time {real:.6f} s{ratio}"

@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from collections.abc import Sequence
+from pathlib import Path
 from typing import NoReturn
 
 from rkm04_tools import host
@@ -23,24 +25,26 @@ Lines on standard input, and on the control port, act while it runs:
 Ctrl-C ends it. Without --flash stored programs end with it; with it, starting it again is like
 switching the units on again: stored programs run at once."""
 
-PASSED_ON = [
+Passed = Sequence[tuple[str, str, str]]
+"""Options with a value, its name and its help; the C program judges it."""
+
+PASSED_ON: Passed = [
     ("--node", "N", "a unit of this address, 1 to 16; may be repeated (default: 1)"),
     ("--flash", "FILE", "keep stored programs in it; with several units in FILE.nodeN"),
     ("--speed", "X", "times real time, 0.001 to 1000; 0: as fast as possible (default: 1)"),
     ("--control", "PORT", "take the lines of standard input by TCP too (0: any free port)"),
     ("--address", "ADDRESS", "listen there (default: 127.0.0.1, for this machine only)"),
 ]
-"""Options with a value; the C program judges it."""
 
 
-def add_arguments(command: argparse.ArgumentParser) -> None:
+def add_arguments(command: argparse.ArgumentParser, passed_on: Passed = PASSED_ON) -> None:
     """Add the arguments of the command."""
     place = command.add_mutually_exclusive_group()
     place.add_argument(
         "--tcp", metavar="PORT", help="listen there (default: 5000; 0: any free port)"
     )
     place.add_argument("--pty", metavar="PATH", help="make a pty, and a link to it of this name")
-    for flag, metavar, text in PASSED_ON:
+    for flag, metavar, text in passed_on:
         command.add_argument(flag, metavar=metavar, help=text, action="append", default=[])
     command.add_argument(
         "--unpaced", action="store_true", help="bytes take no time on the line, for tests"
@@ -49,14 +53,18 @@ def add_arguments(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> NoReturn:
     """Become the C program: signals then reach it without a detour."""
-    program = host.program_path()
+    become(host.program_path(), "rkm04", options, PASSED_ON)
+
+
+def become(program: Path, tool: str, options: argparse.Namespace, passed_on: Passed) -> NoReturn:
+    """Become the C program of a tool."""
     sys.stdout.flush()
     sys.stderr.flush()
-    os.execv(program, ["rkm04", "serve", *_arguments(options)])
+    os.execv(program, [tool, "serve", *_arguments(options, passed_on)])
 
 
-def _arguments(options: argparse.Namespace) -> list[str]:
-    values = [(flag, value) for flag, *_ in PASSED_ON for value in getattr(options, flag[2:])]
+def _arguments(options: argparse.Namespace, passed_on: Passed) -> list[str]:
+    values = [(flag, value) for flag, *_ in passed_on for value in getattr(options, flag[2:])]
     values += [(flag, getattr(options, flag[2:])) for flag in ("--tcp", "--pty")]
     given = [part for flag, value in values if value is not None for part in (flag, value)]
     switches = [flag for flag in ("--unpaced", "--json") if getattr(options, flag[2:])]

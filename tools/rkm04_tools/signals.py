@@ -32,19 +32,20 @@ VARIABLE_FIRST = 80
 
 @dataclass(frozen=True)
 class Signal:
-    """A logic trace that starts at 0: its name and its changes, seconds and level."""
+    """A logic trace: its name, its changes, seconds and level, and its level at the start."""
 
     name: str
     changes: list[tuple[float, int]]
+    start: int = 0
 
     def corners(self, end: float) -> tuple[Sequence[float], Sequence[int]]:
         """Times and levels up to the end; each level holds until the next time."""
         shown = [change for change in self.changes if change[0] <= end]
-        times, levels = zip((0.0, 0), *shown, strict=True)
+        times, levels = zip((0.0, self.start), *shown, strict=True)
         return [*times, end], [*levels, levels[-1]]
 
 
-def signals(record: Record, commands: Iterable[Command]) -> list[Signal]:
+def signals(record: Record, commands: Iterable[Command], inputs_at_start: int = 0) -> list[Signal]:
     """What changed in a simulation or is named by the commands, in the order of the numbers."""
     changes: dict[tuple[str, int], list[tuple[float, int]]] = {}
     for name in filter(None, map(_named, commands)):
@@ -56,7 +57,10 @@ def signals(record: Record, commands: Iterable[Command]) -> list[Signal]:
             value = int(event.value)
             name = ("BO" if event.name == "out" else "var", abs(value))
             changes.setdefault(name, []).append((event.tick / record.tick_hz, int(value > 0)))
-    return [Signal(f"{kind} {number}", found) for (kind, number), found in sorted(changes.items())]
+    return [
+        Signal(f"{kind} {number}", found, inputs_at_start if kind == "BI" else 0)
+        for (kind, number), found in sorted(changes.items())
+    ]
 
 
 def _named(command: Command) -> tuple[str, int] | None:

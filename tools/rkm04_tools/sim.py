@@ -3,61 +3,48 @@
 from __future__ import annotations
 
 import json
-import os
-import re
 import sys
 from argparse import Namespace
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from rkm04_tools import host, sim_board
 from rkm04_tools.check import Checked, check_source, show_all
-from rkm04_tools.failure import DONE, NOT_SO, Failure, reading_failed, writing_failed
+from rkm04_tools.failure import DONE, NOT_SO, Failure
 from rkm04_tools.machine.simulation import Simulated, is_machine, read_simulated
-from rkm04_tools.plot import draw, require_format
+from rkm04_tools.plot import draw
 from rkm04_tools.record import read_record
 from rkm04_tools.report import Run, summary
 from rkm04_tools.signals import signals
-from rkm04_tools.source import is_standard_input, named, read_source, why_no_text
+from rkm04_tools.sim_files import (
+    Outputs,
+    path_of,
+    pipes,
+    plain,
+    remove_parts,
+    require_inputs,
+    require_outputs,
+    require_plain,
+    require_seconds,
+)
+from rkm04_tools.source import is_standard_input, named, read_source
 
 MOTORS = range(1, 5)
-HEAD_BYTES = 65_536
-SECONDS_MAX = 100_000_000
-"""More than the longest move takes at 1 step/s."""
-
-STANDARD = re.compile(r"/dev/std(in|out|err)|(/dev/fd|/proc/[^/]+/fd)/[0-2]")
-PIPE = re.compile(r"(?:/dev/fd|/proc/self/fd)/(\d{1,6})")
-NUMBER = re.compile(r"\d{1,9}(\.\d{1,9})?")
-
-
-@dataclass(frozen=True)
-class Outputs:
-    """Where the files that were asked for go."""
-
-    steps: Path | None
-    trace: Path | None
-    vcd: Path | None
-    plot: Path | None
-
-    @property
-    def wanted(self) -> list[Path]:
-        """Those that are wanted."""
-        return [p for p in (self.steps, self.trace, self.vcd, self.plot) if p]
 
 
 def run(options: Namespace) -> int:
     """Check the programs, run them, and report."""
-    outputs = Outputs(*(_path(options, name) for name in ("steps", "trace", "vcd", "plot")))
+    outputs = Outputs(*(path_of(options, name) for name in ("steps", "trace", "vcd", "plot")))
     is_of_machine = is_machine(options.file)
     programs = {} if is_of_machine else _programs(options)
-    inputs = _path(options, "inputs")
-    _require_seconds(options.seconds)
-    _require_inputs(inputs)
+    inputs = path_of(options, "inputs")
+    require_seconds(options.seconds)
+    require_inputs(inputs)
     read = [named(options.file)] if is_of_machine else [*programs.values()]
-    _require_outputs(outputs, [*read, *([inputs] if inputs else [])])
+    require_outputs(outputs, [*read, *([inputs] if inputs else [])])
     if options.target == "stm32":
         _require_board_has(outputs)
     if is_of_machine:
@@ -80,7 +67,7 @@ def _run_machine(
         if not machine.has_limits:
             return _run(machine.programs, inputs, outputs, options, folder)
         steps = outputs.steps or folder / "limits.csv"
-        _require_plain(steps, "the limits of the machine are looked for in it")
+        require_plain(steps, "the limits of the machine are looked for in it")
         status = _run(machine.programs, inputs, replace(outputs, steps=steps), options, folder)
         return max(status, machine.judge(steps))
 
@@ -93,17 +80,12 @@ def _run(
     folder: Path,
 ) -> int:
     """Run programs without errors, and report."""
-    inputs = _plain(inputs, folder)
+    inputs = plain(inputs, folder)
     if options.target == "stm32":
         files = sim_board.Files(inputs, outputs.steps, outputs.vcd)
         return _on_board(checked, files, options, folder)
     answer = _simulate(checked, inputs, options.seconds, outputs, folder)
     return _report(answer, checked, options)
-
-
-def _path(options: Namespace, name: str) -> Path | None:
-    value: str | None = getattr(options, name)
-    return None if value is None else named(value)
 
 
 def _programs(options: Namespace) -> dict[int, Path]:
@@ -122,73 +104,6 @@ def _programs(options: Namespace) -> dict[int, Path]:
     if sum(map(is_standard_input, programs.values())) > 1:
         raise Failure("- is for one motor only: standard input is one program")
     return dict(sorted(programs.items()))
-
-
-def _require_seconds(text: str) -> None:
-    if not NUMBER.fullmatch(text) or not 0 < float(text) <= SECONDS_MAX:
-        raise Failure(f"--for {text}: write seconds, more than 0, at most {SECONDS_MAX}")
-
-
-def _require_inputs(path: Path | None) -> None:
-    """Refuse an inputs file that is not there; what is in it is for the simulator to judge."""
-    if path is None:
-        return
-    try:
-        if path.exists() and not path.is_file() and not path.is_dir():
-            return  # it can be read once only
-        with path.open("rb") as file:
-            wrong = why_no_text(file.read(HEAD_BYTES))
-    except OSError as error:
-        raise reading_failed(path, error) from None
-    if wrong:
-        raise Failure(f"{path}: {wrong.partition(';')[0]}; name a file with lines ms,input,level")
-
-
-def _plain(inputs: Path | None, folder: Path) -> Path | None:
-    """The inputs as a file that can be read again and again, and by others."""
-    if inputs is None or inputs.is_file():
-        return inputs
-    copy = folder / "inputs.csv"
-    copy.write_bytes(inputs.read_bytes())
-    return copy
-
-
-def _pipes(outputs: Outputs) -> list[int]:
-    """The descriptors that a shell has opened for >(COMMAND), which the simulator must get."""
-    found = (PIPE.fullmatch(str(path)) for path in outputs.wanted)
-    return [int(match[1]) for match in found if match]
-
-
-def _is_stream(path: Path) -> bool:
-    """Whether a path names standard input or output: those of the simulator are others."""
-    return STANDARD.fullmatch(str(path)) is not None
-
-
-def _require_outputs(outputs: Outputs, read: Sequence[Path]) -> None:
-    """Refuse what cannot be written before anything runs."""
-    if outputs.plot:
-        require_format(outputs.plot)
-    for path in filter(None, (outputs.steps, outputs.trace)):
-        if outputs.plot:
-            _require_plain(path, "--plot reads it back")
-    known = {path.resolve(): "is read by this very command" for path in read}
-    for path in outputs.wanted:
-        if path.is_dir():
-            raise Failure(f"{path}: is a directory; name a file in it")
-        if _is_stream(path):
-            raise Failure(f"{path}: the summary goes there; name a file, or use >(COMMAND)")
-        if not path.parent.is_dir():
-            raise Failure(f"{path}: there is no folder {path.parent}; make it first")
-        if not os.access(path if path.exists() else path.parent, os.W_OK):
-            raise writing_failed(path, PermissionError("permission denied"))
-        if path.resolve() in known:
-            raise Failure(f"{path}: {known[path.resolve()]}; choose another name")
-        known[path.resolve()] = "is named for two outputs"
-
-
-def _require_plain(path: Path, why: str) -> None:
-    if path.exists() and not path.is_file():
-        raise Failure(f"{path}: {why}, so it must be a plain file")
 
 
 def _require_board_has(outputs: Outputs) -> None:
@@ -225,21 +140,15 @@ def _simulate(
     for name, path in named.items():
         arguments += [f"--{name}", str(path)] if path else []
     try:
-        answer = host.simulate(arguments, _pipes(outputs))
+        answer = host.simulate(arguments, pipes(outputs))
     except BaseException:
-        _remove_parts([path for path in (steps, trace, outputs.vcd) if path])
+        remove_parts([path for path in (steps, trace, outputs.vcd) if path])
         raise
     if outputs.plot and steps and trace:
         record = read_record(steps, trace, inputs, answer["seconds"])
         commands = [c for checked in programs.values() for c in checked.parsed.commands]
         draw(record, _title(programs), signals(record, commands), outputs.plot)
     return answer
-
-
-def _remove_parts(outputs: Sequence[Path]) -> None:
-    """Remove what an interrupted simulator leaves of files that it had not finished."""
-    for path in outputs:
-        path.with_name(f"{path.name}.part").unlink(missing_ok=True)
 
 
 def _title(programs: dict[int, Checked]) -> str:

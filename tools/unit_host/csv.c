@@ -44,6 +44,15 @@ void csv_begin_trace(struct outfile *file)
     outfile_commit(file, line_put_string(outfile_reserve(file, LINE_BYTES_MAX), "tick,motor,event,value\n"));
 }
 
+void csv_put_position(struct outfile *file, const struct timeline_event *event)
+{
+    char *at = put_tick_and_motor(outfile_reserve(file, LINE_BYTES_MAX), event);
+    at = line_put_string(at, "position,");
+    at = line_put_signed(at, event->value);
+    *at++ = '\n';
+    outfile_commit(file, at);
+}
+
 void csv_put_trace(struct outfile *file, const struct timeline_event *event, const struct unit_kind *kind)
 {
     const char *text = kind->trace_text((enum hal_trace_event)event->detail, event->value);

@@ -12,6 +12,9 @@ static void recorder_write(void *context, const struct timeline_event *event)
     if (event->kind == TIMELINE_TRACE && outfile_is_open(&recorder->trace)) {
         csv_put_trace(&recorder->trace, event, recorder->kind);
     }
+    if (event->kind == TIMELINE_POSITION && recorder->kind->traces_positions && outfile_is_open(&recorder->trace)) {
+        csv_put_position(&recorder->trace, event);
+    }
     if (outfile_is_open(&recorder->waves)) {
         waves_put(&recorder->drawing, event);
     }

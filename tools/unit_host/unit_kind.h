@@ -36,6 +36,7 @@ struct unit_kind {
 
     const char *const *leds; /* names of the HAL_IO_LEDS LEDs; null: the first four are m1_led to m4_led */
     bool has_pwm;
+    bool traces_positions; /* positions that commands write are events of the trace, too */
     bool moves_together;   /* all motors begin and end their moves together, those that make no steps, too */
     uint8_t inputs_used;   /* those that the unit has; bit 0 is input 1 */
     uint8_t inputs_turned; /* those whose level is the other one in files and orders than at the machine: 1 is open */

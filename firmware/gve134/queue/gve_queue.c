@@ -226,13 +226,12 @@ static void note_last_pulse(struct gve_queue *queue, uint64_t now)
     }
 }
 
-static void tell_end(struct gve_queue *queue)
+void gve_queue_tell_end(const struct gve_queue *queue, uint64_t tick)
 {
     int64_t steps[UNIT_MOTORS];
     gve_queue_positions(queue, steps);
     for (unsigned motor = 0; motor < (unsigned)UNIT_MOTORS; motor++) {
-        hal_trace(group_end_tick(gve_queue_group(queue)), motor + 1U, HAL_TRACE_DONE,
-                  steps[motor] - queue->start_steps[motor]);
+        hal_trace(tick, motor + 1U, HAL_TRACE_DONE, steps[motor] - queue->start_steps[motor]);
     }
 }
 
@@ -242,7 +241,7 @@ static void end(struct gve_queue *queue, uint8_t inputs)
     enum axis_cause cause = group_cause(gve_queue_group(queue));
     bool stopped = cause == AXIS_CAUSE_HIGH || cause == AXIS_CAUSE_COMMAND || queue->halting || queue->stopping;
     note_last_pulse(queue, hal_time_now());
-    tell_end(queue);
+    gve_queue_tell_end(queue, group_end_tick(gve_queue_group(queue)));
     if (gve_home_phase(queue) != GVE_HOME_NONE) {
         gve_home_follow(queue, stopped, inputs);
     } else if (stopped) {

@@ -24,6 +24,9 @@ void gve_queue_add(struct gve_queue *queue, const struct gve_vector *vector, uin
 /* Leaves the stand as soon as it may; inputs that are active stop it again. */
 void gve_queue_start(struct gve_queue *queue, uint8_t inputs);
 
+/* Tells onlookers that the motion in progress has ended at a tick. */
+void gve_queue_tell_end(const struct gve_queue *queue, uint64_t tick);
+
 /* Stops what moves; false: nothing does, or it is being stopped. */
 bool gve_queue_brake(struct gve_queue *queue, enum axis_cause cause);
 

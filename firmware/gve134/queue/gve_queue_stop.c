@@ -107,6 +107,10 @@ void gve_queue_abort(struct gve_queue *queue)
     for (unsigned motor = 0; motor < (unsigned)UNIT_MOTORS; motor++) {
         step_channel_halt(&queue->channel[motor]);
     }
+    if (group_is_busy(gve_queue_group(queue))) {
+        hal_trace(hal_time_now(), 0, HAL_TRACE_STOP, AXIS_CAUSE_ABORT);
+        gve_queue_tell_end(queue, hal_time_now());
+    }
 }
 
 bool gve_queue_is_quiet(const struct gve_queue *queue)

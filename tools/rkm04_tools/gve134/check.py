@@ -46,6 +46,11 @@ class Checked:
         }
 
 
+def check_source(source: Source) -> Checked:
+    """Check a file that has been read."""
+    return Checked(source, host.check(source.text))
+
+
 def run(options: Namespace) -> int:
     """Check all files; the status is that of the worst one."""
     host.program_path()
@@ -53,7 +58,7 @@ def run(options: Namespace) -> int:
     for path in options.files:
         try:
             source = read_source(path)
-            checked = Checked(source, host.check(source.text))
+            checked = check_source(source)
         except Failure as failure:
             print(f"gve134: {failure}", file=sys.stderr)
             status = max(status, failure.status)
@@ -61,7 +66,7 @@ def run(options: Namespace) -> int:
         status = max(status, NOT_SO if checked.parsed.errors else DONE)
         answers.append(checked.as_json())
         if not options.json:
-            checked.report()
+            checked.report(sys.stdout)
     if options.json:
         print(json.dumps({"files": answers}, indent=2))
     return status

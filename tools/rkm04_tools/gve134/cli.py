@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
 import re
 from pathlib import Path
 
 from rkm04_tools import completion
 from rkm04_tools.cli import Commands, Parser, add_board, add_command
-from rkm04_tools.gve134 import check
+from rkm04_tools.gve134 import check, serve
 from rkm04_tools.gve134.client_options import add_client_commands
 from rkm04_tools.gve134.gcode import options as gcode_options
 
@@ -16,6 +17,29 @@ A vector file has a command in each line, as the unit's line has it, without ! a
 interpolator and with them for the spindle (!7V300). ; begins a comment. A line that begins with @
 and a time in ms (@250.5 H) goes beside the others. Lines between *S and *E are a packet.
 """
+SIM_NOTES = """\
+The lines of FILE go to the unit one after the other: each waits for the answer to the one before,
+is sent again after 1 ms where the answer is 1 (no room), and a packet (*S to *E) goes as a whole. A
+line @250.5 H goes at that time, in ms from the start, beside the others, as soon as the line is
+free; J at any time leaves what has not been answered without an answer, and nothing is sent for
+100 ms after it. While checksums are on (%+ in FILE) every line gets its own.
+
+Answers with values are shown, and each that is neither 0 nor 1; then the exit status is 1.
+INPUTS has lines ms,input,level such as 350.5,3,0: input 3 is closed to ground at 350.5 ms. Inputs
+are 1 to 4 (RefX, RefY, RefZ, RefA), 7 and 8 (button and plate of the tool sensor), and open (1) at
+the start. Bytes take no time on the line, unless --baud says a rate.
+
+The simulation ends when all lines have been answered and the axes stand, or at the limit of time.
+Steps, trace and waveforms are those of rkm04 sim, with motors 1 to 4 for X, Y, Z, A.
+"""
+SIM_OPTIONS = [
+    ("--inputs", "INPUTS", "what the inputs do over time; all are 1 (open) at the start"),
+    ("--steps", "OUT.csv", "write the tick of every pulse"),
+    ("--trace", "OUT.csv", "write paths, stops and outputs"),
+    ("--vcd", "OUT.vcd", "write the waveforms for a viewer such as GTKWave"),
+    ("--plot", "OUT", "draw speeds, positions and signals: a name ending in .svg or .png"),
+    ("--xy", "OUT", "draw the path in X and Y, coloured by its speed: .svg or .png"),
+]
 TABLE = Path(__file__).resolve().parents[3] / "firmware/gve134/command/gve_commands.def"
 
 
@@ -39,11 +63,21 @@ def make_parser() -> Parser:
     )  # fmt: skip
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     _add_check(commands)
+    _add_sim(commands)
+    title = "a unit without hardware: it runs in real time and speaks the line"
+    serve.add_arguments(add_command(commands, "serve", serve.run, title, serve.EXAMPLE))
     gcode_options.add_arguments(commands)
     add_board(commands, "gve134")
     add_client_commands(commands, add_command)
     completion.add_command(commands, "gve134", add_command)
     return parser
+
+
+def _sim(options: argparse.Namespace) -> int:
+    """Import the drawing of pictures only when it may be needed: it takes long."""
+    from rkm04_tools.gve134 import sim
+
+    return sim.run(options)
 
 
 def _add_check(commands: Commands) -> None:
@@ -53,3 +87,22 @@ def _add_check(commands: Commands) -> None:
     command.add_argument(
         "files", nargs="+", metavar="FILE", help="a vector file; -: standard input"
     )
+
+
+def _add_sim(commands: Commands) -> None:
+    title = "play a vector file to the simulated unit, in virtual time"
+    example = (
+        "gve134 sim part.gve --xy part.svg\n"
+        "  gve134 sim part.gve --inputs inputs.csv --baud 115200 --for 10 --vcd part.vcd"
+    )
+    command = add_command(commands, "sim", _sim, title, f"{example}\n\n{SIM_NOTES.rstrip()}")
+    command.add_argument("file", metavar="FILE", help="a vector file (.gve); -: standard input")
+    command.add_argument(
+        "--for", metavar="SECONDS", dest="seconds", default="60",
+        help="end at this unit time at the latest (default: 60)",
+    )  # fmt: skip
+    command.add_argument(
+        "--baud", metavar="N", help="bytes take their time at this rate, 38400 to 921600"
+    )
+    for flag, metavar, text in SIM_OPTIONS:
+        command.add_argument(flag, metavar=metavar, help=text)

@@ -1,15 +1,14 @@
-"""The C program `gve134-host`: the parser of the firmware, asked by command line."""
+"""The C program `gve134-host`: the firmware on the host backend, asked by command line."""
 
 from __future__ import annotations
 
-import json
-import subprocess
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from rkm04_tools import child, host
+from rkm04_tools import host
 from rkm04_tools.failure import Failure
 
 PROGRAM = "gve134-host"
@@ -73,15 +72,11 @@ def commands() -> list[Command]:
     return [Command(**row) for row in _answer("commands")["commands"]]
 
 
+def simulate(arguments: Sequence[str], pipes: Sequence[int] = ()) -> dict[str, Any]:
+    """Play a vector file to the unit; the answer is the summary."""
+    return host.simulate(arguments, pipes, program_path())
+
+
 def _answer(*arguments: str, given: bytes = b"") -> dict[str, Any]:
     """Run the program to its end and return what it answers."""
-    done = subprocess.run(
-        [str(program_path()), *arguments], input=given, capture_output=True, env=child.bound()
-    )
-    complaint = done.stderr.decode(errors="replace").strip().removeprefix(f"{PROGRAM}: ")
-    if done.returncode:
-        raise Failure(complaint or f"{PROGRAM} ended with status {done.returncode}")
-    answer = json.loads(done.stdout)
-    if not isinstance(answer, dict):
-        raise Failure(f"{PROGRAM} {arguments[0]} did not answer with an object; build it again")
-    return answer
+    return host.ask(program_path(), arguments, given)
