@@ -12,8 +12,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from fake_gve134 import FakeGve
 from fake_unit import FakeLine, FakeUnit
-from rkm04_tools.cli import main
+from gve134_ports import FakeGveLine
+from rkm04_tools.cli import main, run_tool
+from rkm04_tools.gve134.cli import make_parser as make_gve134_parser
 from served import Served
 from service_client import Service, build_with_page
 
@@ -65,6 +68,46 @@ def tool(capsys: pytest.CaptureFixture[str]) -> Tool:
         return Result(status, printed.out, printed.err)
 
     return run
+
+
+@pytest.fixture
+def gve(capsys: pytest.CaptureFixture[str]) -> Tool:
+    """Run a command of `gve134` inside this process."""
+
+    def run(*arguments: str | Path) -> Result:
+        capsys.readouterr()
+        status = run_tool(make_gve134_parser(), [str(argument) for argument in arguments])
+        printed = capsys.readouterr()
+        return Result(status, printed.out, printed.err)
+
+    return run
+
+
+@pytest.fixture
+def gve_line(gve_unit: FakeGve, monkeypatch: pytest.MonkeyPatch) -> Iterator[FakeGveLine]:
+    """A line with the `gve_unit` of the test's file, where commands of `gve134` go."""
+    line = FakeGveLine(gve_unit)
+    monkeypatch.setenv("GVE134_PORT", line.port)
+    yield line
+    line.close()
+
+
+@pytest.fixture
+def start_gve(tmp_path: Path) -> Callable[..., subprocess.Popen[str]]:
+    """Start a command of `gve134` as a process of its own."""
+
+    def begin(*arguments: str | Path) -> subprocess.Popen[str]:
+        return subprocess.Popen(
+            [sys.executable, "-P", "-m", "rkm04_tools.gve134", *map(str, arguments)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=tmp_path,
+            env={**os.environ, "PYTHONPATH": str(ROOT / "tools")},
+        )
+
+    return begin
 
 
 @pytest.fixture

@@ -56,7 +56,8 @@ COMMANDS = (
         (
             "Nothing is sent of a file with errors. Vectors go in packets; what is lost or damaged "
             "on the line is repeated, and never executed twice. At the end it waits until the axes "
-            "stand. %+, %-, @ and > are left out: the line uses them by itself.",
+            "stand. %+, %-, @ and > are left out: the line uses them by itself. G-code is turned "
+            "as by gve134 gcode, from where the axes stand.",
             STOPS,
         ),
     ),
@@ -217,7 +218,13 @@ def _add(commands: Any, add: AddTo, row: CommandRow, runs: str) -> argparse.Argu
 def _add_own(name: str, command: argparse.ArgumentParser) -> None:
     """Add the arguments that only one command has."""
     if name == "send":
-        command.add_argument("file", metavar="FILE", help="a vector file; -: standard input")
+        command.add_argument(
+            "file", metavar="FILE", help="a vector file, or one of G-code (.nc); -: standard input"
+        )
+        command.add_argument(
+            "--machine", metavar="FILE.rkm",
+            help="the machine for G-code (default: that of GVE134_MACHINE)",
+        )  # fmt: skip
         command.add_argument(
             "--no-wait", dest="wait", action="store_false", help="do not wait for the axes"
         )

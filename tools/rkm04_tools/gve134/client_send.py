@@ -8,35 +8,43 @@ from argparse import Namespace
 
 from rkm04_tools.bar import Bar
 from rkm04_tools.client_base import count_of, tell
-from rkm04_tools.failure import NOT_SO
+from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.gve134 import host
-from rkm04_tools.gve134.check import Checked
+from rkm04_tools.gve134.check import SHOWN_MAX, Checked
 from rkm04_tools.gve134.client_base import unit_of
+from rkm04_tools.gve134.gcode.axes import read_mill
+from rkm04_tools.gve134.gcode.command import machine_of
+from rkm04_tools.gve134.gcode.reading import lines_of
+from rkm04_tools.gve134.gcode.turning import turn_file
 from rkm04_tools.gve134.job import job_of
 from rkm04_tools.gve134.link_errors import NotConfirmed
 from rkm04_tools.gve134.sending import Sender
 from rkm04_tools.gve134.source import read_source
 from rkm04_tools.gve134.state import AXES, positions_text
-from rkm04_tools.gve134.stopping import guarded, shout
-from rkm04_tools.source import Source
+from rkm04_tools.gve134.stopping import Stopper, guarded, shout
+from rkm04_tools.source import Source, named
 
 LEFT_AFTER_SECONDS = 2.0
+GCODE_SUFFIXES = (".nc", ".ngc", ".gcode", ".tap")
 
 
 def run_send(options: Namespace) -> int:
     """Check a file, send it, and say what became of it."""
-    checked = checked_vectors(vectors_of(options.file))
-    if checked is None:
+    source = vectors_of(options)
+    if source is None or not is_good(source):
+        print(f"gve134: {options.file}: nothing was sent", file=sys.stderr)
         return NOT_SO
-    job = job_of(checked)
+    job = job_of(source)
     for command in job.left_out:
         print(f"gve134: {job.source.name}: {command} is left out", file=sys.stderr)
+    if job.pauses and not sys.stdin.isatty():
+        raise Failure(f"{job.source.name}: waits for a person (;@pause); send it from a terminal")
     with unit_of(options) as unit, Bar("sending") as bar:
         sender = Sender(unit, job, Progress(bar, job.vectors).show)
         try:
             return guarded(
                 unit,
-                lambda _: _send(options, sender, bar),
+                lambda stopper: _send(options, sender, bar, stopper),
                 lambda: f"interrupted after {sender.sent} of {count_of(job.vectors, 'vector')}; ",
             )
         except NotConfirmed as error:
@@ -44,19 +52,30 @@ def run_send(options: Namespace) -> int:
             raise
 
 
-def vectors_of(name: str) -> Source:
-    """The commands of a file, whatever kind of file it is."""
-    return read_source(name)
+def vectors_of(options: Namespace) -> Source | None:
+    """The commands of a file, whatever kind of file it is; None: it has errors, which are shown."""
+    if named(options.file).suffix.lower() in GCODE_SUFFIXES:
+        return _turned(options)
+    return read_source(options.file)
 
 
-def checked_vectors(source: Source) -> Source | None:
-    """The file, if the firmware's own parser has nothing to say; else that is shown."""
+def _turned(options: Namespace) -> Source | None:
+    """Vectors of a file of G-code."""
+    path, mill = named(options.file), read_mill(machine_of(options))
+    pieces: list[str] = []
+    with Bar("turning") as bar:
+        turned = turn_file(lines_of(path, bar.show), path.name, mill, pieces.append)
+    for problem in turned.problems[:SHOWN_MAX]:
+        print(f"{path}:{problem.line}:{problem.column}: error: {problem.message}", file=sys.stderr)
+    return Source(f"{path} as vectors", "".join(pieces)) if turned.is_good else None
+
+
+def is_good(source: Source) -> bool:
+    """Whether the firmware's own parser has nothing to say; else that is shown."""
     parsed = host.check(source.text)
-    if not parsed.errors:
-        return source
-    Checked(source, parsed).report(sys.stderr)
-    print(f"gve134: {source.name}: nothing was sent", file=sys.stderr)
-    return None
+    if parsed.errors:
+        Checked(source, parsed).report(sys.stderr)
+    return not parsed.errors
 
 
 class Progress:
@@ -79,7 +98,14 @@ class Progress:
         self._bar.show(sent, self._total, more)
 
 
-def _send(options: Namespace, sender: Sender, bar: Bar) -> int:
+def _send(options: Namespace, sender: Sender, bar: Bar, stopper: Stopper) -> int:
+    def ask_person(text: str) -> None:
+        bar.clear()
+        print(f"gve134: {text}; Enter goes on, Ctrl-C halts", file=sys.stderr, flush=True)
+        with stopper.at_once():
+            sys.stdin.readline()
+
+    sender.ask_person = ask_person
     sender.send()
     flags = sender.finish() if options.wait else sender.unit.flags()
     positions = sender.unit.positions()

@@ -8,27 +8,30 @@ from dataclasses import dataclass
 
 from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.gve134.answers import canonical
+from rkm04_tools.gve134.gcode.directives import MARK, Pause, Probe, Wait, directive_of
 from rkm04_tools.source import LINE_END, Source
 
 COMMENT = ";"
-HOST_MARK = ";@"
-"""A line that begins so is a comment to the unit, and asks something of the host."""
+BLANKS = " \t"
 LINE_OWN = ("%+", "%-", "@", ">")
 """What the line does by itself."""
 TIMED = re.compile(r"@\d")
 
+Asked = Wait | Pause | Probe
+
 
 @dataclass(frozen=True)
 class Command:
-    """A command and the line of the file where it stands, from 1."""
+    """What stands in a line of the file, from 1: a command, or something asked of the host."""
 
     line: int
     text: str
+    asked_of_host: Asked | None = None
 
     @property
     def letter(self) -> str:
-        """Its first letter, of the interpolator's; the spindle's have none."""
-        return "" if self.text.startswith("!7") else self.text[0]
+        """Its first letter, of the interpolator's; others have none."""
+        return "" if self.text.startswith(("!7", MARK)) else self.text[0]
 
     @property
     def is_vector(self) -> bool:
@@ -43,28 +46,30 @@ class Command:
 
 @dataclass(frozen=True)
 class Job:
-    """A file without errors. `left_out` names commands of it that are not sent."""
+    """A file without errors. `left_out` names commands of it that are not sent.
+
+    `pauses`: whether it waits for a person.
+    """
 
     source: Source
     commands: int
     vectors: int
     left_out: tuple[str, ...]
+    pauses: bool
 
     def __iter__(self) -> Iterator[Command]:
-        return (each for each in commands_of(self.source.text) if each.text not in LINE_OWN)
+        return (each for each in commands_of(self.source) if each.text not in LINE_OWN)
 
 
 def job_of(source: Source) -> Job:
     """Look through a file that the unit's parser has passed."""
     commands = vectors = 0
+    pauses = False
     left_out: dict[str, None] = {}
-    for command in commands_of(source.text):
-        if command.text.startswith(HOST_MARK):
-            raise Failure(
-                f"{source.name}:{command.line}: {command.text} asks for what send does not do; "
-                "nothing was sent",
-                NOT_SO,
-            )
+    for command in commands_of(source):
+        if command.asked_of_host is not None:
+            pauses = pauses or isinstance(command.asked_of_host, Pause)
+            continue
         if TIMED.match(command.text):
             raise Failure(
                 f"{source.name}:{command.line}: a command at a time (@) is for gve134 sim; "
@@ -76,15 +81,22 @@ def job_of(source: Source) -> Job:
             continue
         commands += 1
         vectors += command.is_vector
-    return Job(source, commands, vectors, tuple(left_out))
+    return Job(source, commands, vectors, tuple(left_out), pauses)
 
 
-def commands_of(text: str) -> Iterator[Command]:
-    """The commands of a text, in capital letters; those of the interpolator without address."""
-    for number, line in enumerate(LINE_END.split(text), 1):
-        if line.lstrip(" \t").startswith(HOST_MARK):
-            yield Command(number, line.strip(" \t"))
+def commands_of(source: Source) -> Iterator[Command]:
+    """The commands of a file, in capital letters; those of the interpolator without address."""
+    for number, line in enumerate(LINE_END.split(source.text), 1):
+        if line.lstrip(BLANKS).startswith(MARK):
+            yield _of_host(source, number, line)
             continue
-        command = line.partition(COMMENT)[0].strip(" \t")
+        command = line.partition(COMMENT)[0].strip(BLANKS)
         if command:
             yield Command(number, canonical(command.removeprefix("!0")))
+
+
+def _of_host(source: Source, number: int, line: str) -> Command:
+    try:
+        return Command(number, line.strip(BLANKS), directive_of(line))
+    except ValueError as error:
+        raise Failure(f"{source.name}:{number}: {error}; nothing was sent", NOT_SO) from None

@@ -41,7 +41,7 @@ from contextlib import contextmanager, suppress
 from types import TracebackType
 
 from rkm04_tools.gve134 import answers
-from rkm04_tools.gve134.answers import Answer, encoded
+from rkm04_tools.gve134.answers import Answer, encoded, parsed
 from rkm04_tools.gve134.link_errors import (
     EndUnknown,
     GarbledAnswer,
@@ -53,6 +53,7 @@ from rkm04_tools.gve134.link_errors import (
     Restarted,
 )
 from rkm04_tools.gve134.wire import (
+    BARE,
     PACKET_OVER_SECONDS,
     PATIENCE_SECONDS,
     Heard,
@@ -73,6 +74,7 @@ INDEX_MODULUS = 256
 HALT_SECONDS = 30.0
 HALT_USUAL_SECONDS = 3.0
 HALT_REPEAT_SECONDS = (0.3, 0.3, 0.5, 1.0, 2.0, 4.0)
+HALTED = Answer(answers.DONE, inta=True)
 NAME = "IP134"
 
 INDEX = Request.of("@")
@@ -287,6 +289,7 @@ class Link:
         until = self.wire.clock() + PATIENCE_SECONDS
         while (left := until - self.wire.clock()) > 0:
             if any(BARE_INDEX.fullmatch(line) for line in self.wire.lines(left)):
+                self.version = ""  # so that connecting to it is no news any more
                 raise Restarted(self.name, may_be_executed)
 
     def _wait_long(self, seconds: float) -> Answer | None:
@@ -331,10 +334,16 @@ class Link:
         self.connect()
 
     def _halt_once(self, sums: bool, seconds: float) -> bool:
-        self.wire.sums = sums
+        """Whether H was answered, by one with or without a checksum: several may be under way."""
         self.wire.write(encoded("H", sums))
-        answer = self.wire.wait(answers.NO_VALUES, seconds)
-        return answer is not None and answer.code == answers.DONE and answer.inta
+        until = self.wire.clock() + seconds
+        while (left := until - self.wire.clock()) > 0:
+            for line in self.wire.lines(left):
+                if HALTED in (parsed(line, sums=True), parsed(line, sums=False)):
+                    return True
+                if sums and BARE.fullmatch(line):
+                    return False
+        return False
 
     def _unanswered(self, heard: Heard) -> LineError:
         where = self.name

@@ -6,19 +6,20 @@ does not run dry while a large one is sent in vain. None takes longer on the lin
 to wait. A packet that the file itself has (*S to *E) is sent as it stands.
 
 What is refused ends the job, and so does an interrupt: INTA that no command of the file has
-brought about.
+brought about. What a line asks of the host (`gcode.directives`) is done when its turn comes.
 """
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.gve134 import answers
 from rkm04_tools.gve134.answers import Answer, encoded
-from rkm04_tools.gve134.job import Command, Job
+from rkm04_tools.gve134.gcode.directives import Pause, Probe, Wait
+from rkm04_tools.gve134.job import Asked, Command, Job
 from rkm04_tools.gve134.link import MEMORY_SECONDS
 from rkm04_tools.gve134.link_errors import Refused
 from rkm04_tools.gve134.state import INTA, INTCOM, RUN, Flags, named, positions_text
@@ -61,22 +62,33 @@ class Sender:
     packets: int = 0
     size: int = PACKET_COMMANDS_MAX
     inta: bool = False
+    ask_person: Callable[[str], None] = lambda text: None
     _waits: int = 0
+    _commands: Iterator[Command] = field(default_factory=lambda: iter(()))
+    _pending: deque[Command] = field(default_factory=deque)
 
     def send(self) -> None:
         """Send all of it; return when the unit has taken the last command."""
-        commands = iter(self.job)
+        self._commands = iter(self.job)
         self._begin()
-        pending: deque[Command] = deque()
         while True:
-            run = self._fill(pending, commands)
-            if run:
-                self._send_run(pending, run)
-            elif pending:
-                self._send_single(pending.popleft(), commands)
+            count = self._fill()
+            if count > 1:
+                self._send_run(count)
+            elif self._ahead(0):
+                self._send_single(self._pending.popleft())
             else:
                 return
             self.tell(self.sent)
+
+    def _ahead(self, place: int) -> Command | None:
+        """The command so many places ahead of the next one; None: there are not so many."""
+        while len(self._pending) <= place:
+            command = next(self._commands, None)
+            if command is None:
+                return None
+            self._pending.append(command)
+        return self._pending[place]
 
     def _begin(self) -> None:
         """Refuse to add to what was interrupted, unless the file begins with what ends that."""
@@ -88,18 +100,13 @@ class Sender:
 
     # ---- runs of C and B ----
 
-    def _fill(self, pending: deque[Command], commands: Iterator[Command]) -> int:
-        """Take commands until the next packet is full or ends; return how many it has."""
+    def _fill(self) -> int:
+        """How many of the commands ahead make up the next packet."""
         room, count = self._bytes_max(), 0
-        while count < self.size:
-            if count == len(pending):
-                command = next(commands, None)
-                if command is None:
-                    return count
-                pending.append(command)
-            room -= len(encoded(pending[count].text, self.unit.link.sums))
-            if not pending[count].goes_in_packets or room < 0:
-                return count
+        while count < self.size and (command := self._ahead(count)):
+            room -= len(encoded(command.text, self.unit.link.sums))
+            if not command.goes_in_packets or room < 0:
+                break
             count += 1
         return count
 
@@ -107,11 +114,8 @@ class Sender:
         baud = self.unit.link.wire.baud
         return max(PACKET_BYTES_MIN, baud * PACKET_SECONDS / BITS_PER_BYTE)
 
-    def _send_run(self, pending: deque[Command], count: int) -> None:
-        run = [pending[place] for place in range(count)]
-        if count == 1:
-            self._send_single(pending.popleft(), iter(()))
-            return
+    def _send_run(self, count: int) -> None:
+        run = [self._pending[place] for place in range(count)]
         answer = self._packet(run)
         self._judge(run[0], answer)
         if answer.code == answers.NO_ROOM:
@@ -122,7 +126,7 @@ class Sender:
         self.size = min(PACKET_COMMANDS_MAX, self.size + PACKET_GROWTH)
         self._taken(run)
         for _ in run:
-            pending.popleft()
+            self._pending.popleft()
 
     def _packet(self, run: list[Command]) -> Answer:
         self.packets += 1
@@ -130,10 +134,13 @@ class Sender:
 
     # ---- all else ----
 
-    def _send_single(self, command: Command, commands: Iterator[Command]) -> None:
+    def _send_single(self, command: Command) -> None:
         whole = [command]
+        if command.asked_of_host is not None:
+            self._obey(command, command.asked_of_host)
+            return
         if command.text == "*S":
-            whole, end = _packet_of_file(commands)
+            whole, end = self._packet_of_file()
             command = end or command
         while True:
             answer = self._packet(whole) if command.text == "*S" else self._ask(command)
@@ -145,6 +152,21 @@ class Sender:
             else:
                 break
         self._taken(whole)
+
+    def _packet_of_file(self) -> tuple[list[Command], Command | None]:
+        """The commands after *S up to *E; or what ends the packet before that, H or J, twice."""
+        whole: list[Command] = []
+        while self._ahead(0):
+            each = self._pending.popleft()
+            if each.text.startswith("*E"):
+                break
+            if each.goes_in_packets:
+                whole.append(each)
+            elif each.text == "*S":
+                whole = []
+            else:
+                return [each], each
+        return whole, None
 
     def _ask(self, command: Command) -> Answer:
         if command.letter == "W":
@@ -160,6 +182,31 @@ class Sender:
             return self.unit.link.ask(command.text, MEMORY_SECONDS)
         return self.unit.link.ask(command.text)
 
+    def _obey(self, command: Command, asked: Asked) -> None:
+        """Do what a line asks of the host."""
+        if isinstance(asked, Wait):
+            self.unit.link.pause(asked.seconds)
+        elif isinstance(asked, Pause):
+            self.unit.wait_until_stands()
+            self.ask_person(asked.text)
+        else:
+            self._go_back(command)
+
+    def _go_back(self, command: Command) -> None:
+        """Bring the axes back to where the sensor was touched."""
+        unit = self.unit
+        flags = unit.wait_until_stands()
+        if not flags.has(INTA) or flags.has(INTCOM):
+            raise Failure(f"{self._where(command)}: nothing was touched on the way", NOT_SO)
+        unit.order("SW1,00")
+        touched, stand = unit.positions(latched=True), unit.positions()
+        unit.order("D")
+        self.inta = False
+        way = (at - now for at, now in zip(touched, stand, strict=True))
+        unit.order(f"L{','.join(map(str, way))}")
+        if unit.wait_until_stands().has(INTA):
+            raise self.interrupted(self._where(command))
+
     def _taken(self, commands: list[Command]) -> None:
         self._waits = 0
         self.lines += len(commands)
@@ -170,6 +217,9 @@ class Sender:
     def _judge(self, command: Command, answer: Answer) -> None:
         """Notice an interrupt, and what the unit refuses for good."""
         is_new = answer.inta and not self.inta
+        following = self._ahead(0) if is_new else None
+        if following is not None and isinstance(following.asked_of_host, Probe):
+            return
         if is_new and not (command.letter == "R" or command.text.startswith("SW6")):
             raise self.interrupted(self._where(command))
         self.inta = answer.inta
@@ -223,21 +273,6 @@ class Sender:
         self._waits += 1
         if self._waits > WAITS_MAX:
             raise self._refused(command, answer)
-
-
-def _packet_of_file(commands: Iterator[Command]) -> tuple[list[Command], Command | None]:
-    """The commands after *S up to *E; none where H or J ends the packet, which is the second."""
-    whole: list[Command] = []
-    for each in commands:
-        if each.text.startswith("*E"):
-            break
-        if each.goes_in_packets:
-            whole.append(each)
-        elif each.text == "*S":
-            whole = []
-        else:
-            return [each], each
-    return whole, None
 
 
 def causes_of(unit: Unit, flags: Flags) -> list[str]:
