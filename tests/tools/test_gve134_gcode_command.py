@@ -91,6 +91,12 @@ def test_with_an_error_nothing_is_written_and_each_has_a_caret(
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.nc"]
 
 
+def test_the_program_itself_is_not_overwritten(gcode: Gcode, tmp_path: Path) -> None:
+    status, _, err = gcode(SQUARE, "-o", str(tmp_path / "a.nc"))
+    assert (status, err.count("\n")) == (2, 1)
+    assert (tmp_path / "a.nc").read_text(encoding="utf-8") == SQUARE
+
+
 def test_a_file_that_was_there_stays_if_there_is_an_error(gcode: Gcode, tmp_path: Path) -> None:
     (tmp_path / "a.gve").write_text("V1000\n", encoding="utf-8")
     assert gcode("G7", "-o", str(tmp_path / "a.gve"))[0] == 1

@@ -35,6 +35,8 @@ def run(options: Namespace) -> int:
     """Turn a program; the vector file is written whole or not at all."""
     path, mill = named(options.file), read_mill(machine_of(options))
     output = None if options.check or options.output is None else named(options.output)
+    if output is not None and output.exists() and path.exists() and output.samefile(path):
+        raise Failure(f"{output}: is the program itself; name another file for the vectors")
     with Preview(mill, is_wanted=not options.check) as preview:
         turned = _turn(options, path, mill, output, preview)
         previewed = preview.end() if turned.is_good else None
