@@ -47,7 +47,8 @@ endif()
 # For the tests that ask for them.
 firmware_add_image(take_back_image ${image}-take-back firmware_inside tests/vboard/images/take_back_main.c)
 firmware_add_image(step_acts_image ${image}-step-acts firmware_inside tests/vboard/images/step_acts_main.c)
-set_target_properties(take_back_image step_acts_image PROPERTIES EXCLUDE_FROM_ALL ON)
+firmware_add_image(seam_image ${image}-seam base tests/vboard/images/seam_main.c)
+set_target_properties(take_back_image step_acts_image seam_image PROPERTIES EXCLUDE_FROM_ALL ON)
 
 set(checks ${PROJECT_SOURCE_DIR}/tools/checks)
 set(run_check ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_SOURCE_DIR}/tools PYTHONDONTWRITEBYTECODE=1

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from rkm04_tools import child, host
-from rkm04_tools.board import BOARDS
+from rkm04_tools.board import BOARDS, UNIT, is_full_duplex
 from rkm04_tools.board_header import Board, read_board
 from rkm04_tools.failure import NOT_SO, Failure
 
@@ -37,10 +37,16 @@ def _low(level: str) -> str:
     return " low" if level == "0U" else ""
 
 
-def pins(board: Board) -> str:
-    """The file that says which signal is on which pin."""
+def pins(board: Board, unit: str = UNIT) -> str:
+    """The file that says which signal is on which pin. A line of full duplex has two wires, and
+    nobody switches its driver."""
     lines = []
+    unused = (
+        {"LINE_DE", *(f"S1_{number}" for number in range(1, 5))} if is_full_duplex(unit) else set()
+    )
     for pin in board.pins:
+        if pin.signal in unused:
+            continue
         kind, _, which = pin.signal.partition("_")
         level = board.values.get(f"BOARD_{LEVELS.get(kind, kind)}_LEVEL", "1U")
         if pin.signal == "LINE_DE":
@@ -54,9 +60,9 @@ def pins(board: Board) -> str:
     return "\n".join([*lines, f"line USART{usart}", ""])
 
 
-def board_pins(name: str) -> str:
+def board_pins(name: str, unit: str = UNIT) -> str:
     """The same of a board by its name."""
-    return pins(read_board((BOARDS / name / "board.h").read_text()))
+    return pins(read_board((BOARDS / name / "board.h").read_text()), unit)
 
 
 def program_path() -> Path:
