@@ -66,6 +66,7 @@ struct gve_home {
     struct gve_home_order order;
     _Atomic uint8_t phase; /* enum gve_home_phase; the tick interrupt reads it */
     _Atomic bool reached;  /* the tick interrupt: the switch is as the phase wants it */
+    _Atomic bool ended;    /* the tick interrupt: another input has interrupted while it brakes for that */
     int64_t place_steps;   /* where it became so; written before `reached` */
     int64_t begin_steps;   /* where the phase began */
     uint8_t result;        /* enum gve_home_result */

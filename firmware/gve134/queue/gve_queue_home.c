@@ -24,6 +24,7 @@ static void begin_phase(struct gve_queue *queue, enum gve_home_phase phase, int3
     vector.steps[queue->home.order.axis] = way;
     queue->home.begin_steps = position_of(queue);
     atomic_store_explicit(&queue->home.reached, false, memory_order_relaxed);
+    atomic_store_explicit(&queue->home.ended, false, memory_order_relaxed);
     set_phase(queue, phase);
     gve_queue_add(queue, &vector, gve_speeds_limit(&vector, GVE_FACTOR_ONE, queue->modal.limit), PATH_SPEED_MAX);
     gve_queue_start(queue, inputs);
@@ -80,7 +81,7 @@ void gve_home_follow(struct gve_queue *queue, bool stopped, uint8_t inputs)
     enum gve_home_phase phase = gve_home_phase(queue);
     bool reached = has_reached(queue);
     group_forget(&gve_queue_chain(queue)->group);
-    if (stopped) {
+    if (stopped || atomic_load_explicit(&queue->home.ended, memory_order_relaxed)) {
         finish(queue, GVE_HOME_STOPPED);
         queue->intcom = false;
     } else if (phase == GVE_HOME_BACK) {
@@ -109,6 +110,13 @@ bool gve_home_sense_isr(struct gve_queue *queue, uint8_t inputs)
     home->place_steps = step_channel_position(&queue->channel[home->order.axis]);
     atomic_store_explicit(&home->reached, true, memory_order_release);
     return true;
+}
+
+bool gve_home_end_isr(struct gve_queue *queue)
+{
+    const struct group *group = gve_queue_group(queue);
+    return group_is_stopping(group) && group_cause(group) == AXIS_CAUSE_LIMIT &&
+           !atomic_exchange_explicit(&queue->home.ended, true, memory_order_relaxed);
 }
 
 uint16_t gve_home_mask(const struct gve_queue *queue, uint16_t active)

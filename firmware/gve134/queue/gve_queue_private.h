@@ -37,6 +37,9 @@ void gve_home_follow(struct gve_queue *queue, bool stopped, uint8_t inputs);
 /* Whether the switch is as the phase wants it: then it stops the motion. */
 bool gve_home_sense_isr(struct gve_queue *queue, uint8_t inputs);
 
+/* An interrupt has come. Whether it ends a run that brakes for its switch already; once a phase. */
+bool gve_home_end_isr(struct gve_queue *queue);
+
 /* Of the interrupts that are active those that count: the switch of a reference run does not. */
 uint16_t gve_home_mask(const struct gve_queue *queue, uint16_t active);
 
