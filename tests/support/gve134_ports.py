@@ -11,10 +11,12 @@ import socket
 import threading
 import time
 import tty
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from fake_gve134 import FakeGve
+from fake_gve134_receiver import checksum
 
 
 @dataclass
@@ -106,6 +108,31 @@ class VirtualPort:
         """Not of 0, which no sum sees: a unit refuses it as wrong syntax."""
         place = self._random.randrange(len(data) + 1)
         return data[:place] + bytes([self._random.randint(1, 255)]) + data[place:]
+
+
+class Ends(VirtualPort):
+    """A port that can be told to lose or change what is written, or to say something else."""
+
+    def __init__(self, unit: FakeGve) -> None:
+        super().__init__(unit)
+        self.requests: deque[Callable[[bytes], bytes]] = deque()
+        self.before: Callable[[bytes], None] = lambda data: None
+
+    def write(self, data: bytes) -> None:
+        self.before(data)
+        self.written.append(data)
+        self._put(self._to_unit, self.requests.popleft()(data) if self.requests else data)
+
+    def say(self, data: bytes, after_s: float = 0.0) -> None:
+        self._order += 1
+        self._to_host.append((self.now + after_s, self._order, data))
+        self._to_host.sort()
+
+
+def answer_of(text: str) -> bytes:
+    """An answer with its checksum."""
+    start = f"{text},".encode()
+    return start + checksum(start) + b"\r"
 
 
 class FakeGveLine:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import random
-from collections import deque
 from collections.abc import Callable
 
 import pytest
 from fake_gve134 import FakeGve, cut_off, damaged, lost
-from gve134_ports import VirtualPort
+from gve134_ports import Ends, VirtualPort, answer_of
 from rkm04_tools.gve134.answers import Answer, canonical, encoded, parsed
 from rkm04_tools.gve134.link import Link
 from rkm04_tools.gve134.link_errors import (
@@ -16,7 +15,6 @@ from rkm04_tools.gve134.link_errors import (
     GarbledAnswer,
     LineError,
     NoAnswer,
-    NotConfirmed,
     OtherDevice,
     OutOfStep,
     Restarted,
@@ -25,25 +23,6 @@ from rkm04_tools.gve134.wire import Wire
 from rkm04_tools.line_errors import PortLost
 
 BAUD = 115_200
-
-
-class Ends(VirtualPort):
-    """A port that can be told to lose or change what is written, or to say something else."""
-
-    def __init__(self, unit: FakeGve) -> None:
-        super().__init__(unit)
-        self.requests: deque[Callable[[bytes], bytes]] = deque()
-        self.before: Callable[[bytes], None] = lambda data: None
-
-    def write(self, data: bytes) -> None:
-        self.before(data)
-        self.written.append(data)
-        self._put(self._to_unit, self.requests.popleft()(data) if self.requests else data)
-
-    def say(self, data: bytes, after_s: float = 0.0) -> None:
-        self._order += 1
-        self._to_host.append((self.now + after_s, self._order, data))
-        self._to_host.sort()
 
 
 @pytest.fixture
@@ -150,7 +129,7 @@ def test_what_another_program_has_left_half_sent_is_overcome(
     assert unit.taken == []
 
 
-def test_a_silent_port_is_no_answer(unit: FakeGve, port: Ends) -> None:
+def test_a_silent_port_is_noanswer_of(unit: FakeGve, port: Ends) -> None:
     unit.mute = True
 
     with pytest.raises(NoAnswer, match="does not answer; check power") as raised:
@@ -267,7 +246,7 @@ def test_a_late_answer_is_not_taken_for_the_next_one(link: Link, unit: FakeGve, 
 
     def delay(data: bytes) -> None:
         if data.startswith(b"!0*S") and next(sent, False):
-            port.say(_answer("0,2"), 1.4)
+            port.say(answer_of("0,2"), 1.4)
 
     port.before = delay
     assert link.send_packet(["C1,0,0,0", "C2,0,0,0"]).numbers == (2,)
@@ -277,10 +256,6 @@ def test_a_late_answer_is_not_taken_for_the_next_one(link: Link, unit: FakeGve, 
     assert link.ask("V50").code == 0
     assert link.ask("C3,0,0,0").code == 0
     assert len(unit.taken) == 3
-
-
-def _answer(text: str) -> bytes:
-    return f"{text},{sum(f'{text},'.encode()) % 256:02X}\r".encode()
 
 
 def test_a_line_that_dies_is_an_error_and_the_port_is_given_up(unit: FakeGve, port: Ends) -> None:
@@ -396,131 +371,6 @@ def test_a_reset_that_was_asked_for_is_no_surprise(link: Link, unit: FakeGve) ->
 
     assert link.ask("P4").code == 0
     assert unit.receiver.sums
-
-
-# ---- what takes long ----
-
-
-def test_a_reference_run_is_answered_at_its_end(link: Link, unit: FakeGve, port: Ends) -> None:
-    unit.home_s = 20.0
-
-    assert link.ask_long("WX-100,50,10,50", 60) == Answer(0, False)
-
-    assert port.now > 20
-    assert unit.done.count("WX-100,50,10,50") == 1
-    assert link.ask("P4").numbers == (0, 0, 0, 0)
-
-
-@pytest.mark.parametrize("fault", [lost, damaged, cut_off])
-def test_a_reference_run_whose_answer_comes_to_harm_is_made_once(
-    link: Link, unit: FakeGve, fault: Callable[[bytes], bytes]
-) -> None:
-    unit.home_s = 3.0
-    unit.faults.append(fault)
-
-    assert link.ask_long("WX-100,50,10,50", 60).code == 0
-    assert unit.done.count("WX-100,50,10,50") == 1
-
-
-@pytest.mark.parametrize("fault", [lost, damaged, cut_off])
-def test_a_reference_run_that_comes_to_harm_is_sent_again(
-    link: Link, unit: FakeGve, port: Ends, fault: Callable[[bytes], bytes]
-) -> None:
-    port.requests.append(fault)
-
-    assert link.ask_long("WX-100,50,10,50", 60).code == 0
-    assert unit.done.count("WX-100,50,10,50") == 1
-
-
-def test_a_restart_during_a_reference_run_is_told(link: Link, unit: FakeGve, port: Ends) -> None:
-    unit.home_s = 5.0
-    port.before = lambda data: unit.restart() if data.startswith(b"!0@") else None
-
-    with pytest.raises(Restarted, match="executed before that or not at all"):
-        link.ask_long("WX-100,50,10,50", 60)
-
-
-def test_a_reference_run_without_an_end_is_not_known_about(link: Link, unit: FakeGve) -> None:
-    unit.home_s = 1000.0
-
-    with pytest.raises(NotConfirmed, match="NOT KNOWN whether the axes move"):
-        link.ask_long("WX-100,50,10,50", 60)
-
-
-# ---- halting ----
-
-
-@pytest.mark.parametrize("sums_before", [False, True])
-@pytest.mark.parametrize("rest", [b"", b"!0C10,2", b"!0*S\r!0C1,2\r", b"!0*S,FA\r!0C1"])
-def test_a_halt_works_in_any_state_of_the_line(
-    unit: FakeGve, port: Ends, sums_before: bool, rest: bytes
-) -> None:
-    unit.vector_s = 100.0
-    unit.receiver.sums = sums_before
-    unit.take(encoded("L1000,0,0,0", sums_before) + rest)
-
-    bare(port).halt()
-
-    assert unit.inta
-    assert not unit.moves
-
-
-@pytest.mark.parametrize("seed", range(40))
-def test_a_halt_works_on_a_bad_line(seed: int) -> None:
-    unit = FakeGve(vector_s=100.0)
-    unit.take(b"!0L1000,0,0,0\r")
-    port = VirtualPort(unit, probability=0.1, seed=seed)
-
-    Link(Wire(port, BAUD, clock=port.clock)).halt()
-
-    assert unit.inta
-
-
-def test_a_halt_interrupts_a_reference_run(link: Link, unit: FakeGve) -> None:
-    class Wish(Exception):
-        pass
-
-    unit.home_s = 1000.0
-
-    def wish() -> None:
-        raise Wish
-
-    link.wire.look = lambda: None
-    link.wire.port.write(encoded("WX-100,50,10,50", sums=True))
-    link.pause(0.1)
-
-    link.halt()
-
-    assert unit.inta
-    assert link.ask("P4").code == 0
-
-
-def test_a_long_ramp_is_waited_for_and_told(link: Link, unit: FakeGve, port: Ends) -> None:
-    unit.vector_s, unit.brake_s = 100.0, 12.0
-    link.ask("L1000,0,0,0")
-    told = []
-
-    link.halt(waits=lambda: told.append(port.now))
-
-    assert len(told) == 1
-    assert unit.inta
-
-
-def test_a_halt_without_an_answer_is_not_confirmed(link: Link, unit: FakeGve) -> None:
-    unit.mute = True
-
-    with pytest.raises(NotConfirmed, match="H has no answer in 30 s"):
-        link.halt()
-
-
-def test_answers_before_a_halt_do_not_confirm_it(link: Link, unit: FakeGve, port: Ends) -> None:
-    unit.mute = True
-    port.say(_answer("0"), 0.05)
-    port.say(_answer("0,17"), 0.1)
-    port.say(b"8,65\r", 0.15)
-
-    with pytest.raises(NotConfirmed):
-        link.halt()
 
 
 # ---- everything at once ----

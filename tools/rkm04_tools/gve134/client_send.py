@@ -17,7 +17,7 @@ from rkm04_tools.gve134.gcode.command import machine_of
 from rkm04_tools.gve134.gcode.reading import lines_of
 from rkm04_tools.gve134.gcode.turning import turn_file
 from rkm04_tools.gve134.job import job_of
-from rkm04_tools.gve134.link_errors import NotConfirmed
+from rkm04_tools.gve134.link_errors import LineError, NotConfirmed, Restarted
 from rkm04_tools.gve134.sending import Sender
 from rkm04_tools.gve134.source import read_source
 from rkm04_tools.gve134.state import AXES, positions_text
@@ -50,6 +50,14 @@ def run_send(options: Namespace) -> int:
         except NotConfirmed as error:
             shout(str(error))
             raise
+        except Restarted:
+            raise
+        except LineError as error:
+            what = f"{sender.sent} of {count_of(job.vectors, 'vector')} were sent"
+            raise Failure(
+                f"{error}; {what} and go on by themselves: whether the axes move is NOT KNOWN",
+                error.status,
+            ) from None
 
 
 def vectors_of(options: Namespace) -> Source | None:

@@ -1,0 +1,227 @@
+"""Ctrl-C and SIGTERM: the axes are halted, and it is told, or shouted that nobody knows."""
+
+from __future__ import annotations
+
+import os
+import pty
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from fake_gve134 import FakeGve
+from gve134_ports import FakeGveLine
+
+Start = Callable[..., "subprocess.Popen[str]"]
+PATIENCE_S = 30.0
+
+
+@pytest.fixture
+def gve_unit() -> FakeGve:
+    return FakeGve(vector_s=0.01)
+
+
+@pytest.fixture
+def unit(gve_unit: FakeGve, gve_line: FakeGveLine) -> FakeGve:
+    return gve_unit
+
+
+@pytest.fixture
+def job(tmp_path: Path) -> Path:
+    path = tmp_path / "a.gve"
+    path.write_text("C1\n" * 2000)
+    return path
+
+
+def end(process: subprocess.Popen[str], *numbers: signal.Signals) -> tuple[int, str]:
+    for number in numbers:
+        process.send_signal(number)
+        time.sleep(0.6)
+    _, told = process.communicate(timeout=PATIENCE_S)
+    return process.returncode, told
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_halts_a_job_and_tells_state_and_position(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve, job: Path, number: signal.Signals
+) -> None:
+    process = start_gve("send", job)
+    gve_line.until(lambda unit: len(unit.taken) > 200)
+
+    status, told = end(process, number)
+
+    assert status == 130
+    assert unit.inta
+    assert "of 2000 vectors; halting ..." in told
+    assert "the axes stand at X " in told
+    assert "the rest of the vectors waits (gve134 go or delete)" in told
+    assert "NOT CONFIRMED" not in told
+
+
+def test_a_stop_that_nobody_confirms_is_shouted_at_the_second_ctrl_c(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve, job: Path
+) -> None:
+    process = start_gve("send", job)
+    gve_line.until(lambda unit: len(unit.taken) > 200)
+    unit.mute = True
+
+    status, told = end(process, signal.SIGINT, signal.SIGINT)
+
+    assert status == 130
+    assert "STOP NOT CONFIRMED: the tool was ended before the unit had confirmed the stop" in told
+    assert "USE THE EMERGENCY STOP" in told
+    assert "Traceback" not in told
+    assert any(each == "H" for each in unit.done)
+
+
+def test_a_line_that_is_gone_leaves_the_motion_unknown_and_says_so(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve, job: Path
+) -> None:
+    process = start_gve("send", job)
+    gve_line.until(lambda unit: len(unit.taken) > 200)
+    gve_line.close()
+
+    status, told = end(process)
+
+    assert status == 3
+    assert "closed the connection" in told
+    assert "whether the axes move is NOT KNOWN" in told
+
+
+def test_a_signal_during_the_wait_for_the_axes_halts_them(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve, tmp_path: Path
+) -> None:
+    unit.vector_s = 1000.0
+    path = tmp_path / "a.gve"
+    path.write_text("C1\nC2\n")
+    process = start_gve("send", path)
+    gve_line.until(lambda unit: unit.done.count("SR6") > 3)
+
+    status, told = end(process, signal.SIGINT)
+
+    assert status == 130
+    assert "interrupted after 2 of 2 vectors" in told
+    assert unit.inta
+
+
+def test_a_signal_halts_a_reference_run(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve
+) -> None:
+    unit.home_s = 1000.0
+    process = start_gve("home", "X", "-20000", "1000", "20", "500")
+    gve_line.until(lambda unit: unit.home_end < 1e9)
+
+    status, told = end(process, signal.SIGINT)
+
+    assert status == 130
+    assert unit.inta
+    assert "the axes stand at" in told
+
+
+def test_a_signal_halts_a_jog_and_deletes_the_rest(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve
+) -> None:
+    unit.vector_s = 1000.0
+    process = start_gve("jog", "X100000")
+    gve_line.until(lambda unit: unit.moves)
+
+    status, told = end(process, signal.SIGTERM)
+
+    assert status == 130
+    assert not unit.queue
+    assert not unit.inta
+    assert "the axes stand at X 0  Y 0  Z 0  A 0; at rest" in told
+
+
+def test_input_that_ends_lets_go_of_a_held_jog(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve
+) -> None:
+    unit.vector_s = 1000.0
+    process = start_gve("jog", "X100000", "--hold")
+    gve_line.until(lambda unit: unit.moves)
+
+    out, _ = process.communicate(input="", timeout=PATIENCE_S)
+
+    assert process.returncode == 0
+    assert "the axes stand at" in out
+    assert not unit.queue
+
+
+def test_a_signal_ends_a_watch_in_order(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve
+) -> None:
+    process = start_gve("watch", "--interval", "0.05")
+    gve_line.until(lambda unit: unit.done.count("P4") > 2)
+
+    assert end(process, signal.SIGINT) == (0, "")
+    assert "H" not in unit.done
+
+
+class Typist:
+    """A console on a terminal."""
+
+    def __init__(self, tmp_path: Path) -> None:
+        self._master, slave = pty.openpty()
+        root = Path(__file__).resolve().parents[2]
+        self.process = subprocess.Popen(
+            [sys.executable, "-P", "-m", "rkm04_tools.gve134", "console"],
+            stdin=slave, stdout=slave, stderr=slave, cwd=tmp_path, start_new_session=True,
+            env={**os.environ, "PYTHONPATH": str(root / "tools")},
+        )  # fmt: skip
+        os.close(slave)
+        self.shown = ""
+
+    def type(self, text: str) -> None:
+        os.write(self._master, text.encode())
+
+    def until(self, text: str) -> None:
+        end = time.monotonic() + PATIENCE_S
+        while text not in self.shown:
+            assert time.monotonic() < end, self.shown
+            self.shown += os.read(self._master, 4096).decode()
+
+    def close(self) -> int:
+        self.type("\x04")
+        status = self.process.wait(PATIENCE_S)
+        os.close(self._master)
+        return status
+
+
+def test_ctrl_c_in_a_console_halts_and_the_console_goes_on(
+    gve_line: FakeGveLine, unit: FakeGve, tmp_path: Path
+) -> None:
+    unit.vector_s = 1000.0
+    console = Typist(tmp_path)
+    console.until("> ")
+    console.type("L1000\n")
+    console.until("0  done")
+
+    console.process.send_signal(signal.SIGINT)
+    console.until("the axes stand at X 0")
+    console.type("D\nP4\n")
+    console.until("0,0,0,0,0  done")
+
+    assert console.close() == 0
+    assert not unit.queue
+
+
+def test_what_is_typed_while_nobody_answers_is_never_sent(
+    gve_line: FakeGveLine, unit: FakeGve, tmp_path: Path
+) -> None:
+    console = Typist(tmp_path)
+    console.until("> ")
+    unit.mute = True
+    console.type("V500\n")
+    time.sleep(0.3)
+    console.type("L1\nL2\nL3\n")
+    console.until("does not answer")
+    unit.mute = False
+    console.until("> ")
+    console.type("P4\n")
+    console.until("0,0,0,0,0  done")
+
+    assert console.close() == 0
+    assert unit.taken == []
