@@ -220,11 +220,6 @@ bool group_take_end(struct group *group)
     return axis_state_enter(&group->state, AXIS_TAKE);
 }
 
-enum axis_cause group_cause(const struct group *group)
-{
-    return (enum axis_cause)atomic_load_explicit(&group->cause, memory_order_relaxed);
-}
-
 uint64_t group_end_tick(const struct group *group)
 {
     return group->path.rest.entry.time.high;

@@ -106,8 +106,11 @@ static inline bool group_is_stopping(const struct group *group)
     return state == AXIS_BRAKING || state == AXIS_STOPPING;
 }
 
-/* Why the present or last motion ends before its end. */
-enum axis_cause group_cause(const struct group *group);
+/* Why the present or last motion ends before its end. Also in the tick interrupt. */
+static inline enum axis_cause group_cause(const struct group *group)
+{
+    return (enum axis_cause)atomic_load_explicit(&group->cause, memory_order_relaxed);
+}
 
 /* The unit's time at which the path came to rest; of the motion that was taken last. */
 uint64_t group_end_tick(const struct group *group);
