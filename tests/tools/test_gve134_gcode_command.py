@@ -127,6 +127,20 @@ def test_a_check_writes_nothing_and_tells_no_time(gcode: Gcode, tmp_path: Path) 
     assert not (tmp_path / "a.gve").exists()
 
 
+def test_the_path_is_drawn_in_mm(gcode: Gcode, tmp_path: Path) -> None:
+    status, _, err = gcode(SQUARE, "--xy", str(tmp_path / "a.svg"))
+    picture = (tmp_path / "a.svg").read_text(encoding="utf-8")
+    assert (status, err) == (0, "")
+    for words in ("X (mm)", "Y (mm)", "speed along the path (mm/min)", "a.nc"):
+        assert words in picture
+
+    assert gcode(f"{SQUARE}G7", "--xy", str(tmp_path / "b.svg"))[0] == 0
+    assert gcode("G7", "--xy", str(tmp_path / "c.svg"))[0] == 1
+    assert not (tmp_path / "c.svg").exists()
+    status, _, err = gcode(SQUARE, "--xy", str(tmp_path / "a.pdf"))
+    assert (status, err.count("\n")) == (2, 1)
+
+
 def test_the_start_is_where_positions_count_from(gcode: Gcode) -> None:
     _, out, _ = gcode("G0 X10 Y20 A30", "--start", "10,20,0,30", "--json")
     assert json.loads(out)["vectors"] == 0

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from gcode_played import good, mill
 from rkm04_tools.gve134 import host
@@ -90,6 +91,24 @@ def test_each_example_makes_its_pulses_in_its_time(name: str, tmp_path: Path) ->
 def test_each_example_is_there() -> None:
     names = {path.stem for path in EXAMPLES.iterdir() if path.suffix in (".nc", ".gve")}
     assert names == set(GOLDEN)
+
+
+def test_the_course_is_the_way_of_x_and_y_in_its_time(tmp_path: Path) -> None:
+    lines = ["NX320", *good("G1 X10 F600\nY5 Z1\nA90\nG4 P1\nX0").lines]
+    with Preview(mill(), course=tmp_path / "course") as planner:
+        planner.put("\n".join(lines) + "\n")
+        told = planner.end()
+    assert told is not None
+
+    rows = np.fromfile(tmp_path / "course").reshape(-1, 3)
+
+    assert rows[:, :2].tolist() == [[1, 0], [11, 0], [11, 5], [11, 5], [11, 5], [1, 5]]
+    assert np.isnan(rows[:, 2]).tolist() == [True, False, False, False, True, False]
+    ways = np.hypot(*np.diff(rows[:, :2], axis=0).T)
+    moving = ways > 0
+    seconds = float(np.sum(ways[moving] / rows[1:, 2][moving]))
+    turning = preview(good("G1 A90 F600").lines).seconds
+    assert seconds == pytest.approx(told.seconds - turning, abs=0.2)
 
 
 @pytest.mark.parametrize("name", ["circle", "pocket", "engraving", "rotary"])

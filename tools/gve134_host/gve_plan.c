@@ -9,6 +9,7 @@
 #include "gve_command.h"
 #include "gve_file.h"
 #include "gve_speeds.h"
+#include "outfile.h"
 #include "path.h"
 #include "path_lay.h"
 #include "path_look.h"
@@ -18,6 +19,7 @@
 enum {
     RING = 128, /* vectors that the unit looks ahead */
     TURN_US = 12,
+    PLANE_AXES = 2, /* those of the course */
     LINE_ROOM = 4096,
     MS_PER_S = 1000,
     ACCEL_UNIT = 1000,
@@ -30,6 +32,9 @@ struct planner {
     struct path_section ring[RING];
     double scale[GVE_PLAN_SCALES];
     bool moves; /* the chain has left its stand */
+
+    struct outfile course;
+    double place[PLANE_AXES]; /* pulses */
 
     uint64_t vectors;
     uint64_t chains;
@@ -69,8 +74,39 @@ static void note_peaks(struct planner *planner, const struct path_section *secti
     planner->peak_mm = larger(planner->peak_mm, speed * sqrt(way2));
 }
 
+static void put_place(struct planner *planner, double speed)
+{
+    double row[PLANE_AXES + 1];
+    char *room = outfile_reserve(&planner->course, sizeof row);
+    for (unsigned axis = 0; axis < (unsigned)PLANE_AXES; axis++) {
+        row[axis] = planner->place[axis] / planner->scale[axis];
+    }
+    row[PLANE_AXES] = speed;
+    memcpy(room, row, sizeof row);
+    outfile_commit(&planner->course, room + sizeof row);
+}
+
+static void note_course(struct planner *planner, const struct path_section *section, struct wide end)
+{
+    if (!outfile_is_open(&planner->course)) {
+        return;
+    }
+    struct wide ticks = wide_subtract(end, section->entered);
+    double seconds = ((double)ticks.high + ldexp((double)ticks.low, -64)) / TICK_HZ;
+    double way2 = 0;
+    for (unsigned axis = 0; axis < (unsigned)PLANE_AXES; axis++) {
+        double way = section->vector.steps[axis];
+        planner->place[axis] += way;
+        way2 += way * way / (planner->scale[axis] * planner->scale[axis]);
+    }
+    put_place(planner, sqrt(way2) / seconds);
+}
+
 static void begin_chain(struct planner *planner)
 {
+    if (outfile_is_open(&planner->course)) {
+        put_place(planner, NAN);
+    }
     bool started = path_start(&planner->path, 0);
     (void)started;
     planner->moves = true;
@@ -82,7 +118,9 @@ static void lay_section(struct planner *planner)
 {
     uint32_t count = planner->path.laid;
     path_lay_next(&planner->path);
-    note_peaks(planner, path_section_of(&planner->path, count), peak_of(&planner->path, count));
+    const struct path_section *section = path_section_of(&planner->path, count);
+    note_peaks(planner, section, peak_of(&planner->path, count));
+    note_course(planner, section, path_lay_course(&planner->path, count)->end_time);
 }
 
 /* The unit stands when all that it has been told is done. */
@@ -195,6 +233,12 @@ static void take(struct planner *planner, const struct gve_command *command)
         end_chain(planner);
         planner->runs++;
         break;
+    case GVE_SET_POSITION:
+        end_chain(planner);
+        if (number < (uint32_t)PLANE_AXES) {
+            planner->place[number] = command->numbers[1];
+        }
+        break;
     default:
         break;
     }
@@ -232,10 +276,22 @@ static enum exit_status print_plan(const struct planner *planner)
     return finish_output();
 }
 
-enum exit_status gve_plan_input(char *const scales[GVE_PLAN_SCALES])
+/* False after a complaint. */
+static bool take_input(struct planner *planner)
+{
+    char line[LINE_ROOM];
+    for (uint64_t number = 1; fgets(line, sizeof line, stdin) != NULL; number++) {
+        if (!take_line(planner, line, number)) {
+            return false;
+        }
+    }
+    end_chain(planner);
+    return outfile_close(&planner->course) && outfile_publish(&planner->course);
+}
+
+enum exit_status gve_plan_input(char *const scales[GVE_PLAN_SCALES], const char *course_path)
 {
     static struct planner planner;
-    char line[LINE_ROOM];
     gve_modal_init(&planner.modal);
     path_init(&planner.path, planner.ring, RING, TURN_US);
     for (unsigned axis = 0; axis < (unsigned)GVE_PLAN_SCALES; axis++) {
@@ -245,11 +301,10 @@ enum exit_status gve_plan_input(char *const scales[GVE_PLAN_SCALES])
             return EXIT_USAGE;
         }
     }
-    for (uint64_t number = 1; fgets(line, sizeof line, stdin) != NULL; number++) {
-        if (!take_line(&planner, line, number)) {
-            return EXIT_REFUSED;
-        }
+    if (!outfile_open(&planner.course, course_path)) {
+        return EXIT_REFUSED;
     }
-    end_chain(&planner);
-    return print_plan(&planner);
+    enum exit_status status = take_input(&planner) ? print_plan(&planner) : EXIT_REFUSED;
+    outfile_discard(&planner.course);
+    return status;
 }

@@ -20,7 +20,7 @@ static const char usage[] =
     "                       [--curve OUT.json [--points N] [--from SECONDS] [--to SECONDS]] [--real SECONDS]\n"
     "       gve134-host serve [--help] ...\n"
     "       gve134-host check FILE\n"
-    "       gve134-host plan X Y Z <FILE\n"
+    "       gve134-host plan X Y Z [COURSE] <FILE\n"
     "       gve134-host commands\n"
     "\n"
     "sim      plays a vector file (- is standard input) to the simulated unit and prints a summary (JSON)\n"
@@ -62,8 +62,8 @@ static enum exit_status run_command(const char *name, int count, char *const arg
     if (strcmp(name, "check") == 0 && count == 1) {
         return gve_check_file(arguments[0]);
     }
-    if (strcmp(name, "plan") == 0 && count == (int)GVE_PLAN_SCALES) {
-        return gve_plan_input(arguments);
+    if (strcmp(name, "plan") == 0 && (count == (int)GVE_PLAN_SCALES || count == (int)GVE_PLAN_SCALES + 1)) {
+        return gve_plan_input(arguments, count > (int)GVE_PLAN_SCALES ? arguments[GVE_PLAN_SCALES] : NULL);
     }
     if (strcmp(name, "commands") == 0 && count == 0) {
         return gve_check_commands();

@@ -45,6 +45,18 @@ class Path2:
     speed: Floats
 
 
+@dataclass(frozen=True)
+class Units:
+    """What the numbers of a path are."""
+
+    place: str
+    speed: str
+    is_whole: bool
+
+
+PULSES = Units("pulses", "pulses/s", True)
+
+
 def path_of(record: Record) -> Path2:
     """The path of all moves."""
     moves = record.moves(X)
@@ -98,32 +110,37 @@ def _position_before(record: Record, axis: int, tick: int, pulses: Pulses, first
 
 def draw_path(record: Record, title: str, file: Path) -> None:
     """Draw the path of a simulation; the file's name says the format."""
-    path = path_of(record)
-    save(file, lambda: _figure(path, title))
+    draw(path_of(record), title, file)
 
 
-def _figure(path: Path2, title: str) -> Figure:
+def draw(path: Path2, title: str, file: Path, units: Units = PULSES) -> None:
+    """Draw a path; the file's name says the format."""
+    save(file, lambda: _figure(path, title, units))
+
+
+def _figure(path: Path2, title: str, units: Units) -> Figure:
     from matplotlib.figure import Figure
     from matplotlib.ticker import MaxNLocator
 
     figure = Figure(figsize=PAGE_INCHES, layout="constrained")
     axes = figure.add_subplot()
     axes.set_aspect("equal", adjustable="datalim")
-    axes.set_xlabel("X (pulses)")
-    axes.set_ylabel("Y (pulses)")
+    axes.set_xlabel(f"X ({units.place})")
+    axes.set_ylabel(f"Y ({units.place})")
     if len(path.x) and np.nanmax(path.speed) > 0:
-        _draw(figure, axes, path)
+        _draw(figure, axes, path, units)
     else:
         title += " (nothing moved in X and Y)"
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(lambda value, _: thousands(round(value)))
-        axis.set_major_locator(MaxNLocator(nbins=TICKS, integer=True, steps=TICK_STEPS))
+        if units.is_whole:
+            axis.set_major_formatter(lambda value, _: thousands(round(value)))
+        axis.set_major_locator(MaxNLocator(nbins=TICKS, integer=units.is_whole, steps=TICK_STEPS))
     shown = title.encode("utf-8", "replace").decode()
     figure.suptitle(shown, fontsize=11, parse_math=False)
     return figure
 
 
-def _draw(figure: Figure, axes: Axes, path: Path2) -> None:
+def _draw(figure: Figure, axes: Axes, path: Path2, units: Units) -> None:
     from matplotlib import colormaps
     from matplotlib.collections import LineCollection
     from matplotlib.colors import ListedColormap
@@ -144,7 +161,7 @@ def _draw(figure: Figure, axes: Axes, path: Path2) -> None:
     bar = figure.colorbar(
         drawn, ax=axes, shrink=0.8, format=lambda value, _: thousands(round(value))
     )
-    bar.set_label("speed along the path (pulses/s)")
+    bar.set_label(f"speed along the path ({units.speed})")
 
 
 def _lines(path: Path2, fastest: float) -> tuple[list[Floats], list[float]]:

@@ -9,14 +9,15 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import asdict
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from rkm04_tools.bar import Bar
 from rkm04_tools.client_base import count_of
 from rkm04_tools.failure import DONE, NOT_SO, Failure, finished_or_absent, writing_failed
-from rkm04_tools.gve134.gcode.axes import LETTERS, Mill, read_mill
-from rkm04_tools.gve134.gcode.preview import Preview, Previewed
+from rkm04_tools.gve134.gcode.axes import LETTERS, PARTS, Mill, read_mill
+from rkm04_tools.gve134.gcode.preview import Preview, Previewed, draw_course
 from rkm04_tools.gve134.gcode.reading import lines_of
-from rkm04_tools.gve134.gcode.turning import Problem, Turned, turn_file
+from rkm04_tools.gve134.gcode.turning import Problem, Start, Turned, turn_file
 from rkm04_tools.source import Place, Source, named
 from rkm04_tools.table import thousands
 
@@ -37,9 +38,15 @@ def run(options: Namespace) -> int:
     output = None if options.check or options.output is None else named(options.output)
     if output is not None and output.exists() and path.exists() and output.samefile(path):
         raise Failure(f"{output}: is the program itself; name another file for the vectors")
-    with Preview(mill, is_wanted=not options.check) as preview:
-        turned = _turn(options, path, mill, output, preview)
-        previewed = preview.end() if turned.is_good else None
+    picture = _picture(options)
+    with TemporaryDirectory(prefix="gve134-") as folder:
+        course = Path(folder) / "course" if picture else None
+        with Preview(mill, not options.check, course) as preview:
+            preview.put(_begin(mill, options.start))
+            turned = _turn(options, path, mill, output, preview)
+            previewed = preview.end() if turned.is_good else None
+        if picture and course and previewed:
+            draw_course(course, path.name, picture)
     if options.json:
         print(json.dumps(_as_json(str(path), turned, previewed, output), indent=2))
     else:
@@ -56,6 +63,24 @@ def machine_of(options: Namespace) -> str:
             "tools/examples/gve/mill.rkm is one to begin with"
         )
     return str(name)
+
+
+def _begin(mill: Mill, start: Start) -> str:
+    """Tell the planner where X and Y are; the unit knows by itself, or need not know."""
+    places = zip(mill.axes[:2], start[:2], strict=True)
+    return "".join(f"N{axis.letter}{axis.steps_of(round(at * PARTS))}\n"
+                   for axis, at in places if axis)  # fmt: skip
+
+
+def _picture(options: Namespace) -> Path | None:
+    """What is to be drawn; the libraries for it are imported only then."""
+    if options.check or options.xy is None:
+        return None
+    from rkm04_tools.plot import require_format
+
+    path = named(options.xy)
+    require_format(path)
+    return path
 
 
 def _turn(

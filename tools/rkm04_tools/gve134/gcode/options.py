@@ -36,6 +36,9 @@ def add_arguments(commands: Commands) -> None:
     command.add_argument("--start", metavar="X,Y,Z,A", type=_start, default=(0.0,) * 4,
                          help="where the axes stand at the beginning, in mm and degrees "
                               "(default: 0,0,0,0)")  # fmt: skip
+    command.add_argument("--xy", metavar="OUT",
+                         help="draw the path in X and Y, coloured by speed: a name ending in .svg "
+                              "or .png")  # fmt: skip
     command.add_argument("--check", action="store_true",
                          help="only find what is wrong: no preview, and nothing is written"
                          )  # fmt: skip

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import subprocess
 from dataclasses import dataclass
+from pathlib import Path
 from types import TracebackType
 
 from rkm04_tools import child
@@ -40,16 +41,21 @@ class Previewed:
 class Preview:
     """The planner at work."""
 
-    def __init__(self, mill: Mill, is_wanted: bool = True) -> None:
+    def __init__(self, mill: Mill, is_wanted: bool = True, course: Path | None = None) -> None:
+        """`course`: a file that gets the course of X and Y, for `draw_course`."""
         self._pieces: list[str] = []
         self._letters = 0
         self._process: subprocess.Popen[bytes] | None = None
         if is_wanted:
+            more = [str(course)] if course else []
             scales = [str(float(axis.steps_per_unit)) if axis else "1" for axis in mill.axes[:3]]
             self._process = subprocess.Popen(
-                [str(host.program_path()), "plan", *scales], stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=child.bound(),
-            )  # fmt: skip
+                [str(host.program_path()), "plan", *scales, *more],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                env=child.bound(),
+            )
 
     def __enter__(self) -> Preview:
         return self
@@ -94,3 +100,14 @@ class Preview:
                 pass
         self._pieces.clear()
         self._letters = 0
+
+
+def draw_course(course: Path, title: str, picture: Path) -> None:
+    """Draw the path in X and Y, in mm, coloured by the speed that is planned."""
+    import numpy as np
+
+    from rkm04_tools.gve134 import xy
+
+    x, y, speed = np.fromfile(course).reshape(-1, 3).T
+    units = xy.Units("mm", "mm/min", False)
+    xy.draw(xy.Path2(x, y, 60 * speed), title, picture, units)
