@@ -122,23 +122,33 @@ static bool take_wait(struct gve_file *file, uint32_t begin, uint32_t end)
     return true;
 }
 
+static bool is_pause(const uint8_t *bytes, uint32_t begin, uint32_t end)
+{
+    static const char mark[] = ";@pause";
+    uint32_t after = begin + (uint32_t)sizeof mark - 1U;
+    return begins_with(bytes, begin, end, mark) && (after == end || is_blank(bytes[after]));
+}
+
+static bool is_probe(const uint8_t *bytes, uint32_t begin, uint32_t end)
+{
+    static const char mark[] = ";@probe";
+    return begins_with(bytes, begin, end, mark) && end - begin == sizeof mark - 1U;
+}
+
 /* Reads a comment. True: it asks for more of the host than to wait. */
 static bool take_comment(struct gve_file *file, uint32_t begin, uint32_t stop, struct gve_file_line *line)
 {
-    static const char pause[] = ";@pause";
     const uint8_t *bytes = file->file->bytes;
     uint32_t first = skip_blanks(bytes, begin, stop);
     uint32_t end = stop;
     while (end > first && is_blank(bytes[end - 1U])) {
         end--;
     }
-    bool names_pause = begins_with(bytes, first, end, pause);
-    uint8_t after = names_pause && first + sizeof pause - 1U < end ? bytes[first + sizeof pause - 1U] : (uint8_t)' ';
-    if (!begins_with(bytes, first, end, ";@") || take_wait(file, first, end) || (names_pause && is_blank(after))) {
+    if (!begins_with(bytes, first, end, ";@") || take_wait(file, first, end) || is_pause(bytes, first, end)) {
         return false;
     }
     line->place = first - begin;
-    line->probes = begins_with(bytes, first, end, ";@probe") && end - first == sizeof ";@probe" - 1U;
+    line->probes = is_probe(bytes, first, end);
     if (!line->probes) {
         line->wrong = "for the host there are ;@wait with seconds, ;@pause with a text, and ;@probe";
     }

@@ -43,6 +43,7 @@ struct gve_player {
     struct host_machine *machine;
     uint32_t byte_ticks; /* 0: bytes take no time */
     struct gve_script script;
+    struct gve_probing probing;                        /* from ;@probe to its end `next` is a command of it */
     struct host_line_byte bytes[GVE_PLAYER_BYTES_MAX]; /* of the line on its way to the unit */
 
     struct gve_script_line next; /* of those that follow each other */
@@ -50,8 +51,6 @@ struct gve_player {
     bool next_waits;             /* it has been sent and waits for its answer */
     uint64_t next_tick;          /* when it may be sent */
     uint32_t next_repeats;       /* how often it, or its packet, has been answered with code 1 */
-
-    struct gve_probing probing; /* between ;@probe and its end; `next` is a command of its own */
 
     bool packet;                           /* between *S and *E */
     struct gve_script_place packet_before; /* the place before the *S */

@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "line.h"
@@ -11,6 +12,7 @@ enum {
     INTCOM = 0x10,
     RUN = 0x40,
     INTA = 0x80,
+    ANSWER_ROOM = 128,
 };
 
 static enum gve_probing_result ask(struct gve_probing *probing, enum gve_probing_phase phase, const char *text)
@@ -48,10 +50,16 @@ static enum gve_probing_result take_state(struct gve_probing *probing, uint32_t 
 
 static bool read_positions(int64_t positions[GVE_PROBING_AXES], const char *answer, uint32_t length)
 {
-    char text[GVE_PROBING_TEXT_BYTES];
+    char text[ANSWER_ROOM];
     (void)snprintf(text, sizeof text, "%.*s", (int)length, answer);
-    return sscanf(text, "%*1[08],%" SCNd64 ",%" SCNd64 ",%" SCNd64 ",%" SCNd64, &positions[0], &positions[1],
-                  &positions[2], &positions[3]) == GVE_PROBING_AXES;
+    char *at = text + strcspn(text, ",");
+    for (unsigned axis = 0; axis < (unsigned)GVE_PROBING_AXES; axis++) {
+        if (*at != ',') {
+            return false;
+        }
+        positions[axis] = strtoll(at + 1, &at, 10);
+    }
+    return *at == '\0';
 }
 
 static enum gve_probing_result go_back(struct gve_probing *probing)
