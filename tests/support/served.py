@@ -11,7 +11,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +19,7 @@ from frames import FLAG, fcs16, frame, unescape
 
 ROOT = Path(__file__).resolve().parents[2]
 COMMAND = [sys.executable, "-P", "-m", "rkm04_tools", "serve"]
+GVE_COMMAND = [sys.executable, "-P", "-m", "rkm04_tools.gve134", "serve"]
 PATIENCE_SECONDS = 15.0
 ANSWER = 0x80
 
@@ -27,10 +28,10 @@ def environment() -> dict[str, str]:
     return {**os.environ, "PYTHONPATH": str(ROOT / "tools")}
 
 
-def refusal(*arguments: str | Path) -> tuple[int, str]:
+def refusal(*arguments: str | Path, command: Sequence[str] = COMMAND) -> tuple[int, str]:
     """Run a `serve` that ends by itself."""
     done = subprocess.run(
-        [*COMMAND, *map(str, arguments)],
+        [*command, *map(str, arguments)],
         capture_output=True,
         text=True,
         timeout=PATIENCE_SECONDS,
@@ -118,10 +119,10 @@ class Control:
 class Served:
     """A running `serve`."""
 
-    def __init__(self, *arguments: str | Path, cwd: Path) -> None:
+    def __init__(self, *arguments: str | Path, cwd: Path, command: Sequence[str] = COMMAND) -> None:
         self._open: list[Callable[[], None]] = []
         self.process = subprocess.Popen(
-            [*COMMAND, "--json", *map(str, arguments)],
+            [*command, "--json", *map(str, arguments)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -132,7 +133,7 @@ class Served:
         ready = self.line()
         self.place: str = ready["listening"]
         self.control_place: str | None = ready["control"]
-        self.nodes: list[int] = ready["nodes"]
+        self.nodes: list[int] = ready.get("nodes", [])
 
     def line(self) -> Any:
         """Read a line of standard output, byte by byte: select knows nothing of Python's buffer."""

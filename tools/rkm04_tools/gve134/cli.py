@@ -24,6 +24,7 @@ line @250.5 H goes at that time, in ms from the start, beside the others, as soo
 free; J at any time leaves what has not been answered without an answer, and nothing is sent for
 100 ms after it. While checksums are on (%+ in FILE) every line gets its own.
 
+What gcode writes for a host is done: ;@wait and ;@probe; ;@pause goes on at once.
 Answers with values are shown, and each that is neither 0 nor 1; then the exit status is 1.
 INPUTS has lines ms,input,level such as 350.5,3,0: input 3 is closed to ground at 350.5 ms. Inputs
 are 1 to 4 (RefX, RefY, RefZ, RefA), 7 and 8 (button and plate of the tool sensor), and open (1) at

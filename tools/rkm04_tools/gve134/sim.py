@@ -113,5 +113,5 @@ def _show_answers(name: str, answer: dict[str, Any]) -> None:
     more = sum(max(0, len(own) - SHOWN_MAX) for own in told.values()) + answer["answers_more"]
     if more:
         print(f"{name}: and {more} more answers; --json has them")
-    if answers:
+    if told[sys.stdout] or more:
         print()

@@ -1,0 +1,283 @@
+"""`gve134 serve`: a unit in real time on TCP and on a pty, which keeps its EEPROM in a file."""
+
+from __future__ import annotations
+
+import os
+import select
+import signal
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from rkm04_tools.cli import run_tool
+from rkm04_tools.gve134.cli import make_parser
+from served import COMMAND, GVE_COMMAND, PATIENCE_SECONDS, Served, connect, refusal
+
+SILENCE_SECONDS = 0.3
+
+Serve = Callable[..., Served]
+Meet = Callable[[Served], "Host"]
+
+
+class Host:
+    """A client: lines out, answers in."""
+
+    def __init__(self, place: str) -> None:
+        if place.startswith("socket://"):
+            connection = connect(place)
+            self._fd, self.close = connection.fileno(), connection.close
+        else:
+            fd = os.open(place, os.O_RDWR | os.O_NOCTTY)
+            self._fd, self.close = fd, lambda: os.close(fd)
+        self._came = b""
+
+    def send(self, line: str) -> None:
+        os.write(self._fd, f"{line}\r".encode())
+
+    def answer(self, seconds: float = PATIENCE_SECONDS) -> str | None:
+        end = time.monotonic() + seconds
+        while b"\r" not in self._came:
+            left = end - time.monotonic()
+            if left <= 0 or not select.select([self._fd], [], [], left)[0]:
+                return None
+            self._came += os.read(self._fd, 4096)
+        answer, _, self._came = self._came.partition(b"\r")
+        return answer.decode()
+
+    def ask(self, line: str) -> str | None:
+        self.send(line)
+        return self.answer()
+
+
+@pytest.fixture
+def serve(tmp_path: Path) -> Iterator[Serve]:
+    """Start units that end with the test."""
+    started: list[Served] = []
+
+    def start(*arguments: str | Path, on_pty: bool = False) -> Served:
+        place = [] if on_pty else ["--tcp", "0"]
+        served = Served(*place, *arguments, cwd=tmp_path, command=GVE_COMMAND)
+        started.append(served)
+        return served
+
+    yield start
+    for served in started:
+        served.end()
+
+
+@pytest.fixture
+def meet() -> Iterator[Meet]:
+    """Connect hosts that let go at the end of the test."""
+    hosts: list[Host] = []
+
+    def connect_to(served: Served) -> Host:
+        hosts.append(Host(served.place))
+        return hosts[-1]
+
+    yield connect_to
+    for host in hosts:
+        host.close()
+
+
+@pytest.fixture
+def host(serve: Serve, meet: Meet) -> Host:
+    """A host of a unit without file."""
+    return meet(serve())
+
+
+def test_the_help_has_examples(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        run_tool(make_parser(), ["serve", "--help"])
+    assert end.value.code == 0
+    assert "example:\n  gve134 serve" in capsys.readouterr().out
+
+
+def test_a_unit_answers_by_tcp(host: Host) -> None:
+    assert host.ask("!0?") == "0,IP134/200 v1 22.11.2026"
+
+
+def test_a_unit_answers_on_a_pty(serve: Serve, meet: Meet, tmp_path: Path) -> None:
+    served = serve("--pty", tmp_path / "line", on_pty=True)
+
+    assert served.place == str(tmp_path / "line")
+    assert meet(served).ask("!7?") == "0,IP134/200 v1 22.11.2026"
+
+
+def test_the_position_changes_while_axes_move(host: Host) -> None:
+    assert host.ask("!0L1000000,0,0,-1000000") == "0"
+    while (answer := host.ask("!0P4")) == "0,0,0,0,0":
+        pass
+    assert answer is not None
+    x, *_, a = map(int, answer.split(",")[1:])
+    assert x > 0 > a
+    assert host.ask("!0H") == "8"
+
+
+def test_the_unit_hears_while_h_waits(host: Host) -> None:
+    host.ask("!0V200000")
+    host.ask("!0L100000000")
+    host.send("!0H")
+    assert host.ask("!0J") in ("0", "8")
+
+
+def test_two_hosts_hear_every_answer(serve: Serve, meet: Meet) -> None:
+    served = serve()
+    one, other = meet(served), meet(served)
+    assert one.ask("!0ER05") == "0,FF"
+    assert other.answer() == "0,FF"
+
+
+@pytest.mark.parametrize("options", [["--unpaced"], ["--speed", "0"], ["--baud", "921600"]])
+def test_a_packet_is_taken_at_any_pace(serve: Serve, meet: Meet, options: list[str]) -> None:
+    host = meet(serve(*options))
+    host.send("!0*S")
+    for _ in range(100):
+        host.send("!0C10,20,30")
+    assert host.ask("!0*E100") == "0,100"
+
+
+def test_inputs_are_set_by_lines_on_standard_input(serve: Serve, meet: Meet) -> None:
+    served = serve()
+    host = meet(served)
+    assert host.ask("!0I1") == "0,FF"
+
+    assert order(served, "3=0") == {"ok": True}
+    assert host.ask("!0I1") == "0,FB"
+    assert order(served, "3=1") == {"ok": True}
+    assert order(served, "8=0") == {"ok": True}
+    assert (host.ask("!0I1"), host.ask("!0I2")) == ("0,FF", "0,7F")
+
+
+def test_an_order_for_nothing_is_refused(serve: Serve) -> None:
+    served = serve()
+    for text in ["5=0", "6=1", "9=0", "1.3=0", "3=2", "3", "x"]:
+        assert "there are 1 to 4, 7 and 8" in str(order(served, text)["error"])
+
+
+def test_the_state_tells_axes_inputs_outputs_and_lights(serve: Serve, meet: Meet) -> None:
+    served = serve("--control", "0")
+    host = meet(served)
+    host.ask("!7V300")
+    host.ask("!0O0,FE")
+    host.ask("!0L5,-7")
+    host.ask("!0L0,0,0,0")
+    control = served.control()
+    control.order("1=0")
+    control.wait_for("?", lambda state: state["idle"] and state["leds"][4] == 1)
+
+    state = control.order("?")
+
+    assert "node" not in state
+    assert state["positions"] == [5, -7, 0, 0]
+    assert state["inputs"] == [0, 1, 1, 1, 1, 1, 1, 1]
+    assert state["outputs"] == [1, 0, 0, 0, 1, 0, 0, 0]
+    assert (state["pwm"], len(state["leds"]), state["leds"][0]) == (300, 8, 1)
+    assert state["clients"] == 1
+
+
+def order(served: Served, text: str) -> dict[str, object]:
+    """Write a line to its standard input; what it answers."""
+    assert served.process.stdin is not None
+    served.process.stdin.write(f"{text}\n")
+    served.process.stdin.flush()
+    answer: dict[str, object] = served.line()
+    return answer
+
+
+# ---- the EEPROM ---------------------------------------------------------------------------------
+
+
+def test_the_eeprom_is_there_when_the_unit_is_switched_on_again(
+    serve: Serve, meet: Meet, tmp_path: Path
+) -> None:
+    flash = tmp_path / "unit.flash"
+    served = serve("--flash", flash)
+    assert meet(served).ask("!0EUW10,12345678") == "0"
+    assert served.end() == (0, "")
+
+    assert meet(serve("--flash", flash)).ask("!7EUR10") == "0,12345678"
+    assert [path.name for path in tmp_path.iterdir()] == ["unit.flash"]
+
+
+def test_the_eeprom_survives_a_kill_after_the_answer(
+    serve: Serve, meet: Meet, tmp_path: Path
+) -> None:
+    served = serve("--flash", tmp_path / "unit.flash")
+    host = meet(served)
+    for value in range(5):
+        assert host.ask(f"!0EW20,{value:02X}") == "0"
+    served.end(signal.SIGKILL)
+
+    assert meet(serve("--flash", tmp_path / "unit.flash")).ask("!0ER20") == "0,04"
+
+
+def test_without_a_file_the_eeprom_is_as_delivered(host: Host) -> None:
+    assert [host.ask(f"!0ER{place}") for place in ("01", "05", "FD")] == ["0,00", "0,FF", "0,0A"]
+
+
+def test_j_keeps_the_eeprom_and_forgets_the_rest(host: Host) -> None:
+    host.ask("!0EW20,55")
+    host.ask("!0SW0,0F")
+    assert host.ask("!0J") == "0"
+    assert (host.ask("!0ER20"), host.ask("!0SR0")) == ("0,55", "0,00")
+
+
+def test_the_flash_of_another_kind_of_unit_is_refused(tmp_path: Path) -> None:
+    flash = tmp_path / "unit.flash"
+    other = Served("--tcp", "0", "--flash", flash, cwd=tmp_path, command=COMMAND)
+    other.end()
+    kept = flash.read_bytes()
+
+    status, complaint = refusal("--tcp", "0", "--flash", flash, command=GVE_COMMAND)
+
+    assert status == 2
+    assert "not the flash of a unit (it is damaged, or of another kind of unit)" in complaint
+    assert flash.read_bytes() == kept
+
+
+def test_a_flash_in_use_is_refused(serve: Serve, tmp_path: Path) -> None:
+    flash = tmp_path / "unit.flash"
+    serve("--flash", flash)
+    status, complaint = refusal("--tcp", "0", "--flash", flash, command=GVE_COMMAND)
+    assert status == 2
+    assert f"{flash}: another gve134 serve uses it" in complaint
+
+
+# ---- options ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("options", "complaint"),
+    [
+        (["--baud", "19200"], "--baud 19200: no rate of the unit; write 38400, 57600, 115200, "),
+        (["--speed", "2000"], "--speed 2000: write 0.001 to 1000 times real time"),
+        (["--tcp", "99999"], "--tcp 99999: not a port"),
+        (["--node", "1"], "unrecognized arguments: --node 1"),
+        (["--tcp", "0", "--pty", "x"], "not allowed with argument"),
+    ],
+)
+def test_wrong_options_are_told(options: list[str], complaint: str) -> None:
+    status, told = refusal(*options, command=GVE_COMMAND)
+    assert status == 2
+    assert told.startswith("gve134: ")
+    assert complaint in told
+
+
+def test_a_port_in_use_is_told(serve: Serve) -> None:
+    number = serve().place.rpartition(":")[2]
+    status, complaint = refusal("--tcp", number, command=GVE_COMMAND)
+    assert status == 3
+    assert complaint.startswith(f"gve134: --tcp {number}: cannot listen there")
+
+
+def test_it_ends_without_a_word(serve: Serve, meet: Meet) -> None:
+    served = serve()
+    meet(served).ask("!0L1000000")
+    assert served.end(signal.SIGINT) == (0, "")
+
+
+def test_what_is_for_another_address_has_no_answer(host: Host) -> None:
+    host.send("!3?")
+    assert host.answer(SILENCE_SECONDS) is None
+    assert host.ask("!0@") == "0,0"
