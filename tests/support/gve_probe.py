@@ -1,0 +1,99 @@
+"""Runs sessions with a GVE134 unit on the firmware, many in one process.
+
+`build/host/bin/gve-probe` (`gve_probe.c`) runs them; `RKM04_BUILD` names another build folder.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+from gve_course import Record
+from gve_record import BYTE_TICKS, Answer, Done, Session
+from motion_probe import ROOT, Missing
+
+
+def lines_of(session: Session) -> str:
+    """Return a session as the probe reads it."""
+    lines = [f"epoch {session.epoch}", f"ahead {session.ahead}", f"byte {BYTE_TICKS}"]
+    lines.append(f"cause {session.cause}")
+    lines += [f"in {edge.tick} {edge.number} {edge.level}" for edge in session.edges]
+    lines += [f"hear {byte.tick} {byte.value:02x} {byte.broken:d}" for byte in session.line]
+    return "\n".join([*lines, f"run {session.end}\n"])
+
+
+class Probe:
+    """A process that runs sessions one after the other; use it as a context."""
+
+    def __init__(self) -> None:
+        """Start the process."""
+        path = Path(os.environ.get("RKM04_BUILD", ROOT / "build" / "host")) / "bin/gve-probe"
+        try:
+            self._process = subprocess.Popen(
+                [path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+            )
+        except FileNotFoundError as error:
+            raise Missing(f"{path} is not there: build the preset 'host' first") from error
+
+    def __enter__(self) -> Probe:
+        """Use it."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """End the process."""
+        self._process.communicate()
+
+    def run(self, session: Session) -> Done:
+        """Run a session from power-on."""
+        assert self._process.stdin
+        assert self._process.stdout
+        self._process.stdin.write(lines_of(session))
+        self._process.stdin.flush()
+        reader = _Reader(session.end)
+        for line in self._process.stdout:
+            if reader.read(line.split()):
+                return reader.done
+        raise RuntimeError(f"the probe ended with status {self._process.wait()}:\n{session.text}")
+
+
+class _Reader:
+    """Reads what the probe tells of a session."""
+
+    def __init__(self, end: int) -> None:
+        self.done = Done(Record(end))
+        self._text = ""
+        self._begin = 0
+
+    def read(self, words: list[str]) -> bool:
+        """Read one line; whether it was the last one."""
+        kind = words[0]
+        if kind == "sent":
+            self._hear(int(words[1]), int(words[2], 16))
+        elif kind == "out":
+            tick, levels = int(words[1]), int(words[2])
+            if self.done.outputs and self.done.outputs[-1][0] == tick:
+                self.done.outputs.pop()
+            self.done.outputs.append((tick, levels))
+        elif kind == "pwm":
+            self.done.pwm.append((int(words[1]), int(words[2])))
+        elif kind == "judge":
+            self.done.complaints.append(" ".join(words[1:]))
+        elif kind == "pulses":
+            train = self.done.motors.trains[int(words[1]) - 1]
+            for word in words[2:]:
+                tick = int(word)
+                train.add(abs(tick), 1 if tick > 0 else -1)
+        elif kind == "end" and words[1] != "0":
+            self.done.complaints.append(f"{words[1]} pulses came too late")
+        return kind == "end"
+
+    def _hear(self, tick: int, value: int) -> None:
+        """A byte of the unit has ended at a tick."""
+        if not self._text:
+            self._begin = tick - BYTE_TICKS
+        if value == 13:
+            self.done.answers.append(Answer(self._begin, tick, self._text))
+            self._text = ""
+        else:
+            self._text += chr(value)
