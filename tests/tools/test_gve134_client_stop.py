@@ -160,6 +160,50 @@ def test_a_signal_ends_a_watch_in_order(
     assert "H" not in unit.done
 
 
+def test_a_halt_that_is_ended_before_it_is_confirmed_is_shouted(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve
+) -> None:
+    unit.mute = True
+    process = start_gve("halt")
+    gve_line.until(lambda unit: "H" in unit.done)
+
+    status, told = end(process, signal.SIGINT)
+
+    assert status == 130
+    assert "STOP NOT CONFIRMED: the tool was ended before" in told
+
+
+def test_a_restart_while_a_job_is_stopped_is_told(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve, tmp_path: Path
+) -> None:
+    unit.vector_s = 1000.0
+    path = tmp_path / "a.gve"
+    path.write_text("C1\n;@wait 1000\n")
+    process = start_gve("send", path)
+    gve_line.until(lambda unit: unit.moves)
+    time.sleep(0.3)
+    with gve_line.lock:
+        unit.restart()
+
+    status, told = end(process, signal.SIGINT)
+
+    assert status == 130
+    assert "the unit HAS RESTARTED, its positions count anew; the axes stand" in told
+
+
+def test_a_run_that_takes_longer_than_it_can_is_shouted(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve
+) -> None:
+    unit.home_s = 1000.0
+    process = start_gve("home", "X", "1", "10", "1", "10")
+
+    status, told = end(process)
+
+    assert status == 3
+    assert "STOP NOT CONFIRMED" in told
+    assert "NOT KNOWN whether the axes move" in told
+
+
 class Typist:
     """A console on a terminal."""
 
@@ -206,6 +250,22 @@ def test_ctrl_c_in_a_console_halts_and_the_console_goes_on(
 
     assert console.close() == 0
     assert not unit.queue
+
+
+def test_a_request_to_end_halts_and_ends_a_console(
+    gve_line: FakeGveLine, unit: FakeGve, tmp_path: Path
+) -> None:
+    unit.vector_s = 1000.0
+    console = Typist(tmp_path)
+    console.until("> ")
+    console.type("L1000\n")
+    console.until("0  done")
+
+    console.process.send_signal(signal.SIGTERM)
+    console.until("the axes stand at X 0")
+
+    assert console.process.wait(PATIENCE_S) == 130
+    assert unit.inta
 
 
 def test_what_is_typed_while_nobody_answers_is_never_sent(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import signal
 import sys
 from argparse import Namespace
 from dataclasses import dataclass
@@ -39,7 +40,7 @@ def run_console(options: Namespace) -> int:
                 console.take(line.strip())
             except KeyboardInterrupt:
                 status = halt_at_signal(unit, stopper)
-                if not is_typed or status != INTERRUPTED:
+                if not is_typed or status != INTERRUPTED or stopper.number != signal.SIGINT:
                     return status
             except PortError:
                 raise

@@ -15,7 +15,13 @@ from rkm04_tools.gve134.client_base import require_good, unit_of
 from rkm04_tools.gve134.link_errors import Refused
 from rkm04_tools.gve134.sending import causes_of
 from rkm04_tools.gve134.state import AXES, INTA, Flags, Positions, positions_text
-from rkm04_tools.gve134.stopping import guarded, halt_loudly, halted_text
+from rkm04_tools.gve134.stopping import (
+    ENDED_BEFORE,
+    guarded,
+    halt_loudly,
+    halted_text,
+    shout,
+)
 from rkm04_tools.gve134.unit import POLL_SECONDS, Unit
 
 HOME_EXTRA_SECONDS = 10.0
@@ -28,7 +34,11 @@ OVERRIDES = {"up": "XU", "down": "XD", "last": "XA"}
 def run_halt(options: Namespace) -> int:
     """Stop the axes, and tell where they stand."""
     with unit_of(options) as unit:
-        halted = halt_loudly(unit)
+        try:
+            halted = halt_loudly(unit)
+        except KeyboardInterrupt:
+            shout(ENDED_BEFORE)
+            raise
     return tell(options, _state(halted.flags, halted.positions), halted_text(halted))
 
 

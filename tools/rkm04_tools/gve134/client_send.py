@@ -21,7 +21,7 @@ from rkm04_tools.gve134.link_errors import LineError, NotConfirmed, Restarted
 from rkm04_tools.gve134.sending import Sender
 from rkm04_tools.gve134.source import read_source
 from rkm04_tools.gve134.state import AXES, positions_text
-from rkm04_tools.gve134.stopping import Stopper, guarded, shout
+from rkm04_tools.gve134.stopping import Stopper, guarded
 from rkm04_tools.source import Source, named
 
 LEFT_AFTER_SECONDS = 2.0
@@ -47,10 +47,7 @@ def run_send(options: Namespace) -> int:
                 lambda stopper: _send(options, sender, bar, stopper),
                 lambda: f"interrupted after {sender.sent} of {count_of(job.vectors, 'vector')}; ",
             )
-        except NotConfirmed as error:
-            shout(str(error))
-            raise
-        except Restarted:
+        except (NotConfirmed, Restarted):
             raise
         except LineError as error:
             what = f"{sender.sent} of {count_of(job.vectors, 'vector')} were sent"

@@ -86,13 +86,22 @@ def job_of(source: Source) -> Job:
 
 def commands_of(source: Source) -> Iterator[Command]:
     """The commands of a file, in capital letters; those of the interpolator without address."""
-    for number, line in enumerate(LINE_END.split(source.text), 1):
+    for number, line in enumerate(_lines(source.text), 1):
         if line.lstrip(BLANKS).startswith(MARK):
             yield _of_host(source, number, line)
             continue
         command = line.partition(COMMENT)[0].strip(BLANKS)
         if command:
             yield Command(number, canonical(command.removeprefix("!0")))
+
+
+def _lines(text: str) -> Iterator[str]:
+    """One after the other: a file may have millions of them."""
+    start = 0
+    for end in LINE_END.finditer(text):
+        yield text[start : end.start()]
+        start = end.end()
+    yield text[start:]
 
 
 def _of_host(source: Source, number: int, line: str) -> Command:

@@ -93,7 +93,8 @@ class Link:
     """An open line with a unit.
 
     `sums`: whether checksums are wanted. `version` is the unit's answer to ?. `repairs` counts the
-    answers that got lost.
+    answers that got lost. `restarted`: the unit was found to have started anew when it was
+    connected to again.
     """
 
     def __init__(self, wire: Wire, sums: bool = True) -> None:
@@ -103,7 +104,7 @@ class Link:
         self.version = ""
         self.repairs = 0
         self._ready = False
-        self._restarted = False
+        self.restarted = False
         self._index = 0
 
     def __enter__(self) -> Link:
@@ -155,7 +156,7 @@ class Link:
             answer = self.ask(f"!{address}J")
         self.pause(RESET_SECONDS)
         self.connect()
-        self._restarted = False
+        self.restarted = False
         return answer
 
     def pause(self, seconds: float) -> None:
@@ -167,7 +168,7 @@ class Link:
     def connect(self) -> None:
         """Find out whether a unit is there, and how it stands with checksums and its index."""
         self._ready = False
-        self._restarted = False
+        self.restarted = False
         heard = Heard()
         for pause_seconds in CONNECT_PAUSE_SECONDS:
             self.pause(pause_seconds)
@@ -182,7 +183,7 @@ class Link:
         """Bring checksums about, or do away with them, in whatever state they are."""
         done = self._switched(encoded("%+", sums=True), sums=True)
         if not done and self.wire.heard.bare:
-            self._restarted = self.sums and bool(self.version)
+            self.restarted = self.sums and bool(self.version)
             done = not self.sums or self._switched(encoded("%+", sums=False), sums=True)
         elif done and not self.sums:
             done = self._switched(encoded("%-", sums=True), sums=False)
@@ -232,7 +233,7 @@ class Link:
         """Connect if need be. What was asked for is not for a unit that has restarted since."""
         if not self._ready:
             self.connect()
-            if self._restarted:
+            if self.restarted:
                 raise Restarted(self.name, executed=False)
 
     def _repair(self, request: Request, was_refused: bool) -> Answer | None:

@@ -218,7 +218,8 @@ class Sender:
         """Notice an interrupt, and what the unit refuses for good."""
         is_new = answer.inta and not self.inta
         following = self._ahead(0) if is_new else None
-        if following is not None and isinstance(following.asked_of_host, Probe):
+        touched = following is not None and isinstance(following.asked_of_host, Probe)
+        if touched and answer.code == answers.DONE:
             return
         if is_new and not (command.letter == "R" or command.text.startswith("SW6")):
             raise self.interrupted(self._where(command))

@@ -12,12 +12,15 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from types import FrameType, TracebackType
 
 from rkm04_tools.failure import INTERRUPTED, NO_CONNECTION, Failure
+from rkm04_tools.gve134.link_errors import NotConfirmed
 from rkm04_tools.gve134.state import positions_text
 from rkm04_tools.gve134.unit import Halted, Unit
 
+ENDED_BEFORE = "the tool was ended before the unit had confirmed the stop"
 TWICE_SECONDS = 0.3
 """A second signal before that is the same wish: H has gone out by then."""
 SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
@@ -32,10 +35,14 @@ LETTERS = {
 
 
 class Stopper:
-    """While the block runs, signals are kept until `look` is called, which raises the wish."""
+    """While the block runs, signals are kept until `look` is called, which raises the wish.
+
+    `number` is that of the last one.
+    """
 
     def __init__(self, unit: Unit) -> None:
         self._unit = unit
+        self.number = 0
         self._asked = False
         self._at_once_from = math.inf
         self._before: dict[int, object] = {}
@@ -74,6 +81,7 @@ class Stopper:
             self._at_once_from = math.inf
 
     def _note(self, number: int, frame: FrameType | None) -> None:
+        self.number = number
         if time.monotonic() >= self._at_once_from:
             raise KeyboardInterrupt
         self._asked = self._at_once_from == math.inf
@@ -94,6 +102,9 @@ def guarded(
             return work(stopper)
         except KeyboardInterrupt:
             return halt_at_signal(unit, stopper, done(), then)
+        except NotConfirmed as error:
+            shout(str(error))
+            raise
 
 
 def halt_at_signal(unit: Unit, stopper: Stopper, text: str = "", then: str = "") -> int:
@@ -104,9 +115,9 @@ def halt_at_signal(unit: Unit, stopper: Stopper, text: str = "", then: str = "")
             halted = halt_loudly(unit)
             if then:
                 unit.order(then)
-                halted = Halted(unit.flags(), halted.positions)
+                halted = replace(halted, flags=unit.flags())
     except KeyboardInterrupt:
-        shout("the tool was ended before the unit had confirmed the stop")
+        shout(ENDED_BEFORE)
         return INTERRUPTED
     except Failure as failure:
         print(f"gve134: {failure}", file=sys.stderr)
@@ -129,7 +140,8 @@ def halt_loudly(unit: Unit) -> Halted:
 
 def halted_text(halted: Halted) -> str:
     """How the axes stand, in words."""
-    return f"the axes stand at {positions_text(halted.positions)}; {halted.flags.text}"
+    what = "the unit HAS RESTARTED, its positions count anew; " if halted.restarted else ""
+    return f"{what}the axes stand at {positions_text(halted.positions)}; {halted.flags.text}"
 
 
 def shout(why: str) -> None:

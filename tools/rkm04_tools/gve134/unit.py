@@ -28,10 +28,11 @@ WORD_BYTES = 4
 
 @dataclass(frozen=True)
 class Halted:
-    """How the axes stand after H."""
+    """How the axes stand after H. `restarted`: the unit has started anew since it was known."""
 
     flags: Flags
     positions: Positions
+    restarted: bool
 
 
 def open_unit(port: str, baud: int = BAUD, sums: bool = True) -> Unit:
@@ -109,7 +110,7 @@ class Unit:
             raise NotConfirmed(str(error)) from None
         if not flags.stands:
             raise NotConfirmed(f"{self.link.name}: the unit tells that it is {flags.text}")
-        return Halted(flags, self.positions())
+        return Halted(flags, self.positions(), self.link.restarted)
 
     # ---- memory ----
 
