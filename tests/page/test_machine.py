@@ -79,6 +79,13 @@ def test_a_machine_is_saved_as_it_was_opened(page):
     assert save(page) == ("Podavač.rkm", content())
 
 
+def test_the_part_for_a_gve134_unit_is_saved_as_it_was_opened(page):
+    axis = {"speed_steps_per_s": 5000, "accel_steps_per_s2": 20_000, "jump_steps_per_s": 200}
+    told = content(gve134={"axes": {"x": axis}, "probe": {"interrupt": 15, "opens": True}})
+    open_machine(page, told)
+    assert save(page)[1] == told
+
+
 def test_what_is_edited_is_saved_and_the_rest_stays(page):
     open_machine(page, content())
     page.page.locator("#tab-2").click()
@@ -141,6 +148,12 @@ def test_the_machine_survives_a_reload(page):
         (json.dumps(content(version=2)).encode(), "was written by later tools"),
         (json.dumps(content(colour=1)).encode(), "nothing is known of colour"),
         (json.dumps(content(name=5)).encode(), "name: must be a text"),
+        (
+            json.dumps(
+                content(gve134={"axes": {}, "probe": {"interrupt": 14, "opens": 1}})
+            ).encode(),
+            "gve134, probe, opens: must be true or false",
+        ),
         (json.dumps(content(motors=[{}] * 4)).encode(), "motor 1: lacks program"),
         (json.dumps(content(motors=[])).encode(), "motors: must be a list of 4, one for each"),
         (json.dumps(content(inputs="x")).encode(), "inputs: lines of milliseconds"),
