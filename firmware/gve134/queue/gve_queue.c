@@ -286,12 +286,13 @@ bool gve_queue_sense_isr(struct gve_queue *queue, uint8_t inputs)
     struct group *group = &gve_queue_chain(queue)->group;
     uint16_t active = gve_home_mask(queue, gve_guards_active(&queue->guards, inputs));
     bool stops = gve_home_sense_isr(queue, inputs);
-    bool brakes = active != 0 && group_stop_isr(group, AXIS_CAUSE_HIGH);
-    if (brakes || (active != 0 && gve_home_end_isr(queue))) {
+    bool interrupts = active != 0;
+    bool brakes = interrupts && group_stop_isr(group, AXIS_CAUSE_HIGH);
+    if (brakes || (interrupts && gve_home_end_isr(queue))) {
         copy_positions(queue, queue->latched_steps);
         hal_trace(hal_time_now(), 0, HAL_TRACE_STOP, AXIS_CAUSE_HIGH);
     }
-    if (active != 0 && group_is_stopping(group)) {
+    if (interrupts && group_is_stopping(group)) {
         gve_guards_add_causes(&queue->guards, active);
     }
     return stops || brakes;

@@ -102,6 +102,7 @@ bool gve_queue_restore(struct gve_queue *queue)
 /* No interrupt may plan a way down for channels that have been halted. */
 void gve_queue_abort(struct gve_queue *queue)
 {
+    clear(queue);
     gve_guards_init(&queue->guards);
     atomic_store_explicit(&queue->home.phase, (uint8_t)GVE_HOME_NONE, memory_order_relaxed);
     for (unsigned motor = 0; motor < (unsigned)UNIT_MOTORS; motor++) {
