@@ -22,7 +22,7 @@ enum {
     CHANNEL_TIM4_CH4 = 3,
     NO_CHANNEL = UINT8_MAX
 };
-static_assert((int)COUNTS == (int)HAL_IO_PWM_MAX, "a count is a thousandth of a period");
+static_assert(COUNTS - HAL_IO_PWM_MAX == 0, "a count is a thousandth of a period");
 
 static const uint8_t channels[] = {
 #define X(signal, port, pin, use) CHANNEL_##use,

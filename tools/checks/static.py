@@ -52,6 +52,8 @@ FOLDERS = (
     "tools/gve134_host",
 )
 ARM_FOLDERS = (*STAGES, "hal/include", "hal/stm32", f"hal/stm32/boards/{BOARD}")
+CLASS_2 = "/stm32_gpio_"
+"""Files that only RKM04 is built with; others go with either unit."""
 ARM_TARGET = ("--target=arm-none-eabi", "-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=soft")
 NEWLIB = "/usr/include/newlib"
 SHALLOW = ("-Xclang", "-analyzer-config", "-Xclang", "mode=shallow")
@@ -111,12 +113,18 @@ def findings(text: str) -> Iterator[str]:
             yield f"{name}:{line}: {what} [{check}]"
 
 
+def arm_includes(file: str) -> list[str]:
+    """With the header of an image that fits the file."""
+    unit = "rkm04" if CLASS_2 in file else "gve134"
+    return [*includes((f"firmware/{unit}/image",)), *includes(ARM_FOLDERS)]
+
+
 def analyse(files: Iterable[str], deep: bool) -> Iterator[str]:
     """Run clang-tidy on C files, two at a time."""
     mode = () if deep else SHALLOW
     arm, host = set(sources(*ARM)), [*mode, *includes(FOLDERS)]
-    on_arm = [*mode, *ARM_TARGET, "-isystem", NEWLIB, *includes(ARM_FOLDERS)]
-    jobs = [([file], on_arm if file in arm else host) for file in files]
+    target = [*mode, *ARM_TARGET, "-isystem", NEWLIB]
+    jobs = [([file], [*target, *arm_includes(file)] if file in arm else host) for file in files]
     with ThreadPoolExecutor(min(2, os.cpu_count() or 1)) as pool:
         for text in pool.map(lambda job: tidy(*job), jobs):
             yield from findings(text)
