@@ -179,7 +179,8 @@ BAD = [
     ("G1 G92 X0 F5", 1, 1, "the line has two G that take its positions; divide it"),
     ("G28 A0", 1, 5, "the machine file has no reference run of A"),
     ("G38.2 F50", 1, 1, "G38.2 takes the position to which the probe may go"),
-    ("G38.2 Z0 F50", 1, 1, "G38.2: the way is 0"),
+    ("G38.2 Z0 F50", 1, 7, "G38.2: the way is shorter than a pulse"),
+    ("G38.2 Z0.001 F50", 1, 7, "G38.2: the way is shorter than a pulse"),
     ("G93 G38.2 Z-1 F50", 1, 5, "G38.2 takes a feed of G94"),
     ("F100 G2 X10", 1, 6, "the arc has no centre; write I and J, or R"),
     ("F100 G2 X10 I5 R5", 1, 16, "the arc has both R and a centre; keep one of them"),
@@ -273,6 +274,24 @@ def test_any_text_is_turned_or_refused_inside_it(one: str, two: str) -> None:
         assert re.fullmatch(r"[^\n\x00]+", message)
     if not played.errors:
         assert host.check("\n".join(played.lines)).errors == []
+
+
+NUMBERS = ("0", "1", "-1", "2.5", ".5", "-.25", "10", "123.4567", "-0", "99", "0.001", "400")
+G_NUMBERS = (0, 1, 2, 3, 4, 17, 18, 19, 20, 21, 28, 38.2, 80, 90, 91, 92, 92.1, 93, 94)
+CODES = [*(f"G{each}" for each in G_NUMBERS), *(f"M{each}" for each in range(10)), "T1", "N10", "%"]
+word = st.sampled_from(CODES) | st.builds(
+    str.__add__, st.sampled_from("XYZAIJKRFSP"), st.sampled_from(NUMBERS)
+)
+
+
+@given(st.lists(st.lists(word, min_size=1, max_size=6).map(" ".join), max_size=12))
+@settings(max_examples=300, deadline=None)
+def test_any_words_are_turned_into_what_the_unit_takes_or_refused(lines: list[str]) -> None:
+    played = play(["F100 S100", *lines])
+
+    for line, column, _ in played.errors:
+        assert 1 <= column <= len(lines[line - 2]) + 1
+    assert host.check("\n".join(played.lines)).errors == []
 
 
 @pytest.mark.parametrize(

@@ -214,6 +214,8 @@ def test_the_part_for_a_gve134_unit_is_kept(tool, put):
 
     assert tool("machine", "show", put(told), "--json").json == told
     assert tool("machine", "check", put(told)).status == 0
+    shown = tool("machine", "show", put(told)).out.splitlines()[-1]
+    assert shown.split() == ["X", "5", "000", "20", "000", "200", "none"]
 
 
 def test_the_example_of_the_document_is_a_good_machine(tool, write):

@@ -224,6 +224,19 @@ def _shown(machine: Machine) -> Iterator[str]:
     ]
     rows += [_row(motor) for motor in machine.motors]
     yield from ["", table(rows, "rllrrrl")]
+    if "gve134" in machine.content:
+        yield from ["", table(list(_gve134_rows(machine.content["gve134"])), "lrrrl")]
+
+
+def _gve134_rows(told: dict[str, Any]) -> Iterator[tuple[str, ...]]:
+    """The axes of a GVE134 unit."""
+    yield ("axis", "steps/s", "steps/s2", "jump", "reference run")
+    for letter, axis in told["axes"].items():
+        homing = axis.get("homing")
+        run = f"{thousands(homing['way_steps'])} steps" if homing else "none"
+        limits = (axis[f"{key}_steps_per_{unit}"] for key, unit in
+                  (("speed", "s"), ("accel", "s2"), ("jump", "s")))  # fmt: skip
+        yield (letter.upper(), *map(thousands, limits), run)
 
 
 def _row(motor: Motor) -> tuple[str, ...]:

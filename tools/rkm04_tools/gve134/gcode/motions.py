@@ -134,7 +134,4 @@ class Motions:
             raise Wrong(code.MOTION, "the machine file tells of no probe")
         if self.modal.is_inverse:
             raise Wrong(code.MOTION, "G38.2 takes a feed of G94")
-        target = self._target(block)
-        if target == self.path.parts:
-            raise Wrong(code.MOTION, "G38.2: the way is 0")
-        self.path.probe_to(target, self.modal.pace(block))
+        self.path.probe_to(self._target(block), self.modal.pace(block))

@@ -18,7 +18,7 @@ KINDS = (RAPID, FEED, ARC, PROBE)
 
 
 class OutOfReach(Exception):
-    """A position beyond the limits of an axis."""
+    """A position to which there is no way."""
 
 
 @dataclass(slots=True)
@@ -81,6 +81,8 @@ class Path:
         """Go straight to a position, where the sensor may end the way."""
         moved = [index for index in AXES if target[index] != self.parts[index]]
         steps = self._go(target)
+        if not any(steps):
+            raise OutOfReach("G38.2: the way is shorter than a pulse")
         self.writer.probe(steps, self._rate(steps, pace, PROBE))
         self.unknown.update(moved)
         self.homed.difference_update(moved)
