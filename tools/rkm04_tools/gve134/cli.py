@@ -16,6 +16,7 @@ CHECK_NOTES = """\
 A vector file has a command in each line, as the unit's line has it, without ! and address for the
 interpolator and with them for the spindle (!7V300). ; begins a comment. A line that begins with @
 and a time in ms (@250.5 H) goes beside the others. Lines between *S and *E are a packet.
+Lines ;@wait 2.5, ;@pause TEXT and ;@probe are for the host; gcode --help tells of them.
 """
 SIM_NOTES = """\
 The lines of FILE go to the unit one after the other: each waits for the answer to the one before,
