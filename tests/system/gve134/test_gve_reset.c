@@ -1,6 +1,8 @@
 /* J at any time; the line of the whole unit: what waits, what is heard, what is sent again. */
 #include "gve_rig.h"
 
+#include <stddef.h>
+
 void setUp(void)
 {
     rig_set_up();
@@ -33,7 +35,8 @@ static void assert_fresh(void)
         (void)snprintf(command, sizeof command, "0SR%u", status);
         rig_expect(command, "0,00");
     }
-    TEST_ASSERT_EQUAL_MEMORY(&modal, &unit.queue.modal, sizeof modal);
+    TEST_ASSERT_EQUAL_MEMORY(&modal, &unit.queue.modal, offsetof(struct gve_modal, corrected));
+    TEST_ASSERT_FALSE(unit.queue.modal.corrected);
     TEST_ASSERT_EQUAL_UINT32(GVE_FACTOR_ONE, unit.queue.factor);
     TEST_ASSERT_EQUAL_HEX8(0, machine.outputs);
     TEST_ASSERT_EQUAL_UINT32(0, machine.pwm_permille);
