@@ -16,11 +16,12 @@ from gve_line import Item, Packet, Refusal, Request, read_line
 from gve_record import Done, Edge, Session
 from gve_run import Runner
 from gve_state import BRAKE, BRAKE_MAX, NO_CRYSTAL, RESTARTED
-from gve_unit import PAUSE_MAX_MS, PAUSED, Chooser, Unit
+from gve_unit import LED_LATE, PAUSE_MAX_MS, PAUSED, Chooser, Unit, Unsure
 from gve_words import Command
 
 TRIES_MAX = 400
 READY = 100 * MS
+KEPT_BYTES = 256
 FAR = 2**62
 CAUSES = {"power": 0, "watchdog": RESTARTED, "crystal": NO_CRYSTAL}
 
@@ -125,9 +126,9 @@ class Model:
         if self.runner.now:
             self.runner.look(tick)
             if not self.runner.now:
-                self.waiting.popleft()
+                self._waited(tick)
             return
-        item = self.waiting.popleft()
+        item = self._waited(tick)
         earliest = unit.free_tick
         if unit.phase == "stop":
             since = tick - MS - 1 if earliest < tick - MS else -FAR
@@ -139,6 +140,13 @@ class Model:
         patience = PAUSE_MAX_MS * MS if PAUSED in unit.allowed else MS
         unit.answer(item, [unit.code(0)], low, max(low, earliest) + patience)
         unit.note_outputs(low, tick)
+
+    def _waited(self, tick: int) -> Request:
+        """Take the first of those that wait; not too much must have come meanwhile."""
+        item = self.waiting.popleft()
+        if sum(item.tick < byte.tick <= tick for byte in self.session.line) > KEPT_BYTES:
+            raise Unsure("more bytes wait than a unit must keep")
+        return item
 
     def _take(self, item: Item, tick: int) -> None:
         unit = self.unit
@@ -174,6 +182,7 @@ class Model:
     def _edge(self, edge: Edge) -> None:
         unit = self.unit
         unit.state.levels[edge.number] = edge.level
+        unit.note_outputs(edge.tick, edge.tick)
         if self.runner.now:
             self.runner.edge(edge.tick)
         elif any(unit.state.causes):
@@ -182,7 +191,8 @@ class Model:
 
     def _reset(self, item: Request, tick: int) -> None:
         unit = self.unit
-        unit.answer(item, ["0", "8"], tick, tick + unit.late + MS)
+        after = "8" if unit.state.reset().inta else "0"
+        unit.answer(item, [after], tick, tick + unit.late + MS)
         limit = unit.free_tick + MS
         following = [each.tick for each in self.items] or [FAR]
         record = unit.done.motors
@@ -196,7 +206,7 @@ class Model:
         fresh.state = unit.state.reset()
         fresh.answered = unit.answered
         fresh.ready_tick, fresh.free_tick = unit.ready_tick, unit.free_tick
-        fresh.output_changes, fresh.pwm_changes = unit.output_changes, unit.pwm_changes
+        fresh.changes = unit.changes
         for axis, train in enumerate(record.trains):
             seen = train.count_until(max(tick, last))
             fresh.motion.courses[0].cursors[axis].seen = seen
@@ -230,16 +240,16 @@ class Model:
             extra = train.ticks[seen : train.count_until(end - 2 * MS)]
             if extra:
                 raise Mismatch(extra[0], f"axis {axis}: {len(extra)} pulses too many")
-        check_changes("outputs", unit.done.outputs, unit.output_changes, end)
-        check_changes("the spindle", unit.done.pwm, unit.pwm_changes, end)
+        for name, wanted in unit.changes.items():
+            check_changes(name, unit.done.signals.get(name, []), wanted, end)
 
 
 def check_changes(
     what: str, done: list[tuple[int, int]], wanted: list[tuple[int, int, int]], end: int
 ) -> None:
     """Compare changes of levels with the windows in which they have to be."""
-    done = [change for change in done if change[0] < end - 2 * MS]
-    wanted = [change for change in wanted if change[1] < end - 2 * MS]
+    done = [change for change in done if change[0] < end - LED_LATE]
+    wanted = [change for change in wanted if change[1] < end - LED_LATE]
     at = shown = 0
     for i, (low, high, level) in enumerate(wanted):
         if level == shown:
@@ -249,15 +259,16 @@ def check_changes(
             continue
         at, shown = at + 1, level
         if tick == FAR:
-            raise Mismatch(high, f"{what} are not {level:02X}")
+            raise Mismatch(high, f"{what} does not become {level:02X}")
         if got != level or not low - 1 <= tick <= high:
             raise Mismatch(
                 tick,
-                f"{what} are {got:02X}, not {level:02X} from {low / MS:.3f} to {high / MS:.3f} ms",
+                f"{what} becomes {got:02X}, "
+                f"not {level:02X} from {low / MS:.3f} to {high / MS:.3f} ms",
             )
     if at < len(done):
         tick, got = done[at]
-        raise Mismatch(tick, f"{what} become {got:02X}")
+        raise Mismatch(tick, f"{what} becomes {got:02X}")
 
 
 def compare(session: Session, done: Done, allowed: frozenset[str] = frozenset()) -> float:
@@ -289,10 +300,7 @@ def imagine(session: Session) -> Done:
     done = Done(Record(session.end, growing=True), growing=True)
     model = Model(session, done, Chooser(), frozenset())
     model.go()
-    for changes, wanted in (
-        (done.outputs, model.unit.output_changes),
-        (done.pwm, model.unit.pwm_changes),
-    ):
-        changes += [((low + high) // 2, level) for low, high, level in wanted]
+    for name, wanted in model.unit.changes.items():
+        done.signals[name] = [((low + high) // 2, level) for low, high, level in wanted]
     record = replace(done.motors, growing=False)
     return replace(done, motors=record, growing=False)

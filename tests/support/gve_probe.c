@@ -11,8 +11,8 @@
  *   hear T HEX BROKEN   a byte has come by the line
  *   run T               runs all of the above up to T, and answers
  * Goes out, for each session:
- *   sent T HEX          the end of a byte that the unit has sent; out T LEVELS, pwm T PERMILLE: as they change
- *   polarity T MOTOR FALLING TURNED   likewise
+ *   sent T HEX          the end of a byte that the unit has sent
+ *   signal T LEVEL NAME as it changes: outputs, pwm, led 0 to 7, polarity 1 to 4 (1: STEP falls, 2: DIR is turned)
  *   judge SENTENCE      pulses too close to each other or to a change of DIR
  *   pulses MOTOR T ...  of each motor that made any; a minus: backward
  *   end LATE IDLE       pulses that came too late, and whether nothing happens any more
@@ -95,22 +95,35 @@ static void on_direction(void *context, uint64_t tick, unsigned motor, bool back
     ((struct probe *)context)->trains[motor].turned_tick = tick;
 }
 
+static void tell_signal(uint64_t tick, uint32_t level, const char *name)
+{
+    (void)printf("signal %" PRIu64 " %" PRIu32 " %s", tick, level, name);
+}
+
 static void on_polarity(void *context, uint64_t tick, unsigned motor, bool falling, bool turned)
 {
     (void)context;
-    (void)printf("polarity %" PRIu64 " %u %d %d\n", tick, motor + 1U, falling, turned);
+    tell_signal(tick, (uint32_t)falling | (uint32_t)turned << 1U, "polarity");
+    (void)printf(" %u\n", motor + 1U);
 }
 
 static void on_pwm(void *context, uint64_t tick, uint32_t permille)
 {
     (void)context;
-    (void)printf("pwm %" PRIu64 " %" PRIu32 "\n", tick, permille);
+    tell_signal(tick, permille, "pwm\n");
 }
 
 static void on_output(void *context, uint64_t tick, uint8_t levels)
 {
     (void)context;
-    (void)printf("out %" PRIu64 " %u\n", tick, levels);
+    tell_signal(tick, levels, "outputs\n");
+}
+
+static void on_led(void *context, uint64_t tick, unsigned led, bool on)
+{
+    (void)context;
+    tell_signal(tick, on, "led");
+    (void)printf(" %u\n", led);
 }
 
 static void on_line(void *context, uint64_t tick, uint8_t value)
@@ -134,6 +147,7 @@ static void begin(struct probe *probe, uint64_t epoch)
         .direction = on_direction,
         .polarity = on_polarity,
         .pwm = on_pwm,
+        .led = on_led,
         .output = on_output,
         .line = on_line,
     };

@@ -70,13 +70,8 @@ class _Reader:
         kind = words[0]
         if kind == "sent":
             self._hear(int(words[1]), int(words[2], 16))
-        elif kind == "out":
-            tick, levels = int(words[1]), int(words[2])
-            if self.done.outputs and self.done.outputs[-1][0] == tick:
-                self.done.outputs.pop()
-            self.done.outputs.append((tick, levels))
-        elif kind == "pwm":
-            self.done.pwm.append((int(words[1]), int(words[2])))
+        elif kind == "signal":
+            self._note(" ".join(words[3:]), int(words[1]), int(words[2]))
         elif kind == "judge":
             self.done.complaints.append(" ".join(words[1:]))
         elif kind == "pulses":
@@ -87,6 +82,14 @@ class _Reader:
         elif kind == "end" and words[1] != "0":
             self.done.complaints.append(f"{words[1]} pulses came too late")
         return kind == "end"
+
+    def _note(self, name: str, tick: int, level: int) -> None:
+        """A signal has changed; of changes at the same tick the last one counts."""
+        changes = self.done.signals.setdefault(name, [])
+        if changes and changes[-1][0] == tick:
+            changes.pop()
+        if level != (changes[-1][1] if changes else 0):
+            changes.append((tick, level))
 
     def _hear(self, tick: int, value: int) -> None:
         """A byte of the unit has ended at a tick."""

@@ -64,9 +64,8 @@ class Done:
 
     motors: Record
     answers: list[Answer] = field(default_factory=list)
-    outputs: list[tuple[int, int]] = field(default_factory=list)
-    """Their levels from a tick on."""
-    pwm: list[tuple[int, int]] = field(default_factory=list)
+    signals: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
+    """Of each signal the levels that it has from a tick on; 0 at first."""
     growing: bool = False
     """The model makes the answers, too, as it goes."""
     complaints: list[str] = field(default_factory=list)

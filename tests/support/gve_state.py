@@ -106,6 +106,23 @@ class State:
         levels = sum(1 << bo for bo, bit in OUTPUT_BITS.items() if not self.port >> bit & 1)
         return levels | relay
 
+    @property
+    def signals(self) -> dict[str, int]:
+        """The levels of all that can be seen besides the pulses."""
+        outputs, polarity = self.outputs, self.memory[POLARITY]
+        falls = (not polarity >> axis & 1 for axis in range(4))
+        turned = (not polarity >> axis + 4 & 1 for axis in range(4))
+        return {
+            "outputs": outputs,
+            "pwm": self.pwm,
+            "led 3": outputs & 1,
+            **{f"led {3 + bi}": int(not self.levels[bi]) for bi in range(1, 5)},
+            **{
+                f"polarity {motor}": a | b << 1
+                for motor, (a, b) in enumerate(zip(falls, turned, strict=True), start=1)
+            },
+        }
+
     def port_levels(self, port: int) -> int:
         """What I1 or I2 reads."""
         inputs = {1: {0: 1, 1: 2, 2: 3, 3: 4}, 2: {6: 7, 7: 8}}[port]

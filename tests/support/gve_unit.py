@@ -37,6 +37,7 @@ SLACK = MS
 """So long after the axes have come to rest the unit may still say that they move."""
 
 NEAR_US = 84
+LED_LATE = 20 * MS
 QUEUE_MAX = 128
 NONE = (0, Fraction(0))
 Phase = Literal["rest", "work", "stop", "wait", "run"]
@@ -112,9 +113,8 @@ class Unit:
         self.late = 0
         """So much later a command may be executed that came before the last answer was out."""
         self.last_answer = ""
-        self.output_changes: list[tuple[int, int, int]] = []
-        """The window and the levels of each change of the outputs."""
-        self.pwm_changes: list[tuple[int, int, int]] = []
+        self.changes: dict[str, list[tuple[int, int, int]]] = {}
+        """Of each signal the window and the level of each change."""
 
     # --- answers ---
 
@@ -347,10 +347,9 @@ class Unit:
     # --- outputs ---
 
     def note_outputs(self, low: float, high: float) -> None:
-        """The outputs may have changed within a window."""
-        for changes, level in (
-            (self.output_changes, self.state.outputs),
-            (self.pwm_changes, self.state.pwm),
-        ):
+        """Outputs and LEDs may have changed within a window."""
+        for name, level in self.state.signals.items():
+            changes = self.changes.setdefault(name, [])
             if level != (changes[-1][2] if changes else 0):
-                changes.append((int(low), int(high) + MS, level))
+                late = LED_LATE if name.startswith("led") else MS
+                changes.append((int(low), int(high) + late, level))
