@@ -12,6 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from gve_sim import Play, player, pulses_of
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from rkm04_tools.cli import run_tool
 from rkm04_tools.gve134 import host
 from rkm04_tools.gve134.cli import make_parser
@@ -228,6 +230,35 @@ def test_bytes_take_their_time_where_a_rate_is_given(play: Play) -> None:
     assert without < fast
 
 
+COMMANDS = st.sampled_from(
+    ["P4", "SR6", "H", "G", "D", "K", "R", "XU", "XM50", "V900", "A10", "%+", "%-", "@", ">", "J",
+     "N", "SW0,01", "L0,0,0", "L7,-9", "C30,40", "WX50,500,10,100", "EW20,01", "!7V5",
+     "*S\nC9\nB10\n*E2"]
+)  # fmt: skip
+TIMED = st.tuples(
+    st.integers(0, 2_000_000), COMMANDS.filter(lambda command: "*" not in command)
+).map(lambda line: f"@{line[0] / 1000} {line[1]}")
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.lists(COMMANDS | TIMED, max_size=30), st.sampled_from([[], ["--baud", "115200"]]))
+def test_every_line_has_its_answer_whatever_stands_in_the_file(
+    lines: list[str], rate: list[str]
+) -> None:
+    text = "\n".join(lines) + "\n"
+    done = subprocess.run(
+        [host.program_path(), "sim", "-", "--for", "20", *rate],
+        input=text, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    told = json.loads(done.stdout)
+    answers = [(each["line"], each["answer"][:1]) for each in told["answers"]]
+    assert [each for each in answers if each[0] == 0 or each[1] in "2A"] == []
+    if told["ended"] == "idle":
+        assert told["commands"] + told["unanswered"] == (text.count("\n") if lines else 0)
+    else:
+        assert told["stuck"]["reason"] in ("no_room", "time")
+
+
 def test_the_time_at_the_start_changes_nothing(tmp_path: Path) -> None:
     file = tmp_path / "a.gve"
     file.write_text(SQUARE + "@100 H\n@200 G\n")
@@ -429,6 +460,21 @@ def test_waves_have_pins_leds_outputs_and_the_spindle(play: Play, tmp_path: Path
     levels = re.findall(rf"^([01]){re.escape(codes['m1_step'])}$", rest, re.M)
     assert levels == ["1", "0", "1", "0", "1"]  # high at rest: the active edge falls
     assert re.search(rf"^r50(\.0+)? {re.escape(codes['pwm'])}$", rest, re.M)
+
+
+def test_the_curve_of_the_program_in_c_has_all_axes_and_outputs(tmp_path: Path) -> None:
+    file, curve = tmp_path / "a.gve", tmp_path / "curve.json"
+    file.write_text(SQUARE + "!7V10\nO0,FF\n")
+    command = [host.program_path(), "sim", file, "--curve", curve, "--points", "100"]
+    subprocess.run(command, capture_output=True, check=True)
+
+    told = json.loads(curve.read_bytes())
+
+    x, y, z, a = told["motors"]
+    assert (max(x["position"]), x["position"][-1], max(y["position"])) == (2000, 0, 2000)
+    assert (max(x["speed"]), min(x["speed"])) == pytest.approx((10_000, -10_000))
+    assert (z["position"][-1], a["position"][-1]) == (0, 0)
+    assert [output[1:] for output in told["outputs"]] == [[1, 1], [5, 1], [1, 0], [5, 0]]
 
 
 def test_pictures_are_drawn(play: Play, tmp_path: Path) -> None:

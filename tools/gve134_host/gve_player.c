@@ -225,6 +225,7 @@ static void repeat(struct gve_player *player, const struct gve_player_waiting *a
     if (answered->timed) {
         struct gve_script_line line = answered->line;
         line.tick = tick;
+        line.repeated = true;
         gve_script_put_back(&player->script, &line);
         return;
     }

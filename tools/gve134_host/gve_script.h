@@ -15,6 +15,7 @@
 struct gve_script_line {
     struct gve_file_line line;
     uint8_t opcode; /* enum gve_opcode; GVE_OPCODES: ;@probe */
+    bool repeated;  /* it has been answered with code 1 */
     uint64_t tick;  /* when it is to be sent, from the start; 0: as soon as it is its turn */
 };
 

@@ -43,10 +43,13 @@ static void print_axis(const struct run *run, unsigned motor)
 /* Why the line that the others wait for has not been answered. */
 static const char *reason_of(const struct gve_player *player)
 {
-    if (player->waiting_count > 0) {
-        return "no_answer";
+    const struct gve_player_waiting *waiting = &player->waiting[player->waiting_first];
+    bool sent = player->waiting_count > 0;
+    bool timed = sent ? waiting->timed : !player->has_next;
+    if (timed ? gve_player_stuck_at(player)->repeated : player->next_repeats > 0) {
+        return "no_room";
     }
-    return player->has_next && player->next_repeats > 0 ? "no_room" : "time";
+    return sent ? "no_answer" : "time";
 }
 
 static void print_stuck(const struct gve_player *player)

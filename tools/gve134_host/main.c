@@ -3,7 +3,9 @@
  * serve, check, plan and commands; answers are JSON on standard output, complaints one line on standard error
  * (complain.h).
  */
+#include <limits.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -51,25 +53,54 @@ static enum exit_status print_text(const char *text)
     return finish_output();
 }
 
+static enum exit_status serve(int count, char *const arguments[])
+{
+    return count == 1 && is_help(arguments[0]) ? print_text(gve_serve_usage) : gve_serve(count, arguments);
+}
+
+static enum exit_status check(int count, char *const arguments[])
+{
+    (void)count;
+    return gve_check_file(arguments[0]);
+}
+
+static enum exit_status plan(int count, char *const arguments[])
+{
+    return gve_plan_input(arguments, count > GVE_PLAN_SCALES ? arguments[GVE_PLAN_SCALES] : NULL);
+}
+
+static enum exit_status commands(int count, char *const arguments[])
+{
+    (void)count;
+    (void)arguments;
+    return gve_check_commands();
+}
+
+static enum exit_status help(int count, char *const arguments[])
+{
+    (void)count;
+    (void)arguments;
+    return print_text(usage);
+}
+
+static const struct command {
+    const char *name;
+    int least; /* arguments after it */
+    int most;
+    enum exit_status (*run)(int count, char *const arguments[]);
+} list[] = {
+    {"sim", 0, INT_MAX, gve_sim}, {"serve", 0, INT_MAX, serve},
+    {"check", 1, 1, check},       {"plan", GVE_PLAN_SCALES, GVE_PLAN_SCALES + 1, plan},
+    {"commands", 0, 0, commands}, {"--help", 0, INT_MAX, help},
+    {"-h", 0, INT_MAX, help},
+};
+
 static enum exit_status run_command(const char *name, int count, char *const arguments[])
 {
-    if (strcmp(name, "sim") == 0) {
-        return gve_sim(count, arguments);
-    }
-    if (strcmp(name, "serve") == 0) {
-        return count == 1 && is_help(arguments[0]) ? print_text(gve_serve_usage) : gve_serve(count, arguments);
-    }
-    if (strcmp(name, "check") == 0 && count == 1) {
-        return gve_check_file(arguments[0]);
-    }
-    if (strcmp(name, "plan") == 0 && (count == (int)GVE_PLAN_SCALES || count == (int)GVE_PLAN_SCALES + 1)) {
-        return gve_plan_input(arguments, count > (int)GVE_PLAN_SCALES ? arguments[GVE_PLAN_SCALES] : NULL);
-    }
-    if (strcmp(name, "commands") == 0 && count == 0) {
-        return gve_check_commands();
-    }
-    if (is_help(name)) {
-        return print_text(usage);
+    for (size_t i = 0; i < sizeof list / sizeof list[0]; i++) {
+        if (strcmp(name, list[i].name) == 0 && count >= list[i].least && count <= list[i].most) {
+            return list[i].run(count, arguments);
+        }
     }
     complain("write gve134-host sim, serve, check FILE (- is standard input), plan X Y Z, commands, or --help");
     return EXIT_USAGE;

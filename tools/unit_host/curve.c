@@ -125,7 +125,8 @@ static void put_outputs(struct curve *curve, const struct timeline_event *event)
 
 void curve_put(struct curve *curve, const struct timeline_event *event)
 {
-    struct curve_motor *motor = event->motor != 0 ? &curve->motors[event->motor - 1U] : NULL;
+    bool of_motor = event->motor != 0 && event->kind != TIMELINE_LED;
+    struct curve_motor *motor = of_motor ? &curve->motors[event->motor - 1U] : NULL;
     if (event->kind == TIMELINE_OUTPUT) {
         put_outputs(curve, event);
     } else if (motor != NULL && event->kind == TIMELINE_STEP) {
