@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
+import random
+import re
 import signal
 import subprocess
 import sys
@@ -153,6 +156,31 @@ def test_a_probe_comes_back_to_where_it_was_touched(
     assert "3 vectors" in out or "2 vectors" in out
     assert latched["Z"] < -100
     assert stand["Z"] == latched["Z"] + 10
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_each_line_of_a_console_has_one_answer_or_is_not_sent(
+    gve: Tool, served: ServedGve, monkeypatch: pytest.MonkeyPatch, seed: int
+) -> None:
+    rng = random.Random(seed)
+    names = [*"LCT$AVBXPNHGDKRFQOZ?@>%*S", "VK", "VL", "XM", "P4", "PL", "SR", "SW", "I1"]
+    names += ["ER", "EUR", "EW", "EFW", "EFR", "!7V", "!7", "!3", "%+", "J"]
+    values = ["", "0", "5", "-7", "A0", "x", "999999999999", "1.5"]
+    lines = []
+    for _ in range(150):
+        count = rng.choice([0, 0, 1, 1, 1, 2, 4, 20])
+        lines.append(rng.choice(names) + ",".join(rng.choice(values) for _ in range(count)))
+    lines = [line for line in lines if line != "*S"]
+    typed = "\n".join([*lines, "P4"])
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(typed.encode())))
+
+    result = gve("console")
+
+    answers = result.out.splitlines()
+    assert "Traceback" not in result.err
+    assert all(re.match(r"[0-9A-F](,\S.*)?  [a-z]", answer) for answer in answers), answers
+    assert len(answers) + result.err.count(": not sent: ") == len(lines) + 1
+    assert re.match(r"[08](,-?\d+){4}  done", answers[-1])
 
 
 @pytest.mark.parametrize("seed", range(12))

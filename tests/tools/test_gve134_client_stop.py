@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pty
+import select
 import signal
 import subprocess
 import sys
@@ -14,6 +15,7 @@ from pathlib import Path
 import pytest
 from fake_gve134 import FakeGve
 from gve134_ports import FakeGveLine
+from rkm04_tools.gve134.stopping import TWICE_SECONDS
 
 Start = Callable[..., "subprocess.Popen[str]"]
 PATIENCE_S = 30.0
@@ -37,11 +39,19 @@ def job(tmp_path: Path) -> Path:
 
 
 def end(process: subprocess.Popen[str], *numbers: signal.Signals) -> tuple[int, str]:
-    for number in numbers:
+    """Send signals: the second when the first is being obeyed."""
+    shown = ""
+    for place, number in enumerate(numbers):
+        if place:
+            while "halting" not in shown:
+                assert process.stderr is not None
+                line = process.stderr.readline()
+                assert line, shown
+                shown += line
+            time.sleep(2 * TWICE_SECONDS)
         process.send_signal(number)
-        time.sleep(0.6)
     _, told = process.communicate(timeout=PATIENCE_S)
-    return process.returncode, told
+    return process.returncode, shown + told
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
@@ -222,10 +232,12 @@ class Typist:
         os.write(self._master, text.encode())
 
     def until(self, text: str) -> None:
+        """Read up to a text that has not been read before."""
         end = time.monotonic() + PATIENCE_S
         while text not in self.shown:
-            assert time.monotonic() < end, self.shown
+            assert select.select([self._master], [], [], end - time.monotonic())[0], self.shown
             self.shown += os.read(self._master, 4096).decode()
+        self.shown = self.shown.partition(text)[2]
 
     def close(self) -> int:
         self.type("\x04")

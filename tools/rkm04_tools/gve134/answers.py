@@ -29,7 +29,7 @@ BYTE = re.compile("[0-9A-F]{2}")
 
 FORMS = {
     "?": re.compile(".+"),
-    "Q": re.compile(r"\d{8}"),
+    "Q": re.compile("[0-9A-F]{8}"),
     "P": re.compile(r"-?\d+,-?\d+"),
     "PF": re.compile(r"-?\d+(,-?\d+){2}"),
     "P4": re.compile(r"-?\d+(,-?\d+){3}"),

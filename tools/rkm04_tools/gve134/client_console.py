@@ -19,7 +19,7 @@ from rkm04_tools.gve134.stopping import Stopper, halt_at_signal
 from rkm04_tools.gve134.unit import Unit, is_memory_write
 from rkm04_tools.line_errors import LineError, PortError
 
-TYPED = re.compile(r"(?:![07])?[\x20-\x7e]+")
+TYPED = re.compile(r"(?:!7)?[\x20\x22-\x7e]+")
 PROMPT = "> "
 SUM_CHARACTERS = 4
 """Address, comma and two digits, within the characters of a line."""
@@ -92,7 +92,7 @@ class Console:
 
     def _wrong(self, text: str) -> str:
         """Why a line is not sent; empty: it is."""
-        if not TYPED.fullmatch(text) or "!" in text[1:]:
+        if not TYPED.fullmatch(text):
             return "not sent: a command has letters, digits and signs, and ! only before 0 or 7"
         if len(text) > answers.TEXT_CHARACTERS_MAX - SUM_CHARACTERS:
             return "not sent: it is longer than a line of the unit"

@@ -73,9 +73,14 @@ class Stopper:
 
     @contextmanager
     def at_once(self, after_seconds: float = 0.0) -> Iterator[None]:
-        """Inside this, and so long after its beginning, a signal is raised when it comes."""
+        """Inside this, and so long after its beginning, a signal is raised when it comes.
+
+        One that came just before is raised, too, unless there is such a time.
+        """
         self._at_once_from = time.monotonic() + after_seconds
         try:
+            if not after_seconds:
+                self.look()
             yield
         finally:
             self._at_once_from = math.inf

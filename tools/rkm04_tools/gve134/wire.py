@@ -42,7 +42,7 @@ class Request:
     @classmethod
     def of(cls, command: str, seconds: float = PATIENCE_SECONDS) -> Request:
         """A single command."""
-        counts = 0 if answers.addressed(command)[1:] in ("@", ">") else 1
+        counts = 0 if answers.addressed(command)[1:].startswith(("@", ">")) else 1
         return cls((command,), form_of(command), counts, seconds)
 
     @classmethod
