@@ -197,6 +197,9 @@ uint64_t group_poll(struct group *group)
     if (!is_moving(group)) {
         return TICK_NEVER;
     }
+    hal_run_hold_plan();
+    group_plan(group);
+    hal_run_release_plan();
     bool fed = true;
     while (fed) {
         fed = false;
@@ -206,7 +209,6 @@ uint64_t group_poll(struct group *group)
     }
     hal_run_hold_plan();
     uint64_t now = hal_time_now();
-    group_plan(group);
     drop_made(group, now);
     if (has_ended(group, now)) {
         end(group);

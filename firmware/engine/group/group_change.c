@@ -7,8 +7,10 @@
 #include "hal_time.h"
 
 enum {
-    /* From the plan's begin to the place: what planning takes, and the lead of the step output. */
+    /* From the plan's begin to the place: what planning takes, and the lead of the step output. A stop is soon; else
+     * all four axes can be planned, and have their next segments handed over. */
     LEAD_TICKS = 350 * TICKS_PER_US,
+    CHANGE_LEAD_TICKS = 3 * LEAD_TICKS,
     LEAD_TICKS_MAX = 8 * LEAD_TICKS,
 };
 
@@ -97,7 +99,8 @@ enum change {
  * one that is twice as far ahead. */
 static enum change change(struct group *group)
 {
-    for (uint64_t lead = LEAD_TICKS; lead <= (uint64_t)LEAD_TICKS_MAX; lead *= 2U) {
+    uint64_t least = is_in(group, AXIS_BRAKING) ? (uint64_t)LEAD_TICKS : (uint64_t)CHANGE_LEAD_TICKS;
+    for (uint64_t lead = least; lead <= (uint64_t)LEAD_TICKS_MAX; lead *= 2U) {
         const struct path_wish wish = {.tick = hal_time_now() + lead, .patience_ticks = TICK_NEVER / 2U};
         struct path_place place;
         uint64_t back[PATH_AXES];

@@ -283,9 +283,18 @@ static unsigned channel_lay(struct step_channel *channel, struct hal_step_room *
     return laid;
 }
 
+/* While the queue is planned anew from a pulse on, those before it are laid. False: they have been. */
+BASE_APART static bool channel_leave_room(const struct step_channel *channel, struct hal_step_room *room)
+{
+    uint64_t laid = step_cursor_pulse(&channel->cursor);
+    uint64_t left = laid < channel->until ? channel->until - laid : 0;
+    room->count = left < room->count ? (unsigned)left : room->count;
+    return room->count != 0;
+}
+
 unsigned step_channel_lay_isr(struct step_channel *channel, struct hal_step_room *room)
 {
-    if (BASE_SELDOM(channel->frozen)) {
+    if (BASE_SELDOM(channel->frozen) && !channel_leave_room(channel, room)) {
         return 0;
     }
     channel_keep(channel, room);

@@ -41,13 +41,14 @@ struct step_channel {
     _Atomic bool running;   /* a pulse is to come */
     _Atomic bool marked;    /* a marked segment has begun; main clears it */
     bool closed;            /* the motor brakes or has been halted: what was planned before is not wanted any more */
-    bool frozen;            /* nothing is laid until the queue has been planned anew */
+    bool frozen;            /* nothing after `until` is laid until the queue has been planned anew */
     bool turn;              /* what is pushed goes backward */
     uint8_t young;          /* which of `kept` is the younger one */
     int8_t direction;       /* +1 or -1: of the pulse laid last */
     uint8_t motor;          /* 0 to 3 */
     uint32_t backward;      /* of each place of the queue a bit: its segment goes backward */
     uint32_t recalled;      /* while frozen: pulses taken back that the cursor has passed */
+    uint64_t until;         /* while frozen: ordinal of the last pulse that may be laid */
     uint64_t turned;        /* ordinal of the last pulse before the last turn; those before it have been made */
     int64_t origin;         /* pulse k after the last turn is at origin + direction*k, steps */
 };
@@ -100,8 +101,8 @@ void step_channel_replace_brake(struct step_channel *channel, const struct step_
 bool step_channel_replace(struct step_channel *channel, const struct step_cursor *at,
                           const struct step_segment *segments, unsigned count);
 
-/* Takes back what is laid of the last `back` pulses that have been pushed, and lays no more until step_channel_recall
- * or step_channel_thaw. False, and all goes on, if it is too late. Not while the motor brakes. */
+/* Takes back what is laid of the last `back` pulses that have been pushed, and lays none of them until
+ * step_channel_recall or step_channel_thaw. False, and all goes on, if it is too late. Not while the motor brakes. */
 bool step_channel_freeze(struct step_channel *channel, uint64_t back);
 
 /* Drops the last `back` pulses that have been pushed, as they were frozen; goes on with those before and with

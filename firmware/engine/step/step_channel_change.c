@@ -227,6 +227,7 @@ bool step_channel_freeze(struct step_channel *channel, uint64_t back)
     uint64_t laid = step_cursor_pulse(&channel->cursor);
     uint32_t much = pulse < laid ? (uint32_t)(laid - pulse) : 0;
     channel->recalled = much != 0 ? hal_step_take_back(channel->motor, much) : 0;
+    channel->until = pulse;
     channel->frozen = true;
     bool in_time = channel->recalled == much;
     if (!in_time) {

@@ -139,6 +139,27 @@ void test_while_frozen_only_what_stays_is_made(void)
     assert_pulses(5, TOTAL);
 }
 
+void test_while_frozen_the_pulses_that_stay_go_on_being_laid(void)
+{
+    for (unsigned ahead = 1; ahead <= AHEAD; ahead++) {
+        for (uint32_t stays = 1; stays < TOTAL; stays++) {
+            struct step_segment segment = segment_after(stays, NEW_STEPS);
+            begin_pieces(ahead);
+            assert_pulses(1, 1);
+            TEST_ASSERT_TRUE(step_channel_freeze(&channel, TOTAL - stays));
+            assert_pulses(2, stays);
+            TEST_ASSERT_EQUAL_UINT(0, laid_waiting());
+            TEST_ASSERT_TRUE(step_channel_is_running(&channel));
+            step_channel_recall(&channel, TOTAL - stays, &segment, true);
+            for (uint32_t k = 1; k <= NEW_STEPS; k++) {
+                TEST_ASSERT_EQUAL_UINT32(START + (stays + k) * INTERVAL, laid_make_pulse());
+                TEST_ASSERT_EQUAL_INT64(position[stays] - (int64_t)k, step_channel_position(&channel));
+            }
+            TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+        }
+    }
+}
+
 static void recall(unsigned ahead, uint32_t made, uint32_t back, bool backward)
 {
     uint32_t stays = TOTAL - back;
