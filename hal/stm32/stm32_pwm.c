@@ -31,8 +31,6 @@ static const uint8_t channels[] = {
         NO_CHANNEL,
 };
 
-#define COMPARE STM32_REGISTER(TIM4_BASE + 0x34U + 4U * channels[0]) /* RM0090 18.4.13 to 18.4.16 */
-
 /* Two channels share a register. Those that have no pin do the same. */
 static void set_modes(uint32_t mode, uint32_t preload)
 {
@@ -41,36 +39,45 @@ static void set_modes(uint32_t mode, uint32_t preload)
     TIM_CCMR2(TIM4_BASE) = both;
 }
 
+static void set_compare(size_t channel, uint32_t counts)
+{
+    *(&TIM_CCR1(TIM4_BASE) + channels[channel]) = counts;
+}
+
 void hal_io_write_pwm(uint32_t permille)
 {
-    if (channels[0] != NO_CHANNEL) {
-        COMPARE = permille;
+    for (size_t i = 0; channels[i] != NO_CHANNEL; i++) {
+        set_compare(i, permille);
     }
 }
 
 void stm32_pwm_make_safe(void)
 {
-    if (channels[0] != NO_CHANNEL) {
+    for (size_t i = 0; channels[i] != NO_CHANNEL; i++) {
         stm32_enable_clock(&RCC_APB1ENR, RCC_APB1ENR_TIM4EN);
         set_modes(MODE_LOW, 0);
     }
 }
 
 /* The timers of a bus that is slower than the processor have twice its clock (RM0090 7.2). */
-void stm32_pwm_start(const struct stm32_clock *clock)
+static void start_timer(const struct stm32_clock *clock)
 {
-    if (channels[0] == NO_CHANNEL) {
-        return;
-    }
     uint32_t timer_hz = clock->apb1_hz == clock->core_hz ? clock->core_hz : 2U * clock->apb1_hz;
-    uint32_t enable = TIM_CCER_CC1E | (STM32_PWM_LEVEL == 1U ? 0U : TIM_CCER_CC1P);
-    stm32_pwm_make_safe();
     TIM_CR1(TIM4_BASE) = 0;
     TIM_PSC(TIM4_BASE) = timer_hz / (uint32_t)COUNTS_HZ - 1U;
     TIM_ARR(TIM4_BASE) = COUNTS - 1;
     set_modes(MODE_PWM, TIM_CCMR1_OC1PE | TIM_CCMR1_OC2PE);
-    COMPARE = 0;
     TIM_EGR(TIM4_BASE) = TIM_EGR_UG;
-    TIM_CCER(TIM4_BASE) = enable << (4U * channels[0]);
     TIM_CR1(TIM4_BASE) = TIM_CR1_CEN | TIM_CR1_ARPE;
+}
+
+void stm32_pwm_start(const struct stm32_clock *clock)
+{
+    const uint32_t enable = TIM_CCER_CC1E | (STM32_PWM_LEVEL == 1U ? 0U : TIM_CCER_CC1P);
+    stm32_pwm_make_safe();
+    for (size_t i = 0; channels[i] != NO_CHANNEL; i++) {
+        set_compare(i, 0);
+        start_timer(clock);
+        TIM_CCER(TIM4_BASE) = enable << (4U * channels[i]);
+    }
 }
