@@ -465,7 +465,7 @@ def test_waves_have_pins_leds_outputs_and_the_spindle(play: Play, tmp_path: Path
 def test_the_curve_of_the_program_in_c_has_all_axes_and_outputs(tmp_path: Path) -> None:
     file, curve = tmp_path / "a.gve", tmp_path / "curve.json"
     file.write_text(SQUARE + "!7V10\nO0,FF\n")
-    command = [host.program_path(), "sim", file, "--curve", curve, "--points", "100"]
+    command = [str(host.program_path()), "sim", str(file), "--curve", str(curve), "--points", "100"]
     subprocess.run(command, capture_output=True, check=True)
 
     told = json.loads(curve.read_bytes())

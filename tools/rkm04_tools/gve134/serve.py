@@ -12,8 +12,8 @@ EXAMPLE = """\
 gve134 serve --flash unit.flash
   gve134 serve --pty /tmp/unit --speed 10
 
-Others then connect, from a second terminal, as to a unit on a serial line:
-  socket://127.0.0.1:5000
+Others then connect, from a second terminal:
+  gve134 status --port socket://127.0.0.1:5000
 
 Lines on standard input, and on the control port, act while it runs:
   3=0      input 3 (RefZ) is closed to ground; 3=1: it is open, as all are at the start
