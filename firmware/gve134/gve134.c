@@ -225,13 +225,14 @@ static void answer_late(struct gve134 *unit)
 static void act_at_once(struct gve134 *unit)
 {
     struct gve_request request;
-    if (waits_for(unit, GVE134_WAITS_NOT) || waits_for(unit, GVE134_WAITS_FOR_RESET)) {
+    if (waits_for(unit, GVE134_WAITS_NOT)) {
         return;
     }
     if (gve_line_keeps(&unit->line, GVE_RESET)) {
         unit->waiting = (uint8_t)GVE134_WAITS_NOT;
-        while (gve_line_next(&unit->line, &request) && !is_command(&request, GVE_RESET)) {
-        }
+        do {
+            (void)gve_line_next(&unit->line, &request);
+        } while (!is_command(&request, GVE_RESET));
         serve(unit, &request);
     } else if (waits_for(unit, GVE134_WAITS_FOR_HOME) && gve_line_keeps(&unit->line, GVE_HALT)) {
         (void)gve_queue_halt(&unit->queue);

@@ -68,13 +68,12 @@ bool gve_queue_moves(const struct gve_queue *queue)
 
 bool gve_queue_runs(const struct gve_queue *queue)
 {
-    return gve_queue_moves(queue) || group_has_rest(gve_queue_group(queue)) || gve_home_phase(queue) != GVE_HOME_NONE;
+    return gve_queue_moves(queue) || group_has_rest(gve_queue_group(queue));
 }
 
 bool gve_queue_is_stopping(const struct gve_queue *queue)
 {
-    bool asked = group_cause(gve_queue_group(queue)) != AXIS_CAUSE_NONE || queue->halting || queue->stopping;
-    return gve_queue_moves(queue) && asked;
+    return gve_queue_moves(queue) && group_cause(gve_queue_group(queue)) != AXIS_CAUSE_NONE;
 }
 
 uint32_t gve_queue_room(const struct gve_queue *queue)

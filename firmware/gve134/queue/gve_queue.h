@@ -112,7 +112,7 @@ void gve_queue_init(struct gve_queue *queue);
 
 /* ---- states --------------------------------------------------------------------------------------------------- */
 
-/* Something moves, brakes, pauses or waits to go on, or a reference run is in progress. */
+/* Something moves, brakes, pauses or waits to go on. A reference run moves from its begin to its end. */
 bool gve_queue_runs(const struct gve_queue *queue);
 
 static inline bool gve_queue_inta(const struct gve_queue *queue)

@@ -40,7 +40,7 @@ static void leave_switch(struct gve_queue *queue, uint8_t inputs)
 static void finish(struct gve_queue *queue, enum gve_home_result result)
 {
     queue->home.result = (uint8_t)result;
-    queue->inta = queue->inta || result != GVE_HOME_DONE;
+    queue->inta = result != GVE_HOME_DONE;
     set_phase(queue, GVE_HOME_NONE);
 }
 

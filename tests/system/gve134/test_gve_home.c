@@ -201,6 +201,27 @@ void test_another_interrupt_ends_the_run_in_each_phase(void)
     }
 }
 
+void test_of_two_interrupts_while_the_run_brakes_for_its_switch_the_first_is_latched(void)
+{
+    put_cam(0, -100000, -700);
+    rig_expect("0SW1,C0", "0");
+    rig_expect("0A5", "0");
+    begin("0WX-20000,1000,5000,500");
+    while (rig_position[0] > -710) {
+        rig_run_ms(1);
+    }
+    int64_t edge = rig_position[0];
+    rig_input(7, false);
+    rig_run_ms(20);
+    rig_input(8, false);
+    TEST_ASSERT_EQUAL_STRING("8", rig_answer_within(1000));
+    TEST_ASSERT_LESS_THAN_INT64(edge - 10, rig_position[0]);
+    rig_expect("0SR5", "8,C0");
+    char latched[60];
+    (void)snprintf(latched, sizeof latched, "8,%d,0,0,0", (int)edge);
+    rig_expect("0PL", latched);
+}
+
 void test_another_interrupt_that_stays_lets_no_pulse_come(void)
 {
     rig_input(2, false);

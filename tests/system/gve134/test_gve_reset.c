@@ -157,6 +157,41 @@ void test_j_waits_for_no_answer_that_goes_out(void)
     expect_sent("!0?\r!0J\r!0P\r", "0,IP134/200 v1 22.11.2026\r0\r0,0,0\r");
 }
 
+void test_j_takes_effect_when_its_answer_is_out(void)
+{
+    static const char version[] = "0,IP134/200 v1 22.11.2026\r";
+    char heard[200];
+    (void)snprintf(heard, sizeof heard, "%s%s%s0\r0,0,0\r", version, version, version);
+    rig_heard_count = 0;
+    rig_send("!0?\r!0?\r!0?\r!0J\r!0P\r");
+    rig_run_ms(20);
+    rig_heard[rig_heard_count] = '\0';
+    TEST_ASSERT_EQUAL_STRING(heard, rig_heard);
+}
+
+void test_after_j_a_pulse_that_can_not_be_taken_back_is_waited_for(void)
+{
+    rig_expect("0L1000", "0");
+    rig_run_ms(500);
+    machine.faults.keep_ticks = 2 * TICKS_PER_MS;
+    reset();
+    assert_fresh();
+    rig_expect("0L10", "0");
+    rig_run_ms(500);
+    rig_expect("0P", "0,10,0");
+}
+
+void test_many_bytes_that_come_at_once_are_all_taken(void)
+{
+    static struct host_line_byte burst[200];
+    for (unsigned i = 0; i < 200; i++) {
+        burst[i] = (struct host_line_byte){.tick = machine.now + 1U, .value = (uint8_t)"!0N\r"[i % 4U]};
+    }
+    host_machine_set_line(&machine, burst, 200);
+    rig_run_ms(50);
+    rig_expect("0@", "0,50");
+}
+
 void test_commands_that_come_before_an_answer_is_out_are_executed_in_order(void)
 {
     rig_expect("0L1000", "0");
@@ -238,7 +273,10 @@ void test_a_unit_is_idle_when_nothing_moves_waits_or_is_to_be_sent(void)
     TEST_ASSERT_EQUAL_STRING("8", rig_answer_within(1000));
     TEST_ASSERT_TRUE(gve134_is_idle(&unit));
     rig_send("!0?\r!0?\r!0?\r!0?\r!0?\r");
-    TEST_ASSERT_FALSE(gve134_is_idle(&unit)); /* it sends */
+    for (unsigned bytes = 0; bytes < 40; bytes++) {
+        TEST_ASSERT_FALSE(gve134_is_idle(&unit)); /* it sends: more than the line takes at once */
+        rig_run_ticks(RIG_BYTE_TICKS);
+    }
     rig_run_ms(20);
     TEST_ASSERT_TRUE(gve134_is_idle(&unit));
 }

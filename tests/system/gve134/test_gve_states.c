@@ -219,6 +219,18 @@ void test_sw6_leaves_the_causes(void)
     rig_expect("0SR5", "0,40");
 }
 
+void test_intcom_that_sw6_has_set_stays_through_an_interrupt(void)
+{
+    rig_expect("0SW6,10", "0");
+    rig_expect("0SW0,01", "0");
+    rig_input(1, false);
+    rig_expect("0L100", "0");
+    rig_run_ms(10);
+    rig_expect("0SR6", "8,D0");
+    rig_expect("0D", "0");
+    rig_expect("0SR6", "0,00");
+}
+
 void test_g_clears_the_causes_also_where_nothing_waits(void)
 {
     rig_expect("0SW4,0A", "0");
