@@ -351,8 +351,9 @@ static void set_speeds(struct fuzz_stream *stream, uint32_t first)
 
 static void stop(const struct path_place *place, uint64_t back[PATH_AXES])
 {
-    bool done = path_stop(&bench.path, place, back);
+    bool done = path_back(&bench.path, place, back);
     FUZZ_REQUIRE(done);
+    path_stop(&bench.path, place);
     if (place->accel == 0) {
         return;
     }
@@ -370,8 +371,9 @@ static void change(struct fuzz_stream *stream, unsigned kind, const struct path_
     } else {
         add(stream);
     }
-    bool done = path_change(&bench.path, place, back);
+    bool done = path_back(&bench.path, place, back);
     FUZZ_REQUIRE(done);
+    path_change(&bench.path, place);
 }
 
 /* Some time from now on, or about the border up to which the path has been laid. */

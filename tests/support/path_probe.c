@@ -324,9 +324,13 @@ static void make_change(struct probe *probe, unsigned ordinal)
     }
     set_speeds(probe, change, place.section);
     bool stops = change->kind == KIND_STOP || change->kind == KIND_BRAKE;
-    bool done = stops ? path_stop(&probe->path, &place, back) : path_change(&probe->path, &place, back);
-    if (!done) {
+    if (!path_back(&probe->path, &place, back)) {
         refuse("a change was refused", 3);
+    }
+    if (stops) {
+        path_stop(&probe->path, &place);
+    } else {
+        path_change(&probe->path, &place);
     }
     for (unsigned axis = 0; axis < PATH_AXES; axis++) {
         train_go_back(probe, &probe->train[axis], back[axis]);

@@ -13,6 +13,7 @@ from rkm04_tools import (
     board,
     profile,
     target_figures,
+    target_paths,
     target_reactions,
     target_run,
     virtual_board,
@@ -41,6 +42,7 @@ def rig(tmp_path: Path) -> Rig:
         (target_figures.step_cycles, "lone_step", "lone_step_cycles"),
         (target_figures.step_cycles, "together_step", "together_step_cycles"),
         (target_figures.load_language, "load_16000", "load_16000_percent"),
+        (target_paths.borders, "load_path_alike", "load_paths_percent"),
     ],
 )
 def test_the_image_keeps_its_budget_of_cycles(rig, figures, key, budget):
@@ -80,6 +82,48 @@ def test_moves_beyond_the_language_come_to_their_ends(rig):
     assert ran.late == 0
     assert target_run.ended_well(ran, moves)
     assert ran.positions == [5000] * 4
+
+
+@on_target
+def test_no_step_of_a_path_is_late_and_its_time_is_that_of_the_curve(rig):
+    course = target_paths.fast(target_paths.APART)
+
+    ran, told = target_paths.whole(rig, "path", course)
+
+    assert ran.late == told.late == 0
+    assert told.added == course.vectors
+    # 60 000 steps at 200 000 steps/s, and a ramp of 3 000 000 steps/s^2 more.
+    assert target_paths.us(told.path) == pytest.approx(1e6 * (60_000 / 2e5 + 2e5 / 3e6), abs=1)
+
+
+@on_target
+def test_a_path_with_fewer_borders_costs_less(rig):
+    many = target_paths.run(rig, target_paths.fast(target_paths.ALIKE))
+    few = target_paths.run(rig, target_paths.fast(target_paths.ALIKE, target_paths.RARE))
+
+    assert few.load < many.load
+    assert few.positions == many.positions
+
+
+@on_target
+def test_a_hold_of_a_path_leaves_the_motors_where_the_group_says(rig):
+    for act in (target_paths.Act.HOLD, target_paths.Act.INPUT):
+        course = target_paths.fast(target_paths.APART, act=act)
+
+        ran = target_paths.run(rig, course)
+
+        told = target_paths.report(ran)
+        assert told.positions == ran.positions != course.ends
+        assert 0 < target_paths.us(told.effect) < 1000
+
+
+@on_target
+def test_a_path_whose_speeds_change_goes_on_to_its_end(rig):
+    course = target_paths.fast(target_paths.APART, act=target_paths.Act.SPEED)
+
+    _, told = target_paths.whole(rig, "path", course)
+
+    assert target_paths.us(told.path) > 1e6 * (60_000 / 2e5 + 2e5 / 3e6)
 
 
 @on_target

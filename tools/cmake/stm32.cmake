@@ -32,6 +32,7 @@ endfunction()
 firmware_add_image(unit_image ${image} ${FIRMWARE_UNIT} firmware/${FIRMWARE_UNIT}/main.c)
 if(FIRMWARE_UNIT STREQUAL rkm04)
     firmware_add_image(bench_image ${image}-bench firmware_inside hal/stm32/bench/bench_main.c)
+    firmware_add_image(paths_image ${image}-paths firmware_inside hal/stm32/bench/path_main.c)
 
     # What a new board is tried with; it speaks as the RKM04 unit does.
     set(bringup bringup-${FIRMWARE_BOARD})
@@ -65,11 +66,16 @@ if(TARGET bringup_image)
         DEPENDS bringup_image VERBATIM COMMENT "Files for flashing, to try the board")
     list(APPEND files ${bringup_output}.hex ${bringup_output}.bin)
 endif()
+if(TARGET paths_image)
+    set(check_paths COMMAND ${run_check} checks.ram_code ${FIRMWARE_UNIT} $<TARGET_FILE:paths_image>)
+endif()
 add_custom_command(OUTPUT checked.stamp
     COMMAND ${run_check} checks.board_pins ${board_header}
     COMMAND ${run_check} checks.ram_code ${FIRMWARE_UNIT} ${elf}
+    ${check_paths}
     COMMAND ${CMAKE_COMMAND} -E touch checked.stamp
-    DEPENDS unit_image ${board_header} ${checks}/board_pins.py ${checks}/ram_code.py
+    DEPENDS unit_image $<TARGET_NAME_IF_EXISTS:paths_image> ${board_header}
+        ${checks}/board_pins.py ${checks}/ram_code.py
         ${PROJECT_SOURCE_DIR}/tools/rkm04_tools/board_header.py
     VERBATIM COMMENT "Checking pins, and what runs from RAM")
 add_custom_target(board_files ALL DEPENDS ${files} checked.stamp)

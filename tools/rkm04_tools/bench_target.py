@@ -16,7 +16,14 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from rkm04_tools import board_size, profile, target_figures, target_reactions, target_run
+from rkm04_tools import (
+    board_size,
+    profile,
+    target_figures,
+    target_paths,
+    target_reactions,
+    target_run,
+)
 from rkm04_tools.bar import Bar
 from rkm04_tools.failure import DONE
 from rkm04_tools.table import rounded, table
@@ -36,6 +43,8 @@ MEASURES: Mapping[str, Callable[[Rig], Figures]] = {
     "storm": target_figures.load_storm,
     "fast": target_figures.load_fast,
     "start": target_figures.start_up,
+    "borders": target_paths.borders,
+    "changes": target_paths.changes,
 }
 STACK = "stack_used"
 
@@ -76,6 +85,28 @@ FIGURES = [
     Goal("late_200000_together", "... late steps", "steps", 0),
     Goal("load_200000_apart", "... in every order", "%", 50),
     Goal("late_200000_apart", "... late steps", "steps", 0),
+    Goal("load_path_alike", "load at 4 x 200 000 steps/s, 2000 vectors/s, axes alike, line", "%",
+         50, budget="load_paths_percent"),
+    Goal("late_path_alike", "... late steps", "steps", 0),
+    Goal("time_path_alike", "... time of the path, 366.67 ideal", "ms"),
+    Goal("border_alike", "... a border of an axis, all in all", "cycles"),
+    Goal("border_step_alike", "... of it in the step interrupt", "cycles", 200),
+    Goal("interrupt_path_alike", "... the step interrupt: most", "cycles"),
+    Goal("load_path_apart", "load at the same, axes with shares of their own", "%", 50),
+    Goal("late_path_apart", "... late steps", "steps", 0),
+    Goal("time_path_apart", "... time of the path, 366.67 ideal", "ms"),
+    Goal("border_apart", "... a border of an axis, all in all", "cycles"),
+    Goal("border_step_apart", "... of it in the step interrupt", "cycles", 200),
+    Goal("interrupt_path_apart", "... the step interrupt: most", "cycles"),
+    Goal("pass_path", "... a pass of main: most", "us"),
+    Goal("load_path_slow", "load at 4 x 50 000 steps/s, 500 vectors/s, line", "%", 50),
+    Goal("late_path_slow", "... late steps", "steps", 0),
+    Goal("add_packet", "vectors in packets: adding 32 at once, most", "us"),
+    Goal("late_packets", "... late steps", "steps", 0),
+    Goal("effect_speed", "another speed for 128 vectors, until it takes effect", "us", 500),
+    Goal("late_speed", "... late steps", "steps", 0),
+    Goal("effect_hold", "a hold, until it takes effect", "us", 500),
+    Goal("late_hold", "... late steps", "steps", 0),
     Goal("start_short", "power-on to the first pulse, one short stored program", "ms", 100),
     Goal("start_full", "... four long ones", "ms", 100),
     Goal(STACK, "stack that was used in all runs", "bytes"),

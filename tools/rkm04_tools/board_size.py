@@ -23,14 +23,14 @@ POINTER_CALLS = {
     "stm32_edge_interrupt": {"{unit}_tick_isr"},
     "look_at_inputs": {"{unit}_tick_isr"},
     "stm32_plan_interrupt": {"{unit}_plan_isr"},
-    **{function: {"speed_of"} for function in ("group_plan", "change")},
+    "take_speeds": {"speed_of"},
     "messages_answer": {
         *("answer_version", "answer_set_command", "answer_store_flash", "answer_get_position"),
         *("answer_get_command", "answer_get_table", "answer_get_progress", "answer_get_status"),
     },
 }
 # Folders of the build whose objects are not of the image.
-OTHERS = {"CompilerIdC", "rkm04_bench.dir"}
+OTHERS = {"CompilerIdC", "rkm04_bench.dir", "paths_image.dir"}
 INDIRECT = "__indirect_call"
 
 # Functions of the compiler's libraries come without figures; these are above what their code pushes

@@ -170,6 +170,11 @@ class Rig:
         """The bench image."""
         return self.elf.with_name(f"{self.image.name}-bench.elf")
 
+    @property
+    def paths_elf(self) -> Path:
+        """The bench image for paths."""
+        return self.elf.with_name(f"{self.image.name}-paths.elf")
+
     def beside(self, name: str, model: Model) -> Rig:
         """The same in a folder of its own."""
         folder = self.folder / name
@@ -196,6 +201,10 @@ class Rig:
         arguments = ["--set", f"{TABLE}={put}", "--end-at", DONE, "--watch", REPORT]
         arguments += [*self._files({"line-script": line}), *options]
         return self._run(self.bench_elf, BENCH_SECONDS_MAX, arguments)
+
+    def run_other(self, elf: Path, seconds: float, arguments: Sequence[str], line: str) -> Ran:
+        """Run an image with a table of its own."""
+        return self._run(elf, seconds, [*self._files({"line-script": line}), *arguments])
 
     def _files(
         self, texts: Mapping[str, str], steps: bool = False, profile: bool = False

@@ -13,6 +13,8 @@ enum {
     /* So much is handed over ahead. Vectors join without a change up to that; main has so much time between passes. */
     FEED_TICKS = 20 * TICKS_PER_MS,
     POLL_TICKS = 4 * TICKS_PER_MS,
+    WAKE_SEGMENTS = STEP_QUEUE_SEGMENTS / 2,
+    FEED_SLICE_TICKS = 80 * TICKS_PER_US, /* a pass goes on for so long, so that others have their turn */
     MADE_TICKS = TICKS_PER_MS, /* a section is over so long after its end: its last pulses may have been late */
 };
 
@@ -25,6 +27,13 @@ void group_init(struct group *group, struct path_section *ring, uint32_t size)
 void group_connect(struct group *group, unsigned motor, struct step_channel *channel, unsigned axis)
 {
     assert(!group_is_busy(group));
+    for (unsigned i = 0; i < (unsigned)PATH_AXES; i++) {
+        group->motors[i] &= (uint8_t)~(1U << motor);
+    }
+    if (channel != NULL) {
+        group->motors[axis] |= (uint8_t)(1U << motor);
+        step_channel_wake_with(channel, WAKE_SEGMENTS);
+    }
     group->channel[motor] = channel;
     group->axis[motor] = (uint8_t)axis;
 }
@@ -52,14 +61,6 @@ uint32_t group_end(const struct group *group)
     return group->path.end;
 }
 
-bool group_next_motor(const struct group *group, unsigned axis, unsigned *motor)
-{
-    while (*motor < (unsigned)UNIT_MOTORS && (group->channel[*motor] == NULL || group->axis[*motor] != axis)) {
-        ++*motor;
-    }
-    return *motor < (unsigned)UNIT_MOTORS;
-}
-
 static void hand_over(struct step_channel *channel, const struct path_segment *next)
 {
     step_channel_turn(channel, next->backward);
@@ -68,7 +69,8 @@ static void hand_over(struct step_channel *channel, const struct path_segment *n
 
 static bool has_room(const struct group *group, unsigned axis)
 {
-    for (unsigned motor = 0; group_next_motor(group, axis, &motor); motor++) {
+    for (unsigned left = group->motors[axis]; left != 0; left &= left - 1U) {
+        unsigned motor = group_lowest(left);
         if (step_channel_room(group->channel[motor]) == 0) {
             return false;
         }
@@ -82,7 +84,8 @@ bool group_feed_axis(struct group *group, unsigned axis, uint64_t until_tick)
     if (!has_room(group, axis) || !path_next(&group->path, axis, until_tick, &next)) {
         return false;
     }
-    for (unsigned motor = 0; group_next_motor(group, axis, &motor); motor++) {
+    for (unsigned left = group->motors[axis]; left != 0; left &= left - 1U) {
+        unsigned motor = group_lowest(left);
         hand_over(group->channel[motor], &next);
         if (!step_channel_is_running(group->channel[motor])) {
             step_channel_run(group->channel[motor]);
@@ -96,7 +99,8 @@ static void begin_axis(struct group *group, unsigned axis, uint64_t start_tick)
 {
     struct path_segment next;
     bool moves = path_next(&group->path, axis, start_tick + (uint64_t)FEED_TICKS, &next);
-    for (unsigned motor = 0; group_next_motor(group, axis, &motor); motor++) {
+    for (unsigned left = group->motors[axis]; left != 0; left &= left - 1U) {
+        unsigned motor = group_lowest(left);
         struct step_channel *channel = group->channel[motor];
         step_channel_begin(channel, (uint32_t)start_tick, moves ? next.backward : channel->direction < 0);
         if (moves) {
@@ -170,11 +174,14 @@ static void end(struct group *group)
 }
 
 /* A segment at a time, so that a stop need not wait. True: more may follow. */
-static bool feed(struct group *group, unsigned axis)
+static bool feed(struct group *group, uint64_t until_tick)
 {
-    hal_run_hold_plan();
-    bool fed = group_feed_axis(group, axis, hal_time_now() + (uint64_t)FEED_TICKS);
-    hal_run_release_plan();
+    bool fed = false;
+    for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
+        hal_run_hold_plan();
+        fed = group_feed_axis(group, axis, until_tick) || fed;
+        hal_run_release_plan();
+    }
     return fed;
 }
 
@@ -200,21 +207,20 @@ uint64_t group_poll(struct group *group)
     hal_run_hold_plan();
     group_plan(group);
     hal_run_release_plan();
+    uint64_t begin = hal_time_now();
+    uint64_t now = begin;
     bool fed = true;
-    while (fed) {
-        fed = false;
-        for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
-            fed = feed(group, axis) || fed;
-        }
+    while (fed && now - begin < (uint64_t)FEED_SLICE_TICKS) {
+        fed = feed(group, now + (uint64_t)FEED_TICKS);
+        now = hal_time_now();
     }
     hal_run_hold_plan();
-    uint64_t now = hal_time_now();
     drop_made(group, now);
     if (has_ended(group, now)) {
         end(group);
     }
     hal_run_release_plan();
-    return is_moving(group) ? next_poll(group, now) : now;
+    return is_moving(group) && !fed ? next_poll(group, now) : now;
 }
 
 bool group_take_end(struct group *group)

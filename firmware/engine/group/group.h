@@ -7,9 +7,9 @@
  * begins with group_start and is over when group_take_end has said so. What a stop has left of the path stays:
  * group_start goes on with it, group_forget drops it.
  *
- * A change takes effect at a whole step of the longest axis, the first that is due some 0.4 ms after it was asked for.
- * Each channel is frozen from there on while the path is planned; where the plan is late, so are the pulses, and the
- * motors are where the path says all the same.
+ * A change takes effect at a whole step of the longest axis, the first that is due 0.42 ms after it was asked for, or
+ * up to 0.1 ms later where many sections are planned anew. Each channel is frozen from there on while the path is
+ * planned; where the plan is late, so are the pulses, and the motors are where the path says all the same.
  */
 #ifndef GROUP_H
 #define GROUP_H
@@ -44,6 +44,7 @@ struct group {
     struct group_speeds speeds;                /* that wait to be taken, if `of` is not NULL */
     struct step_channel *channel[UNIT_MOTORS]; /* NULL: the motor is not of the group */
     uint8_t axis[UNIT_MOTORS];                 /* of the path, that the motor follows */
+    uint8_t motors[PATH_AXES];                 /* that follow the axis: a bit each */
     _Atomic unsigned state;                    /* enum axis_state */
     _Atomic unsigned cause; /* enum axis_cause, of the present or last motion; set once, by what stops it */
 };
@@ -52,7 +53,8 @@ struct group {
  * keeps it. */
 void group_init(struct group *group, struct path_section *ring, uint32_t size);
 
-/* A motor that has its channel follows an axis of the path; some motors may follow the same one. Only while STANDING,
+/* A motor that has its channel follows an axis of the path, without one (NULL) none; some motors may follow the same
+ * axis. Main is not woken for each segment of the channel from then on, but for half of its queue. Only while STANDING,
  * and not where something is left of a path that has moved the axis. */
 void group_connect(struct group *group, unsigned motor, struct step_channel *channel, unsigned axis);
 
@@ -86,8 +88,9 @@ void group_plan_isr(struct group *group);
  * to rest, else as soon as a change can take effect, by group_poll at the latest. The context must live so long. */
 void group_set_speeds(struct group *group, const struct group_speeds *speeds);
 
-/* Hands over segments, sees sections and the motion end, plans what is left to be planned. Whenever the step interrupt
- * asks for main, and at the tick that it returns at the latest; TICK_NEVER: nothing moves. */
+/* Hands over segments, for some 0.1 ms, sees sections and the motion end, plans what is left to be planned. Whenever
+ * the step interrupt asks for main, and at the tick that it returns at the latest: at once if more waits to be handed
+ * over; TICK_NEVER: nothing moves. */
 uint64_t group_poll(struct group *group);
 
 /* The motion is over: STANDING from now on. False if it has not ended, or has been taken. */

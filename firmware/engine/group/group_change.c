@@ -7,11 +7,12 @@
 #include "hal_time.h"
 
 enum {
-    /* From the plan's begin to the place: what planning takes, and the lead of the step output. A stop is soon; else
-     * all four axes can be planned, and have their next segments handed over. */
-    LEAD_TICKS = 350 * TICKS_PER_US,
-    CHANGE_LEAD_TICKS = 3 * LEAD_TICKS,
+    /* From the plan's begin to the place: what planning takes, and the lead of the step output. */
+    LEAD_TICKS = 420 * TICKS_PER_US,
     LEAD_TICKS_MAX = 8 * LEAD_TICKS,
+    LOOK_TICKS = 2 * TICKS_PER_US / 5, /* more for each section that is looked at, */
+    SPEED_TICKS = LOOK_TICKS,          /* and for each that gets another speed */
+    GO_ON_TICKS = 300 * TICKS_PER_US,  /* so much is handed over after the place at once */
 };
 
 /* Thaws the motors before `motor`. */
@@ -42,7 +43,8 @@ static void go_on(struct group *group, const uint64_t back[PATH_AXES], uint64_t 
     for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
         struct path_segment next;
         bool moves = path_next(&group->path, axis, until_tick, &next);
-        for (unsigned motor = 0; group_next_motor(group, axis, &motor); motor++) {
+        for (unsigned left = group->motors[axis]; left != 0; left &= left - 1U) {
+            unsigned motor = group_lowest(left);
             step_channel_recall(group->channel[motor], back[axis], moves ? &next.segment : NULL,
                                 moves && next.backward);
         }
@@ -66,27 +68,28 @@ static bool is_in(const struct group *group, enum axis_state state)
     return (enum axis_state)atomic_load_explicit(&group->state, memory_order_acquire) == state;
 }
 
-static void take_speeds(struct group *group)
+/* Of the sections from a count on: those before are over when it counts. */
+static void take_speeds(struct group *group, uint32_t first)
 {
-    for (uint32_t section = group->path.first; section != group->path.end; section++) {
+    for (uint32_t section = first; section != group->path.end; section++) {
         path_set_speed(&group->path, section, group->speeds.of(group->speeds.context, section));
     }
     group->speeds.of = NULL;
 }
 
 /* All that is to come after the place is frozen. */
-static void plan_from(struct group *group, const struct path_place *place)
+static void plan_from(struct group *group, const struct path_place *place, const uint64_t back[PATH_AXES])
 {
-    uint64_t back[PATH_AXES];
     if (is_in(group, AXIS_BRAKING)) {
-        (void)path_stop(&group->path, place, back);
+        path_stop(&group->path, place);
     } else {
         if (group->speeds.of != NULL) {
-            take_speeds(group);
+            take_speeds(group, place->section);
         }
-        (void)path_change(&group->path, place, back);
+        path_change(&group->path, place);
     }
-    go_on(group, back, place->entry.time.high + (uint64_t)LEAD_TICKS);
+    go_on(group, back, place->entry.time.high + (uint64_t)GO_ON_TICKS);
+    feed_until(group, place->entry.time.high + (uint64_t)GO_ON_TICKS);
 }
 
 enum change {
@@ -95,24 +98,41 @@ enum change {
     LATER, /* its queues are full, and end before that */
 };
 
+/* Hands over what is due before a place, if need be; false if there is no room for all of it. */
+static bool reach(struct group *group, const struct path_place *place, uint64_t back[PATH_AXES])
+{
+    if (path_back(&group->path, place, back)) {
+        return true;
+    }
+    feed_until(group, place->entry.time.high + 2U);
+    return path_back(&group->path, place, back);
+}
+
+/* How long planning takes at most. */
+static uint64_t lead_of(const struct group *group)
+{
+    uint64_t sections = group->path.end - group->path.first;
+    uint64_t each = is_in(group, AXIS_BRAKING) ? 0 : (uint64_t)LOOK_TICKS;
+    each += group->speeds.of != NULL ? (uint64_t)SPEED_TICKS : 0;
+    return (uint64_t)LEAD_TICKS + sections * each;
+}
+
 /* Plans anew from the first place that leaves time enough; where it is too late to take back what lies after it, from
  * one that is twice as far ahead. */
 static enum change change(struct group *group)
 {
-    uint64_t least = is_in(group, AXIS_BRAKING) ? (uint64_t)LEAD_TICKS : (uint64_t)CHANGE_LEAD_TICKS;
-    for (uint64_t lead = least; lead <= (uint64_t)LEAD_TICKS_MAX; lead *= 2U) {
+    for (uint64_t lead = lead_of(group); lead <= (uint64_t)LEAD_TICKS_MAX; lead *= 2U) {
         const struct path_wish wish = {.tick = hal_time_now() + lead, .patience_ticks = TICK_NEVER / 2U};
         struct path_place place;
         uint64_t back[PATH_AXES];
         if (!path_find(&group->path, &wish, &place)) {
             return RESTS;
         }
-        feed_until(group, place.entry.time.high + 2U);
-        if (!path_back(&group->path, &place, back)) {
+        if (!reach(group, &place, back)) {
             return LATER;
         }
         if (freeze(group, back)) {
-            plan_from(group, &place);
+            plan_from(group, &place, back);
             return CHANGED;
         }
     }
@@ -136,7 +156,7 @@ void group_plan(struct group *group)
         moves = change(group) != RESTS;
     }
     if (group->speeds.of != NULL && !moves) {
-        take_speeds(group);
+        take_speeds(group, group->path.first);
     }
 }
 

@@ -5,10 +5,14 @@
 #ifndef GROUP_PRIVATE_H
 #define GROUP_PRIVATE_H
 
+#include "base_wide.h"
 #include "group.h"
 
-/* The first motor from *motor on that follows an axis. False if there is none. */
-bool group_next_motor(const struct group *group, unsigned axis, unsigned *motor);
+/* The lowest of some motors, at least one. */
+static inline unsigned group_lowest(unsigned motors)
+{
+    return wide_bits((uint32_t)(motors & (0U - motors))) - 1U;
+}
 
 /* Hands the next segment of an axis over, if its first pulse is due before `until_tick`. False if there is none, or no
  * room for it now. */

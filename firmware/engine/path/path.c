@@ -37,12 +37,11 @@ bool path_add(struct path *path, const struct path_vector *vector)
     path->end++;
     if (!path->stopping && !path_is_laid(path) && path->start_speed == 0) {
         path->known = path->end;
-        (void)path_look_again(path);
     }
     return true;
 }
 
-bool path_lags(const struct path *path)
+bool path_lags(struct path *path)
 {
     if (path->stopping || path->start_speed != 0) {
         return false;
@@ -50,8 +49,7 @@ bool path_lags(const struct path *path)
     if (path_is_laid(path)) {
         return path->known != path->end;
     }
-    uint64_t exit2 = path_section_of(path, path->laid - 1U)->exit2;
-    return path->held_back && path_look_brakeable(path, path->laid) > exit2;
+    return path->held_back && path_look_is_more(path, path_section_of(path, path->laid - 1U)->exit2);
 }
 
 bool path_start(struct path *path, uint64_t start_tick)
@@ -176,11 +174,6 @@ bool path_next(struct path *path, unsigned axis, uint64_t until_tick, struct pat
     segment->backward = section->vector.steps[axis] < 0;
     hand_over(cursor, segment);
     return true;
-}
-
-void path_set_speed(const struct path *path, uint32_t section, uint32_t speed)
-{
-    path_section_set_speed(path_section_of(path, section), speed);
 }
 
 void path_drop(struct path *path, uint32_t section)

@@ -63,11 +63,12 @@ struct path {
     uint32_t size;    /* places of the ring */
     uint32_t turn_us; /* what DIR wants */
     uint32_t start_speed;
-    uint32_t first; /* count of the first section in the ring */
-    uint32_t laid;  /* count of the first one whose plan may still change */
-    uint32_t known; /* count after the last one that is planned */
-    uint32_t end;   /* count after the last one in the ring */
-    uint32_t chain; /* count after the last one that was there when the path left a stand */
+    uint32_t first;  /* count of the first section in the ring */
+    uint32_t laid;   /* count of the first one whose plan may still change */
+    uint32_t known;  /* count after the last one that is planned */
+    uint32_t looked; /* count after the last one that look-ahead knows: it waits until what is laid next hangs on it */
+    uint32_t end;    /* count after the last one in the ring */
+    uint32_t chain;  /* count after the last one that was there when the path left a stand */
     bool stopping;
     bool too_fast;            /* `laid` is left at the speed to which it can be braked */
     bool held_back;           /* the speed at which `laid` is entered was as low as the end that was known made it */
@@ -76,6 +77,7 @@ struct path {
     uint64_t border2;         /* its speed2 in terms of borders, unless it is the origin's section */
     struct path_place rest;   /* where it comes to rest: right when laid = known */
     struct path_kept kept[PATH_KEPT];
+    struct path_speeds speeds;
     struct path_cursor axis[PATH_AXES];
 };
 
@@ -100,12 +102,13 @@ void path_init(struct path *path, struct path_section *ring, uint32_t size, uint
  * Borders are as ever: the path is at 0 where a border speed wants it. The path must stand. */
 void path_set_start_speed(struct path *path, uint32_t start_speed);
 
-/* Appends a vector; false if the ring is full. A path that moves joins it by itself, if not all of it has been laid. */
+/* Appends a vector; false if the ring is full. A path that moves joins it by itself, if not all of it has been laid.
+ * Look-ahead comes later, once for all vectors that have been added until the path hangs on them. */
 bool path_add(struct path *path, const struct path_vector *vector);
 
 /* Whether a change would make the path faster or longer, as vectors have been added after it had been laid so far that
  * they did not count. */
-bool path_lags(const struct path *path);
+bool path_lags(struct path *path);
 
 /* Leaves a stand at a whole tick: begins, or goes on from where it rests. False if no vector is left. Pulses up to the
  * rest must have been handed over. */
@@ -130,20 +133,22 @@ bool path_find(struct path *path, const struct path_wish *wish, struct path_plac
 
 /* Another speed for a section, from the place on at which the path is changed next, or from the next start on. Nothing
  * may be handed over between this and that. */
-void path_set_speed(const struct path *path, uint32_t section, uint32_t speed);
+static inline void path_set_speed(const struct path *path, uint32_t section, uint32_t speed)
+{
+    path_section_set_speed(&path->ring[section & (path->size - 1U)], speed);
+}
 
 /* How many of the last pulses of each axis that were handed over lie after a place that path_find has found: those that
  * a change there makes void. False if an axis has not been handed over as far as that. */
 bool path_back(const struct path *path, const struct path_place *place, uint64_t back[PATH_AXES]);
 
-/* Plans anew from a place that path_find has found. False, and nothing is changed, if path_back says so; else `back` is
- * what it tells. */
-bool path_change(struct path *path, const struct path_place *place, uint64_t back[PATH_AXES]);
+/* Plans anew from a place that path_find has found and path_back is true for. */
+void path_change(struct path *path, const struct path_place *place);
 
 /* The same, and it brakes to a stand as soon as it can, with the acceleration of each vector that it comes through.
  * With place->accel it brakes with that one, and so all vectors from there on have it: what is left of the path is not
  * to be gone on with, or so. */
-bool path_stop(struct path *path, const struct path_place *place, uint64_t back[PATH_AXES]);
+void path_stop(struct path *path, const struct path_place *place);
 
 /* Whether all that is planned has been laid; then `rest` says where and when the path stands. */
 bool path_is_laid(const struct path *path);

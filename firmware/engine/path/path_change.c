@@ -42,12 +42,12 @@ static uint64_t way_at(const struct look *look, uint64_t *rest)
         ticks = ticks < until_stand ? ticks : until_stand;
     }
     uint64_t mean = slope + wide_from_signed(look->leg->accel) * ticks;
-    return wide_divide(wide_multiply(mean, ticks), STEP_QUANTA, rest);
+    return wide_divide(path_wide_multiply(mean, ticks), STEP_QUANTA, rest);
 }
 
 static struct wide grains_of(const struct path_course *course, uint64_t step)
 {
-    return wide_multiply(course->grains_per_step, step);
+    return path_wide_multiply(course->grains_per_step, step);
 }
 
 /* A whole step of the course, on whichever leg it is. */
@@ -55,7 +55,7 @@ static struct path_entry step_at(const struct path_course *course, uint64_t step
 {
     struct wide place = grains_of(course, step);
     const struct path_leg *leg = &course->leg[0];
-    for (unsigned i = 0; i + 1U < course->legs && !wide_is_at_least(course->leg[i].end, place); i++) {
+    for (unsigned i = 0; i + 1U < course->legs && !path_wide_is_at_least(course->leg[i].end, place); i++) {
         leg = &course->leg[i + 1U];
     }
     return path_course_at(course, leg, place);
@@ -90,9 +90,9 @@ static struct wide between_steps(const struct look *look, uint64_t grains_per_st
     uint64_t unused = 0;
     struct wide way = {.high = way_at(look, &quanta)};
     way.low = wide_divide((struct wide){.high = quanta}, STEP_QUANTA, &unused);
-    way = wide_add(way, path_fixed_divide(look->leg->place, look->course->grains_per_step));
-    struct wide place = wide_multiply(way.high, grains_per_step);
-    place = wide_add(place, (struct wide){.low = wide_multiply(way.low, grains_per_step).high + 2U});
+    way = path_wide_add(way, path_fixed_divide(look->leg->place, look->course->grains_per_step));
+    struct wide place = path_wide_multiply(way.high, grains_per_step);
+    place = path_wide_add(place, (struct wide){.low = path_wide_multiply(way.low, grains_per_step).high + 2U});
     place.low &= ~UINT64_C(1);
     return place;
 }
@@ -106,14 +106,14 @@ static bool find_in(const struct look *look, uint64_t patience_ticks, uint64_t g
     uint64_t step = find_step(look);
     if (step <= last) {
         *entry = step_at(look->course, step);
-        entry->place = wide_multiply(grains_per_step, step);
+        entry->place = path_wide_multiply(grains_per_step, step);
     }
     bool soon = step <= last && entry->time.high <= look->tick + patience_ticks;
     if (!soon && look->leg->accel == 0 && !is_due(look->leg->time, look->tick)) {
         struct path_entry between =
-            path_course_cruise_at(look->course, look->leg, between_steps(look, grains_per_step), grains_per_step);
+            path_course_cruise_at(look->leg, between_steps(look, grains_per_step), grains_per_step);
         struct wide end = path_course_at(look->course, look->leg, look->leg->end).time;
-        if (!wide_is_at_least(between.time, end)) {
+        if (!path_wide_is_at_least(between.time, end)) {
             *entry = between;
             return true;
         }
@@ -139,7 +139,7 @@ static uint32_t section_at(struct path *path, uint64_t tick)
 static bool pass_border(const struct path *path, struct path_place *place)
 {
     const struct path_section *section = path_section_of(path, place->section);
-    if (!wide_is_at_least(place->entry.place, wide_multiply(path_lay_grains(path, place), section->length))) {
+    if (!path_wide_is_at_least(place->entry.place, path_wide_multiply(path_lay_grains(path, place), section->length))) {
         return true;
     }
     place->section++;
@@ -163,7 +163,7 @@ static bool find_origin(const struct path *path, const struct path_wish *wish, s
     }
     *place = (struct path_place){.section = path->origin.section, .accel = wish->accel, .entry = path->origin.entry};
     if (wish->accel != 0) {
-        place->entry.place = wide_multiply(PATH_GRAINS_PER_ACCEL * wish->accel, step);
+        place->entry.place = path_wide_multiply(PATH_GRAINS_PER_ACCEL * wish->accel, step);
     }
     return true;
 }
@@ -193,8 +193,8 @@ static bool is_before(const struct path *path, uint32_t a, uint32_t b)
     return a - path->first < b - path->first;
 }
 
-/* Whether all pulses of an axis before a place have been handed over. */
-static bool is_handed_over(const struct path *path, const struct path_place *place, unsigned axis)
+/* Whether all pulses of an axis before a place, `there` of which are in its section, have been handed over. */
+static bool is_handed_over(const struct path *path, const struct path_place *place, unsigned axis, uint32_t there)
 {
     const struct path_cursor *cursor = &path->axis[axis];
     uint32_t made = cursor->pulse - 1U;
@@ -207,11 +207,11 @@ static bool is_handed_over(const struct path *path, const struct path_place *pla
         }
         made = 0;
     }
-    return made >= path_lay_pulses(path, place, axis);
+    return made >= there;
 }
 
 /* Pulses of an axis that have been handed over and lie after a place. */
-static uint64_t count_void(const struct path *path, const struct path_place *place, unsigned axis)
+static uint64_t count_void(const struct path *path, const struct path_place *place, unsigned axis, uint32_t there)
 {
     const struct path_cursor *cursor = &path->axis[axis];
     if (is_before(path, cursor->section, place->section)) {
@@ -221,7 +221,7 @@ static uint64_t count_void(const struct path *path, const struct path_place *pla
     for (uint32_t i = place->section; i != cursor->section; i++) {
         count += path_section_steps(path_section_of(path, i), axis);
     }
-    return count - path_lay_pulses(path, place, axis);
+    return count - there;
 }
 
 /* An axis that turns must be slower at the border if it speeds up faster after it. */
@@ -237,36 +237,34 @@ static void set_accel(const struct path *path, const struct path_place *place)
 
 bool path_back(const struct path *path, const struct path_place *place, uint64_t back[PATH_AXES])
 {
+    uint32_t there[PATH_AXES];
+    path_lay_pulses(path, place, there);
     for (unsigned axis = 0; axis < PATH_AXES; axis++) {
-        if (!is_handed_over(path, place, axis)) {
+        if (!is_handed_over(path, place, axis, there[axis])) {
             return false;
         }
     }
     for (unsigned axis = 0; axis < PATH_AXES; axis++) {
-        back[axis] = count_void(path, place, axis);
+        back[axis] = count_void(path, place, axis, there[axis]);
     }
     return true;
 }
 
-static bool plan_from(struct path *path, const struct path_place *place, bool stopping, uint64_t back[PATH_AXES])
+static void plan_from(struct path *path, const struct path_place *place, bool stopping)
 {
-    if (!path_back(path, place, back)) {
-        return false;
-    }
     if (place->accel != 0) {
         set_accel(path, place);
     }
     path->stopping = stopping;
     path_lay_begin(path, place);
-    return true;
 }
 
-bool path_change(struct path *path, const struct path_place *place, uint64_t back[PATH_AXES])
+void path_change(struct path *path, const struct path_place *place)
 {
-    return plan_from(path, place, false, back);
+    plan_from(path, place, false);
 }
 
-bool path_stop(struct path *path, const struct path_place *place, uint64_t back[PATH_AXES])
+void path_stop(struct path *path, const struct path_place *place)
 {
-    return plan_from(path, place, true, back);
+    plan_from(path, place, true);
 }

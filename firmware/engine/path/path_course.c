@@ -1,6 +1,7 @@
 #include "path_course.h"
 
 #include "path_fixed.h"
+#include "path_root.h"
 #include "step_scale.h"
 
 static uint64_t lower(uint64_t a, uint64_t b)
@@ -11,11 +12,6 @@ static uint64_t lower(uint64_t a, uint64_t b)
 static uint64_t higher(uint64_t a, uint64_t b)
 {
     return a > b ? a : b;
-}
-
-static uint32_t size_of(int32_t accel)
-{
-    return (uint32_t)(accel < 0 ? -accel : accel);
 }
 
 /* What laying goes through: the corner where the first ramp ends and the one where the last begins. */
@@ -29,7 +25,7 @@ struct profile {
 /* What twice_speed2 gains or loses on the way from a place to the end, all in one: grains. */
 static uint64_t gain_until_end(const struct path_course *course, struct wide place)
 {
-    struct wide way = wide_subtract(course->end, place);
+    struct wide way = path_wide_subtract(course->end, place);
     return way.high != 0 ? PATH_SPEED2_ENDLESS : lower(way.low, PATH_SPEED2_ENDLESS);
 }
 
@@ -58,24 +54,61 @@ static struct profile profile_of(const struct path_course *course, const struct 
     return profile;
 }
 
-struct path_entry path_course_cruise_at(const struct path_course *course, const struct path_leg *leg, struct wide place,
-                                        uint64_t grains_per_step)
+/* A place in steps, 64.64. Most cruises begin and end with their vector. */
+static struct wide steps_of(const struct path_course *course, struct wide place)
 {
-    struct wide begin = path_fixed_divide(leg->place, course->grains_per_step);
-    struct wide way = wide_subtract(path_fixed_divide(place, grains_per_step), begin);
+    if (path_wide_is_equal(place, (struct wide){0})) {
+        return place;
+    }
+    if (path_wide_is_equal(place, course->whole)) {
+        return (struct wide){.high = course->length};
+    }
+    return path_fixed_divide(place, course->grains_per_step);
+}
+
+/* When the path is at a place of a cruise, in steps. */
+static struct wide cruise_time(const struct path_leg *leg, struct wide steps)
+{
+    return path_wide_add(leg->time, path_fixed_multiply(path_wide_subtract(steps, leg->begin), leg->pace));
+}
+
+struct path_entry path_course_cruise_at(const struct path_leg *leg, struct wide place, uint64_t grains_per_step)
+{
     return (struct path_entry){
-        .time = wide_add(leg->time, path_fixed_multiply(way, leg->pace)),
+        .time = cruise_time(leg, path_fixed_divide(place, grains_per_step)),
         .place = place,
         .speed2 = leg->twice_speed2 / 2U,
     };
 }
 
 /* The time between two speeds of a ramp. */
-static struct wide ramp_time(struct wide slope_a, struct wide slope_b, uint32_t accel)
+static struct wide ramp_time(const struct path_course *course, struct wide slope_a, struct wide slope_b)
 {
-    struct wide change =
-        wide_is_at_least(slope_a, slope_b) ? wide_subtract(slope_a, slope_b) : wide_subtract(slope_b, slope_a);
-    return path_fixed_part(change, 2U * (uint64_t)accel);
+    struct wide change = path_wide_is_at_least(slope_a, slope_b) ? path_wide_subtract(slope_a, slope_b)
+                                                                 : path_wide_subtract(slope_b, slope_a);
+    return path_divide_wide(change, &course->per_accel);
+}
+
+/* The speed, with its root. */
+static struct path_speed *speed_of(struct path_speeds *speeds, uint64_t twice_speed2)
+{
+    if (speeds->known[speeds->last].twice_speed2 != twice_speed2) {
+        speeds->last ^= 1U;
+    }
+    struct path_speed *speed = &speeds->known[speeds->last];
+    if (speed->twice_speed2 != twice_speed2) {
+        *speed = (struct path_speed){.twice_speed2 = twice_speed2, .slope = path_fixed_slope(twice_speed2)};
+    }
+    return speed;
+}
+
+static struct wide pace_of(struct path_speeds *speeds, uint64_t twice_speed2)
+{
+    struct path_speed *speed = speed_of(speeds, twice_speed2);
+    if (speed->pace.high == 0) {
+        speed->pace = path_fixed_pace(speed->slope);
+    }
+    return speed->pace;
 }
 
 /* Where the course has come. */
@@ -84,13 +117,16 @@ struct progress {
     struct wide place;
     struct wide slope;
     uint64_t twice_speed2;
+    struct path_speeds *speeds;
 };
 
 static struct path_leg *begin_leg(struct path_course *course, const struct progress *at)
 {
     struct path_leg *leg = &course->leg[course->legs++];
-    *leg =
-        (struct path_leg){.time = at->time, .place = at->place, .slope = at->slope, .twice_speed2 = at->twice_speed2};
+    leg->time = at->time;
+    leg->place = at->place;
+    leg->slope = at->slope;
+    leg->twice_speed2 = at->twice_speed2;
     return leg;
 }
 
@@ -101,10 +137,11 @@ static void lay_ramp(struct path_course *course, struct progress *at, uint64_t t
         return;
     }
     struct path_leg *leg = begin_leg(course, at);
-    struct wide slope = path_fixed_slope(to);
+    struct wide slope = speed_of(at->speeds, to)->slope;
+    course->per_accel = path_divisor_of(2U * (uint64_t)accel);
     leg->accel = to > from ? (int32_t)accel : -(int32_t)accel;
-    leg->end = wide_add(at->place, (struct wide){.low = to > from ? to - from : from - to});
-    at->time = wide_add(at->time, ramp_time(slope, at->slope, accel));
+    leg->end = path_wide_add(at->place, (struct wide){.low = to > from ? to - from : from - to});
+    at->time = path_wide_add(at->time, ramp_time(course, slope, at->slope));
     at->place = leg->end;
     at->slope = slope;
     at->twice_speed2 = to;
@@ -112,13 +149,15 @@ static void lay_ramp(struct path_course *course, struct progress *at, uint64_t t
 
 static void lay_cruise(struct path_course *course, struct progress *at, struct wide end)
 {
-    if (wide_is_at_least(at->place, end)) {
+    if (path_wide_is_at_least(at->place, end)) {
         return;
     }
     struct path_leg *leg = begin_leg(course, at);
-    leg->pace = path_fixed_pace(at->slope);
+    leg->accel = 0;
+    leg->begin = steps_of(course, at->place);
+    leg->pace = pace_of(at->speeds, at->twice_speed2);
     leg->end = end;
-    struct wide time = path_course_cruise_at(course, leg, end, course->grains_per_step).time;
+    struct wide time = cruise_time(leg, steps_of(course, end));
     at->time = time.high < 2U * PATH_FIXED_NEVER ? time : (struct wide){.high = 2U * PATH_FIXED_NEVER};
     at->place = end;
 }
@@ -128,30 +167,32 @@ static void set_speed(struct progress *at, uint64_t twice_speed2)
 {
     if (at->twice_speed2 != twice_speed2) {
         at->twice_speed2 = twice_speed2;
-        at->slope = path_fixed_slope(twice_speed2);
+        at->slope = speed_of(at->speeds, twice_speed2)->slope;
     }
 }
 
 void path_course_lay(struct path_course *course, const struct path_section *section, const struct path_entry *entry,
-                     const struct path_goal *goal)
+                     const struct path_goal *goal, struct path_speeds *speeds)
 {
-    *course = (struct path_course){
-        .grains_per_step = path_section_grains_per_step(section),
-        .length = section->length,
-        .end = path_section_end(section),
-    };
+    course->legs = 0;
+    course->grains_per_step = path_section_grains_per_step(section);
+    course->length = section->length;
+    course->per_length = path_divisor_of(section->length);
+    course->whole = path_section_end(section);
+    course->end = course->whole;
     struct profile profile = profile_of(course, entry, goal);
     struct progress at = {
         .time = entry->time,
         .place = entry->place,
-        .slope = path_fixed_slope(profile.enter),
+        .slope = speed_of(speeds, profile.enter)->slope,
         .twice_speed2 = profile.enter,
+        .speeds = speeds,
     };
     lay_ramp(course, &at, profile.turn, section->vector.accel);
     if (!goal->rests) {
         struct wide last_ramp = {.low = profile.cruise - profile.exit};
         set_speed(&at, profile.cruise);
-        lay_cruise(course, &at, wide_subtract(course->end, last_ramp));
+        lay_cruise(course, &at, path_wide_subtract(course->end, last_ramp));
         lay_ramp(course, &at, profile.exit, section->vector.accel);
     }
     course->end = at.place;
@@ -161,25 +202,32 @@ void path_course_lay(struct path_course *course, const struct path_section *sect
 struct path_entry path_course_at(const struct path_course *course, const struct path_leg *leg, struct wide place)
 {
     if (leg->accel == 0) {
-        return path_course_cruise_at(course, leg, place, course->grains_per_step);
+        return path_course_cruise_at(leg, place, course->grains_per_step);
     }
-    uint64_t way = wide_subtract(place, leg->place).low;
+    uint64_t way = path_wide_subtract(place, leg->place).low;
     uint64_t twice_speed2 = leg->accel > 0 ? leg->twice_speed2 + way : leg->twice_speed2 - way;
-    struct wide time = ramp_time(leg->slope, path_fixed_slope(twice_speed2), size_of(leg->accel));
-    return (struct path_entry){.time = wide_add(leg->time, time), .place = place, .speed2 = twice_speed2 / 2U};
+    struct wide time = ramp_time(course, leg->slope, path_fixed_slope(twice_speed2));
+    return (struct path_entry){.time = path_wide_add(leg->time, time), .place = place, .speed2 = twice_speed2 / 2U};
 }
 
 /* Rounding down twice is rounding down once. */
 uint32_t path_course_last_pulse(const struct path_course *course, struct wide place, uint32_t steps)
 {
+    if (path_wide_is_equal(place, course->whole)) {
+        return steps;
+    }
     uint64_t rest = 0;
-    uint64_t way = wide_divide(path_wide_times(place, steps), course->grains_per_step, &rest);
-    return (uint32_t)(way / course->length);
+    const struct path_divisor grains = path_divisor_of(course->grains_per_step);
+    uint64_t way = path_divide(path_wide_times(place, steps), &grains, &rest);
+    return (uint32_t)path_divide((struct wide){.low = way}, &course->per_length, &rest);
 }
 
 /* The place of a pulse, steps of the longest axis: 64.64. */
 static struct wide place_of(const struct path_course *course, uint32_t steps, uint32_t pulse)
 {
+    if (steps == course->length) {
+        return (struct wide){.high = pulse};
+    }
     return path_fixed_divide((struct wide){.low = (uint64_t)pulse * course->length}, steps);
 }
 
@@ -191,31 +239,33 @@ static uint64_t slope256_of(struct wide slope)
 static struct path_pulse cruise_pulse(const struct path_course *course, const struct path_leg *leg, uint32_t steps,
                                       uint32_t pulse)
 {
-    struct wide begin = path_fixed_divide(leg->place, course->grains_per_step);
-    struct wide way = wide_subtract(place_of(course, steps, pulse), begin);
-    struct wide time = wide_add(leg->time, path_fixed_multiply(way, leg->pace));
+    struct wide time = cruise_time(leg, place_of(course, steps, pulse));
     return (struct path_pulse){
         .ticks = time.high, .fraction = (uint32_t)(time.low >> 32U), .slope256 = slope256_of(leg->slope)};
 }
 
 /* twice_speed2 at a pulse of a ramp, 64.64: the whole and the part are exact. Its place is pulse*L/steps, so all of it
- * is whole when it is multiplied by steps; the differences wrap, the sum is right. */
+ * is whole when it is multiplied by steps, or where the axis makes all steps; differences wrap, the sum is right. */
 static struct wide twice_speed2_at(const struct path_course *course, const struct path_leg *leg, uint32_t steps,
                                    uint32_t pulse)
 {
-    struct wide place = wide_multiply((uint64_t)pulse * course->length, course->grains_per_step);
-    struct wide change = wide_subtract(place, path_wide_times(leg->place, steps));
-    struct wide begin = wide_multiply(leg->twice_speed2, steps);
-    return path_fixed_divide(leg->accel > 0 ? wide_add(begin, change) : wide_subtract(begin, change), steps);
+    if (steps == course->length) {
+        uint64_t way = path_wide_subtract(path_wide_multiply(pulse, course->grains_per_step), leg->place).low;
+        return (struct wide){.high = leg->accel > 0 ? leg->twice_speed2 + way : leg->twice_speed2 - way};
+    }
+    struct wide place = path_wide_multiply((uint64_t)pulse * course->length, course->grains_per_step);
+    struct wide change = path_wide_subtract(place, path_wide_times(leg->place, steps));
+    struct wide begin = path_wide_multiply(leg->twice_speed2, steps);
+    return path_fixed_divide(leg->accel > 0 ? path_wide_add(begin, change) : path_wide_subtract(begin, change), steps);
 }
 
 /* 256 times the root of PATH_SLOPE2_PER_TWICE_SPEED2 * twice_speed2: below 2^122. */
 static uint64_t root256(struct wide twice_speed2)
 {
-    struct wide fine = wide_multiply(PATH_SLOPE2_PER_TWICE_SPEED2, twice_speed2.low);
-    struct wide whole = wide_shift_left(wide_multiply(PATH_SLOPE2_PER_TWICE_SPEED2, twice_speed2.high), 16U);
+    struct wide fine = path_wide_multiply(PATH_SLOPE2_PER_TWICE_SPEED2, twice_speed2.low);
+    struct wide whole = path_wide_shift(path_wide_multiply(PATH_SLOPE2_PER_TWICE_SPEED2, twice_speed2.high), 16U);
     struct wide part = {.high = fine.high >> 48U, .low = (fine.high << 16U) | (fine.low >> 48U)};
-    return wide_root_nearest(wide_add(whole, part));
+    return path_root(path_wide_add(whole, part));
 }
 
 static struct path_pulse ramp_pulse(const struct path_course *course, const struct path_leg *leg, uint32_t steps,
@@ -224,8 +274,8 @@ static struct path_pulse ramp_pulse(const struct path_course *course, const stru
     uint64_t slope256 = root256(twice_speed2_at(course, leg, steps, pulse));
     uint64_t begin256 = slope256_of(leg->slope);
     uint64_t change = leg->accel > 0 ? slope256 - begin256 : begin256 - slope256;
-    struct wide way = path_fixed_part((struct wide){.high = change}, UINT64_C(512) * size_of(leg->accel));
-    struct wide time = wide_add(leg->time, change <= INT64_MAX ? way : (struct wide){0});
+    struct wide way = path_divide_wide((struct wide){.high = change >> 8U, .low = change << 56U}, &course->per_accel);
+    struct wide time = path_wide_add(leg->time, change <= INT64_MAX ? way : (struct wide){0});
     return (struct path_pulse){.ticks = time.high, .fraction = (uint32_t)(time.low >> 32U), .slope256 = slope256};
 }
 

@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "base_wide.h"
+#include "path_divide.h"
 #include "path_vector.h"
 
 enum {
@@ -29,7 +30,8 @@ struct path_leg {
     struct wide place;     /* grains */
     struct wide end;       /* grains */
     struct wide slope;     /* quanta a tick, 64.64 */
-    struct wide pace;      /* of a cruise: ticks a step, 64.64 */
+    struct wide begin;     /* of a cruise: its place in steps, 64.64, */
+    struct wide pace;      /* and ticks a step, 64.64 */
     uint64_t twice_speed2; /* at its beginning */
     int32_t accel;         /* that of the vector; negative when braking, 0: cruise */
 };
@@ -40,10 +42,26 @@ struct path_course {
 
     /* Of the vector, for all that is computed on its legs. */
     uint64_t grains_per_step;
+    struct wide whole; /* the end of the vector, grains */
+    struct path_divisor per_length;
+    struct path_divisor per_accel; /* by twice the acceleration, where there is a ramp */
     uint32_t length;
 
     struct wide end;      /* grains: the end of the vector, or where the path comes to rest in it */
     struct wide end_time; /* ticks, 64.64 */
+};
+
+/* A speed whose root has been drawn. All 0: that of a stand. */
+struct path_speed {
+    uint64_t twice_speed2;
+    struct wide slope; /* quanta a tick, 64.64 */
+    struct wide pace;  /* ticks a step, 64.64; 0: not known yet */
+};
+
+/* The speeds that were needed last: a vector is entered with the speed with which the one before was left. */
+struct path_speeds {
+    struct path_speed known[2];
+    unsigned last; /* the younger one */
 };
 
 /* A pulse of an axis: its exact time, and how fast the path goes there. */
@@ -61,9 +79,10 @@ struct path_goal {
     bool rests;           /* it brakes to exit_speed2 and rests there; at once where it is no faster */
 };
 
-/* Lays the legs of a vector from its entry to its end, or to its rest. */
+/* Lays the legs of a vector from its entry to its end, or to its rest. `speeds` saves drawing roots again, and changes
+ * nothing else. */
 void path_course_lay(struct path_course *course, const struct path_section *section, const struct path_entry *entry,
-                     const struct path_goal *goal);
+                     const struct path_goal *goal, struct path_speeds *speeds);
 
 /* The last pulse of an axis with so many steps that is due up to a place, in grains. */
 uint32_t path_course_last_pulse(const struct path_course *course, struct wide place, uint32_t steps);
@@ -76,7 +95,6 @@ struct path_pulse path_course_pulse(const struct path_course *course, const stru
 struct path_entry path_course_at(const struct path_course *course, const struct path_leg *leg, struct wide place);
 
 /* The same at a place of a cruise, in grains of which `grains_per_step` are a step. */
-struct path_entry path_course_cruise_at(const struct path_course *course, const struct path_leg *leg, struct wide place,
-                                        uint64_t grains_per_step);
+struct path_entry path_course_cruise_at(const struct path_leg *leg, struct wide place, uint64_t grains_per_step);
 
 #endif

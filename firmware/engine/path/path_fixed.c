@@ -2,51 +2,34 @@
 
 #include <assert.h>
 
+#include "path_divide.h"
+#include "path_root.h"
 #include "path_vector.h"
 #include "step_scale.h"
 
 enum {
     WORD_BITS = 64,
-    ROOT_BITS = 124 /* wide_root_nearest takes squares below 2^124 */
+    ROOT_BITS = 124 /* path_root takes squares below 2^124 */
 };
-
-struct wide path_wide_times(struct wide value, uint64_t factor)
-{
-    struct wide product = wide_multiply(value.low, factor);
-    product.high += value.high * factor;
-    return product;
-}
 
 struct wide path_fixed_divide(struct wide dividend, uint64_t divisor)
 {
-    uint64_t rest = 0;
-    uint64_t whole = wide_divide(dividend, divisor, &rest);
-    uint64_t fraction = wide_divide((struct wide){.high = rest}, divisor, &rest);
-    return (struct wide){.high = whole, .low = fraction};
-}
-
-struct wide path_fixed_part(struct wide value, uint64_t divisor)
-{
-    uint64_t rest = 0;
-    struct wide left = {.high = value.high % divisor, .low = value.low};
-    return (struct wide){.high = value.high / divisor, .low = wide_divide(left, divisor, &rest)};
+    const struct path_divisor ready = path_divisor_of(divisor);
+    return path_divide_fixed(dividend, &ready);
 }
 
 struct wide path_fixed_multiply(struct wide a, struct wide b)
 {
-    struct wide whole = wide_multiply(a.high, b.high);
+    struct wide whole = path_wide_multiply(a.high, b.high);
     if (whole.high != 0 || whole.low > PATH_FIXED_NEVER) {
         return (struct wide){.high = PATH_FIXED_NEVER};
     }
-    struct wide product = {.high = whole.low, .low = wide_multiply(a.low, b.low).high};
-    product = wide_add(product, wide_multiply(a.high, b.low));
-    return wide_add(product, wide_multiply(a.low, b.high));
-}
-
-static unsigned bits_of(uint64_t value)
-{
-    uint32_t high = (uint32_t)(value >> 32U);
-    return high != 0 ? 32U + wide_bits(high) : wide_bits((uint32_t)value);
+    struct wide product = path_wide_add((struct wide){.high = whole.low}, path_wide_multiply(a.high, b.low));
+    if (a.low == 0) {
+        return product;
+    }
+    product = path_wide_add(product, (struct wide){.low = path_wide_multiply(a.low, b.low).high});
+    return path_wide_add(product, path_wide_multiply(a.low, b.high));
 }
 
 /* By 1 to 63 bits. */
@@ -63,12 +46,14 @@ static struct wide shift_right(struct wide value, unsigned bits)
 static struct wide fine_root(struct wide square)
 {
     uint64_t unused = 0;
-    uint64_t root = wide_root_nearest(square);
+    uint64_t root = path_root(square);
+    const struct path_divisor ready = path_divisor_of(root);
     int64_t rest = wide_to_signed(square.low - root * root);
     uint64_t size = rest < 0 ? (uint64_t)-rest : (uint64_t)rest;
-    struct wide fraction = {.low = wide_divide((struct wide){size >> 1U, size << (WORD_BITS - 1U)}, root, &unused)};
+    struct wide half = {.high = size >> 1U, .low = size << (WORD_BITS - 1U)};
+    struct wide fraction = {.low = path_divide(half, &ready, &unused)};
     struct wide whole = {.high = root};
-    return rest < 0 ? wide_subtract(whole, fraction) : wide_add(whole, fraction);
+    return rest < 0 ? path_wide_subtract(whole, fraction) : path_wide_add(whole, fraction);
 }
 
 /* The slope of a speed v is 2*128*f*v, and speeds count in 1/256 steps/s: the square of the slope is f^2 * speed2. */
@@ -80,15 +65,15 @@ struct wide path_fixed_slope(uint64_t twice_speed2)
     if (twice_speed2 == 0) {
         return (struct wide){0};
     }
-    struct wide square = wide_multiply(PATH_SLOPE2_PER_TWICE_SPEED2, twice_speed2);
-    unsigned bits = square.high != 0 ? WORD_BITS + bits_of(square.high) : bits_of(square.low);
+    struct wide square = path_wide_multiply(PATH_SLOPE2_PER_TWICE_SPEED2, twice_speed2);
+    unsigned bits = square.high != 0 ? WORD_BITS + path_wide_bits(square.high) : path_wide_bits(square.low);
     unsigned shift = (ROOT_BITS - bits) / 2U;
-    return shift_right(fine_root(wide_shift_left(wide_shift_left(square, shift), shift)), shift);
+    return shift_right(fine_root(path_wide_shift(path_wide_shift(square, shift), shift)), shift);
 }
 
 struct wide path_fixed_pace(struct wide slope)
 {
-    unsigned shift = WORD_BITS - 1U - bits_of(slope.high);
-    uint64_t divisor = wide_shift_left(slope, shift).high;
-    return path_fixed_divide(wide_shift_left((struct wide){.low = STEP_QUANTA}, shift), divisor);
+    unsigned shift = WORD_BITS - 1U - path_wide_bits(slope.high);
+    uint64_t divisor = path_wide_shift(slope, shift).high;
+    return path_fixed_divide(path_wide_shift((struct wide){.low = STEP_QUANTA}, shift), divisor);
 }

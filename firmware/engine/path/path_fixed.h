@@ -10,18 +10,13 @@
 #include <stdint.h>
 
 #include "base_wide.h"
+#include "path_wide.h"
 
 /* Ticks that stand for "never": 1700 years. */
 #define PATH_FIXED_NEVER (UINT64_C(1) << 62)
 
-/* A whole number times a whole one, modulo 2^128. */
-struct wide path_wide_times(struct wide value, uint64_t factor);
-
 /* A whole number divided, rounded down. The divisor is 1 to 2^63, the quotient below 2^64. */
 struct wide path_fixed_divide(struct wide dividend, uint64_t divisor);
-
-/* A fixed-point number divided, rounded down. The divisor is 1 to 2^63. */
-struct wide path_fixed_part(struct wide value, uint64_t divisor);
 
 /* A product of two fixed-point numbers, at most 3 * 2^-64 too low; PATH_FIXED_NEVER if its whole parts make more. One
  * of them is below 2^62. */

@@ -9,20 +9,27 @@ uint64_t path_lay_grains(const struct path *path, const struct path_place *place
     return place->accel != 0 ? PATH_GRAINS_PER_ACCEL * place->accel : own;
 }
 
-uint32_t path_lay_pulses(const struct path *path, const struct path_place *place, unsigned axis)
+void path_lay_pulses(const struct path *path, const struct path_place *place, uint32_t pulses[PATH_AXES])
 {
     uint64_t rest = 0;
     const struct path_section *section = path_section_of(path, place->section);
-    struct wide way = path_wide_times(place->entry.place, path_section_steps(section, axis));
-    return (uint32_t)(wide_divide(way, path_lay_grains(path, place), &rest) / section->length);
+    const struct path_divisor grains = path_divisor_of(path_lay_grains(path, place));
+    const struct path_divisor length = path_divisor_of(section->length);
+    for (unsigned axis = 0; axis < PATH_AXES; axis++) {
+        struct wide way = path_wide_times(place->entry.place, path_section_steps(section, axis));
+        struct wide longest = {.low = path_divide(way, &grains, &rest)};
+        pulses[axis] = (uint32_t)path_divide(longest, &length, &rest);
+    }
 }
 
 void path_lay_begin(struct path *path, const struct path_place *place)
 {
+    uint32_t pulses[PATH_AXES];
+    path_lay_pulses(path, place, pulses);
     for (unsigned axis = 0; axis < PATH_AXES; axis++) {
         path->axis[axis] = (struct path_cursor){
             .section = place->section,
-            .pulse = path_lay_pulses(path, place, axis) + 1U,
+            .pulse = pulses[axis] + 1U,
             .fresh = true,
             .section_begins = true,
         };
@@ -42,32 +49,31 @@ static bool rests_in(const struct path *path, const struct path_section *section
     return path->stopping && section->exit2 == 0;
 }
 
-const struct path_course *path_lay_course(struct path *path, uint32_t count)
+const struct path_course *path_lay_anew(struct path *path, uint32_t count)
 {
     struct path_kept *kept = &path->kept[count % PATH_KEPT];
-    if (!kept->valid || kept->section != count) {
-        const struct path_section *section = path_section_of(path, count);
-        struct path_entry entry = {.time = section->entered, .speed2 = section->enter2};
-        if (count == path->origin.section) {
-            entry.place = path->origin.entry.place;
-        }
-        const struct path_goal goal = {
-            .exit_speed2 = section->leave2,
-            .speed = path->stopping ? 0 : section->vector.speed,
-            .start_speed = path_look_jumps(path, count) ? path->start_speed : 0,
-            .rests = rests_in(path, section),
-        };
-        kept->section = count;
-        kept->valid = true;
-        path_course_lay(&kept->course, section, &entry, &goal);
+    const struct path_section *section = path_section_of(path, count);
+    struct path_entry entry = {.time = section->entered, .speed2 = section->enter2};
+    if (count == path->origin.section) {
+        entry.place = path->origin.entry.place;
     }
+    const struct path_goal goal = {
+        .exit_speed2 = section->leave2,
+        .speed = path->stopping ? 0 : section->vector.speed,
+        .start_speed = path_look_jumps(path, count) ? path->start_speed : 0,
+        .rests = rests_in(path, section),
+    };
+    kept->section = count;
+    kept->valid = true;
+    path_course_lay(&kept->course, section, &entry, &goal, &path->speeds);
     return &kept->course;
 }
 
 static void come_to_rest(struct path *path, uint32_t section, const struct path_course *course)
 {
-    bool inside = !wide_is_at_least(course->end, path_section_end(path_section_of(path, section)));
+    bool inside = !path_wide_is_at_least(course->end, path_section_end(path_section_of(path, section)));
     path->known = path->laid;
+    path->looked = path->known;
     path->rest = (struct path_place){
         .section = inside ? section : section + 1U,
         .entry = {.time = course->end_time, .place = inside ? course->end : (struct wide){0}},
@@ -86,21 +92,24 @@ void path_lay_next(struct path *path)
 {
     uint32_t count = path->laid;
     struct path_section *section = path_section_of(path, count);
+    path_look_if_due(path);
+    if (count != path->origin.section) {
+        section->exit2 = path_look_exit2(path, section, path->border2);
+    }
     section->entered = path->next.time;
     section->enter2 = path->next.speed2;
     section->leave2 = leave2_of(path, section);
     path->too_fast = false;
-    const struct path_course *course = path_lay_course(path, count);
+    const struct path_course *course = path_lay_anew(path, count);
     path->laid++;
     if (path_is_laid(path) || rests_in(path, section)) {
         come_to_rest(path, count, course);
         return;
     }
     const struct path_section *after = path_section_of(path, path->laid);
-    path->held_back = section->exit2 == path_look_brakeable(path, path->laid);
-    path->next = (struct path_entry){
-        .time = course->end_time,
-        .speed2 = path_section_from_border2(after, section->exit2),
-    };
+    path->held_back = section->exit2 == path_look_brakeable(path, path->laid, section->exit2);
+    path->next.time = course->end_time;
+    path->next.place = (struct wide){0};
+    path->next.speed2 = path_section_from_border2(after, section->exit2);
     path->border2 = section->exit2;
 }

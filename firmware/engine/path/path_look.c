@@ -12,18 +12,10 @@ static uint64_t higher(uint64_t a, uint64_t b)
     return a > b ? a : b;
 }
 
-uint64_t path_look_brakeable(const struct path *path, uint32_t section)
-{
-    const struct path_section *before = path_section_of(path, section - 1U);
-    const struct path_section *after = path_section_of(path, section);
-    uint64_t cap = lower(lower(before->speed2, after->speed2), after->border2);
-    return lower(cap, after->exit2 + after->gain2);
-}
-
 uint64_t path_look_gain(const struct path *path)
 {
     const struct path_section *section = path_section_of(path, path->laid);
-    struct wide grains = wide_subtract(path_section_end(section), path->next.place);
+    struct wide grains = path_wide_subtract(path_section_end(section), path->next.place);
     return grains.high != 0 ? PATH_SPEED2_ENDLESS : lower(grains.low / 2U, PATH_SPEED2_ENDLESS);
 }
 
@@ -32,39 +24,43 @@ static uint64_t end2_of(const struct path *path)
 {
     const struct path_section *last = path_section_of(path, path->known - 1U);
     uint64_t start2 = path_section_to_border2(last, path_look_start2(path));
-    return path->stopping ? 0 : lower(last->speed2, start2);
+    return lower(last->speed2, start2);
 }
 
-/* With which a section after that of the origin is entered, in terms of borders. */
-static uint64_t enter2_at_border(const struct path *path, uint32_t count)
-{
-    return count == path->laid ? path->border2 : path_section_of(path, count - 1U)->exit2;
-}
-
-/* Whether an end that is braked to from `exit2` leaves the plan of a section and of all before it as it is: its speed
- * at the end is not raised, or all the way to it the path is still getting faster. */
-static bool is_final(const struct path *path, uint32_t count, uint64_t exit2)
-{
-    const struct path_section *section = path_section_of(path, count);
-    if (section->exit2 == exit2) {
-        return true;
-    }
-    return count != path->origin.section && section->gain2 > 0 &&
-           section->exit2 == enter2_at_border(path, count) + section->gain2;
-}
-
-/* Backward: from no border may the next one be out of reach of the brake. A path that stops wants no speed at any.
- * Returns the first section whose end has been set. */
-static uint32_t look_backward(const struct path *path, bool again)
+/* Backward, down to section `until`: from no border may the next one be out of reach of the brake. */
+static void look_backward(const struct path *path, uint32_t until)
 {
     uint32_t count = path->known - 1U;
-    path_section_of(path, count)->exit2 = end2_of(path);
+    struct path_section *after = path_section_of(path, count);
+    uint64_t exit2 = end2_of(path);
+    uint64_t speed2 = after->speed2;
+    after->exit2 = exit2;
+    while (count != until) {
+        count--;
+        struct path_section *before = path_section_of(path, count);
+        uint64_t cap2 = lower(speed2, after->border2);
+        speed2 = before->speed2;
+        cap2 = lower(cap2, speed2);
+        exit2 = lower(cap2, exit2 + after->gain2);
+        after->cap2 = cap2;
+        before->exit2 = exit2;
+        after = before;
+    }
+}
+
+/* The same through what look-ahead knows, until a speed is not raised. Returns the first section whose end has been
+ * set. */
+static uint32_t look_backward_again(const struct path *path, uint32_t from)
+{
+    uint32_t count = from;
     for (; count != path->laid; count--) {
-        uint64_t exit2 = path->stopping ? 0 : path_look_brakeable(path, count);
-        if (again && is_final(path, count - 1U, exit2)) {
+        const struct path_section *after = path_section_of(path, count);
+        struct path_section *before = path_section_of(path, count - 1U);
+        uint64_t exit2 = lower(after->cap2, after->exit2 + after->gain2);
+        if (before->exit2 == exit2) {
             break;
         }
-        path_section_of(path, count - 1U)->exit2 = exit2;
+        before->exit2 = exit2;
     }
     return count;
 }
@@ -76,7 +72,7 @@ static uint64_t jump2_of(const struct path *path)
     const struct path_section *section = path_section_of(path, path->laid);
     struct wide way = path_wide_times(path->next.place, section->turning);
     uint64_t start2 = path_look_start2(path);
-    if (section->turning == 0 || wide_is_at_least(way, path_section_end(section))) {
+    if (section->turning == 0 || path_wide_is_at_least(way, path_section_end(section))) {
         return start2;
     }
     return lower(start2, path_section_from_border2(section, section->border2));
@@ -129,40 +125,77 @@ static void look_out(struct path *path)
 /* The least speed at the end of a section that is entered with enter2; a stop rests in it if it can. */
 static uint64_t least_of(const struct path *path, const struct path_section *section, uint64_t enter2)
 {
+    if (enter2 <= section->gain2) {
+        return 0;
+    }
     uint64_t rest2 = path->stopping ? path_section_to_border2(section, path_look_start2(path)) : 0;
     return enter2 > section->gain2 + rest2 ? enter2 - section->gain2 : 0;
 }
 
-/* Forward: to no border faster than the ramp can get, nor slower than the brake can: it is too fast only where it was
- * planned so before a speed was lowered, and then brakes through as many sections as that takes. */
-static void look_forward(const struct path *path, uint32_t first)
+uint64_t path_look_exit2(const struct path *path, const struct path_section *section, uint64_t enter2)
 {
-    for (uint32_t i = first; i != path->known; i++) {
-        struct path_section *section = path_section_of(path, i);
-        uint64_t enter2 = enter2_at_border(path, i);
-        uint64_t least = least_of(path, section, enter2);
-        uint64_t most = lower(section->exit2, enter2 + section->gain2);
-        section->exit2 = most < least ? least : most;
-    }
+    uint64_t least = least_of(path, section, enter2);
+    uint64_t most = lower(path->stopping ? 0 : section->exit2, enter2 + section->gain2);
+    return most < least ? least : most;
 }
 
-static uint32_t look(struct path *path, bool again)
+uint64_t path_look_brakeable(const struct path *path, uint32_t section, uint64_t enter2)
 {
-    uint32_t first = look_backward(path, again);
-    bool begins = first == path->origin.section;
-    if (begins) {
-        look_out(path);
-    }
-    look_forward(path, begins ? first + 1U : first);
-    return first;
+    const struct path_section *after = path_section_of(path, section);
+    return lower(after->cap2, path_look_exit2(path, after, enter2) + after->gain2);
 }
 
 void path_look(struct path *path)
 {
-    (void)look(path, false);
+    if (path->stopping) {
+        path_section_of(path, path->laid)->exit2 = 0;
+    } else {
+        look_backward(path, path->laid);
+    }
+    path->looked = path->known;
+    if (path->laid == path->origin.section) {
+        look_out(path);
+    }
 }
 
 uint32_t path_look_again(struct path *path)
 {
-    return look(path, true);
+    uint32_t last = path->looked - 1U;
+    if (path->looked != path->known) {
+        look_backward(path, last);
+        path->looked = path->known;
+    }
+    uint32_t first = look_backward_again(path, last);
+    if (first == path->origin.section) {
+        look_out(path);
+    }
+    return first;
+}
+
+/* Whether the plan of the section path->laid is the same whatever is added: at its end it is as fast as the border
+ * allows, or as it can get. */
+static bool is_settled(const struct path *path)
+{
+    uint32_t next = path->laid + 1U;
+    if (next == path->looked) {
+        return false;
+    }
+    const struct path_section *section = path_section_of(path, path->laid);
+    bool speeds_up = path->laid != path->origin.section && path->border2 + section->gain2 < section->exit2;
+    return speeds_up || section->exit2 == path_section_of(path, next)->cap2;
+}
+
+void path_look_if_due(struct path *path)
+{
+    if (path->looked != path->known && !is_settled(path)) {
+        (void)path_look_again(path);
+    }
+}
+
+bool path_look_is_more(struct path *path, uint64_t enter2)
+{
+    if (path->looked != path->known && path_section_of(path, path->laid)->cap2 > enter2) {
+        (void)path_look_again(path);
+    }
+    return path_look_brakeable(path, path->laid, enter2) > enter2;
 }

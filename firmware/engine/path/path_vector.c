@@ -1,8 +1,6 @@
 #include "path_vector.h"
 
-#include <stdbool.h>
-
-#include "path_fixed.h"
+#include "path_divide.h"
 
 static const uint32_t US_PER_S = 1000000;
 
@@ -16,30 +14,23 @@ static uint64_t square(uint32_t value)
     return (uint64_t)value * value;
 }
 
-/* dividend / divisor rounded down, 2^60 if it is more; the dividend is below 2^126. A divisor of more than 63 bits is
- * halved like the dividend: that quotient is too high by one at most, as it is small. */
+/* dividend / divisor rounded down, 2^60 if it is more. */
 static uint64_t divide(struct wide dividend, uint64_t divisor)
 {
     uint64_t rest = 0;
-    if (divisor <= UINT64_C(1) << 63) {
-        return lower(wide_divide(dividend, divisor, &rest), PATH_SPEED2_ENDLESS);
+    if (dividend.high >= divisor) {
+        return PATH_SPEED2_ENDLESS;
     }
-    struct wide half = {.high = dividend.high >> 1U, .low = (dividend.low >> 1U) | (dividend.high << 63U)};
-    uint64_t quotient = wide_divide(half, divisor >> 1U, &rest);
-    return wide_is_at_least(dividend, wide_multiply(quotient, divisor)) ? quotient : quotient - 1U;
-}
-
-static bool is_plain(const struct path_section *section)
-{
-    return section->vector.extent2 == square(section->length);
+    const struct path_divisor ready = path_divisor_of(divisor);
+    return lower(path_divide(dividend, &ready, &rest), PATH_SPEED2_ENDLESS);
 }
 
 uint64_t path_section_to_border2(const struct path_section *section, uint64_t speed2)
 {
-    if (is_plain(section)) {
+    if (section->plain) {
         return speed2;
     }
-    return divide(wide_multiply(speed2, section->vector.extent2), square(section->length));
+    return divide(path_wide_multiply(speed2, section->vector.extent2), square(section->length));
 }
 
 uint64_t path_section_to_border2_up(const struct path_section *section, uint64_t speed2)
@@ -50,10 +41,10 @@ uint64_t path_section_to_border2_up(const struct path_section *section, uint64_t
 
 uint64_t path_section_from_border2(const struct path_section *section, uint64_t border2)
 {
-    if (is_plain(section)) {
+    if (section->plain) {
         return border2;
     }
-    return divide(wide_multiply(border2, square(section->length)), section->vector.extent2);
+    return divide(path_wide_multiply(border2, square(section->length)), section->vector.extent2);
 }
 
 static uint32_t longest(const struct path_section *section)
@@ -69,21 +60,20 @@ static uint32_t longest(const struct path_section *section)
 /* G*L / (L/E)^2 = G*E^2 / L. */
 static uint64_t gain_of(const struct path_section *section)
 {
-    return divide(wide_multiply(path_section_gain_per_step(section), section->vector.extent2), section->length);
+    if (section->plain) {
+        struct wide gain = path_wide_multiply(path_section_gain_per_step(section), section->length);
+        return gain.high != 0 ? PATH_SPEED2_ENDLESS : lower(gain.low, PATH_SPEED2_ENDLESS);
+    }
+    return divide(path_wide_multiply(path_section_gain_per_step(section), section->vector.extent2), section->length);
 }
 
 void path_section_take(struct path_section *section, const struct path_vector *vector)
 {
     *section = (struct path_section){.vector = *vector, .border2 = square(vector->border_speed)};
     section->length = longest(section);
+    section->plain = vector->extent2 == square(section->length);
     section->gain2 = gain_of(section);
     path_section_set_speed(section, vector->speed);
-}
-
-void path_section_set_speed(struct path_section *section, uint32_t speed)
-{
-    section->vector.speed = speed;
-    section->speed2 = path_section_to_border2(section, square(speed));
 }
 
 void path_section_set_accel(struct path_section *section, uint32_t accel)

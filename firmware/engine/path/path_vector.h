@@ -16,9 +16,11 @@
 #define PATH_VECTOR_H
 
 #include <assert.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "base_wide.h"
+#include "path_wide.h"
 #include "../step/step_scale.h"
 
 #define PATH_SPEED_UNITS 256U /* a step/s */
@@ -61,11 +63,13 @@ struct path_vector {
 struct path_section {
     struct path_vector vector;
     uint32_t length;     /* L, steps */
+    bool plain;          /* E = L: speeds at borders are the vector's own */
     uint32_t turning;    /* the fewest steps of an axis that turns at its beginning; 0: none, or the path stood in it */
     uint64_t gain2;      /* what the square of the speed can gain in the vector, in terms of border speeds */
     uint64_t speed2;     /* the vector's own speed in these terms */
     uint64_t border2;    /* the most at its beginning, in these terms */
-    uint64_t exit2;      /* the plan: at its end, in these terms */
+    uint64_t cap2;       /* the same, and no more than the vectors on both sides allow; set where the plan is made */
+    uint64_t exit2;      /* the plan: at its end, in these terms; until it is laid what can be braked from */
     uint64_t enter2;     /* from here, set as soon as it is laid: speed2 with which it is entered, */
     uint64_t leave2;     /* with which it is left, */
     struct wide entered; /* and when it is entered: ticks, 64.64 */
@@ -73,9 +77,6 @@ struct path_section {
 
 /* Reads a vector into a section; its own numbers, that is length, gain2, speed2. border2 is border_speed alone. */
 void path_section_take(struct path_section *section, const struct path_vector *vector);
-
-/* Another speed for the vector. */
-void path_section_set_speed(struct path_section *section, uint32_t speed);
 
 /* Another acceleration. border2 is as it was. */
 void path_section_set_accel(struct path_section *section, uint32_t accel);
@@ -88,6 +89,14 @@ void path_section_mind_turns(struct path_section *section, const struct path_sec
 uint64_t path_section_to_border2(const struct path_section *section, uint64_t speed2);
 uint64_t path_section_to_border2_up(const struct path_section *section, uint64_t speed2);
 uint64_t path_section_from_border2(const struct path_section *section, uint64_t border2);
+
+/* Another speed for the vector. */
+static inline void path_section_set_speed(struct path_section *section, uint32_t speed)
+{
+    uint64_t speed2 = (uint64_t)speed * speed;
+    section->vector.speed = speed;
+    section->speed2 = section->plain ? speed2 : path_section_to_border2(section, speed2);
+}
 
 /* 1/(1024*acceleration) step: as many make a step. The square of the speed changes by one on the way. */
 static inline uint64_t path_section_gain_per_step(const struct path_section *section)
@@ -103,7 +112,7 @@ static inline uint64_t path_section_grains_per_step(const struct path_section *s
 /* The end of the vector, grains. */
 static inline struct wide path_section_end(const struct path_section *section)
 {
-    return wide_multiply(path_section_grains_per_step(section), section->length);
+    return path_wide_multiply(path_section_grains_per_step(section), section->length);
 }
 
 /* Steps of an axis, as a magnitude. */

@@ -104,12 +104,24 @@ void step_channel_append(struct step_channel *channel, const struct step_segment
     atomic_store_explicit(&channel->head, head + 1U, memory_order_release);
 }
 
+/* Whether a motor that runs has laid all that was pushed: the backend may have heard that there is no more. */
+static bool channel_is_dry(const struct step_channel *channel)
+{
+    bool all =
+        channel->cursor.left == 0 && channel->cursor.tail == atomic_load_explicit(&channel->head, memory_order_relaxed);
+    return all && atomic_load_explicit(&channel->running, memory_order_relaxed);
+}
+
 bool step_channel_push(struct step_channel *channel, const struct step_segment *segment)
 {
     hal_step_hold();
     bool open = !channel->closed;
     if (open) {
+        bool dry = channel_is_dry(channel);
         step_channel_append(channel, segment);
+        if (dry) {
+            hal_step_run(channel->motor);
+        }
     }
     hal_step_release();
     return open;
@@ -223,7 +235,7 @@ static inline void channel_keep(struct step_channel *channel, struct hal_step_ro
     }
     if (young->tail != atomic_load_explicit(&channel->taken, memory_order_relaxed)) {
         atomic_store_explicit(&channel->taken, young->tail, memory_order_release);
-        room->main_has_work = true;
+        room->main_has_work = step_channel_room(channel) >= channel->wake_room;
     }
     channel->young ^= 1U;
     channel->kept[channel->young] = channel->cursor;

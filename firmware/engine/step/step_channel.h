@@ -46,6 +46,7 @@ struct step_channel {
     uint8_t young;          /* which of `kept` is the younger one */
     int8_t direction;       /* +1 or -1: of the pulse laid last */
     uint8_t motor;          /* 0 to 3 */
+    uint8_t wake_room;      /* free slots with which main is woken */
     uint32_t backward;      /* of each place of the queue a bit: its segment goes backward */
     uint32_t recalled;      /* while frozen: pulses taken back that the cursor has passed */
     uint64_t until;         /* while frozen: ordinal of the last pulse that may be laid */
@@ -62,6 +63,13 @@ void step_channel_begin(struct step_channel *channel, uint32_t tick, bool backwa
 
 /* The way of what is pushed from now on. DIR changes between the pulses; they must be so far apart (hal_step.h). */
 void step_channel_turn(struct step_channel *channel, bool backward);
+
+/* A queue that gets shorter wakes main with so many free slots, and not before; at first with any. Not while running.
+ */
+static inline void step_channel_wake_with(struct step_channel *channel, uint8_t room)
+{
+    channel->wake_room = room;
+}
 
 /* Free slots in the queue. */
 uint32_t step_channel_room(const struct step_channel *channel);
@@ -134,7 +142,7 @@ uint32_t step_channel_end_tick(const struct step_channel *channel);
 bool step_channel_take_mark(struct step_channel *channel);
 
 /* Lays what is due next: what lay_isr of hal_run.h is for one motor. Wakes main where the move has ended, a marked
- * segment has begun, or the queue has got shorter. */
+ * segment has begun, or the queue has got shorter and has room enough. */
 unsigned step_channel_lay_isr(struct step_channel *channel, struct hal_step_room *room);
 
 #endif

@@ -43,6 +43,25 @@ static inline bool rig_add(struct path_rig *rig, int32_t x, int32_t y, uint32_t 
     return path_add(&rig->path, &vector);
 }
 
+/* Plans anew from a place, or stops there; false if that is too early. */
+static inline bool rig_change(struct path_rig *rig, const struct path_place *place, uint64_t back[PATH_AXES])
+{
+    bool done = path_back(&rig->path, place, back);
+    if (done) {
+        path_change(&rig->path, place);
+    }
+    return done;
+}
+
+static inline bool rig_stop(struct path_rig *rig, const struct path_place *place, uint64_t back[PATH_AXES])
+{
+    bool done = path_back(&rig->path, place, back);
+    if (done) {
+        path_stop(&rig->path, place);
+    }
+    return done;
+}
+
 /* The ticks of the pulses of an axis that are handed over until a tick, from the one before on; returns how many. The
  * first `most` are kept. */
 static inline unsigned rig_pulses(struct path_rig *rig, unsigned axis, uint64_t until_tick, uint64_t *ticks,

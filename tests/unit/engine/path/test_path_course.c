@@ -7,6 +7,7 @@
 static const uint32_t SPEED = 10000 * PATH_SPEED_UNITS;
 static struct path_section section;
 static struct path_course course;
+static struct path_speeds speeds;
 
 static uint64_t speed2_of(uint32_t steps_per_s)
 {
@@ -18,7 +19,7 @@ static void lay(uint32_t enter, uint32_t speed, uint32_t leave)
 {
     struct path_entry entry = {.time = {.high = 5000}, .speed2 = speed2_of(enter)};
     const struct path_goal goal = {.exit_speed2 = speed2_of(leave), .speed = speed, .rests = speed == 0};
-    path_course_lay(&course, &section, &entry, &goal);
+    path_course_lay(&course, &section, &entry, &goal, &speeds);
 }
 
 static void assert_leg(unsigned leg, int sign, uint32_t begin, uint32_t end, uint64_t tick)
@@ -154,6 +155,6 @@ void test_a_vector_that_lasts_longer_than_time_never_ends(void)
     struct path_vector vector = rig_vector(INT32_MAX, 1, 1, 1);
     struct path_entry entry = {.time = {.high = PATH_FIXED_NEVER}, .speed2 = 1};
     path_section_take(&section, &vector);
-    path_course_lay(&course, &section, &entry, &(struct path_goal){.exit_speed2 = 1, .speed = 1});
+    path_course_lay(&course, &section, &entry, &(struct path_goal){.exit_speed2 = 1, .speed = 1}, &speeds);
     TEST_ASSERT_EQUAL_UINT64(2U * PATH_FIXED_NEVER, course.end_time.high);
 }

@@ -52,6 +52,9 @@ static void add_any(void)
 static void assert_planned_well(void)
 {
     uint64_t exit2[RING];
+    if (path.looked != path.known) {
+        (void)path_look_again(&path);
+    }
     for (uint32_t i = path.laid; i != path.known; i++) {
         exit2[i % RING] = ring[i % RING].exit2;
     }
@@ -145,11 +148,73 @@ void test_planning_goes_back_no_farther_than_to_where_the_brake_begins(void)
     TEST_ASSERT_EQUAL_UINT32(100, path_look_again(&path));
 }
 
-void test_planning_goes_back_no_farther_than_to_where_the_path_is_still_getting_faster(void)
+/* Speeds up all the way: what is laid next is as fast as it can get, whatever is added. */
+void test_nothing_is_looked_at_while_the_path_is_still_getting_faster(void)
 {
     for (unsigned i = 0; i < 100; i++) {
         add(10, 100000, 1000);
     }
     (void)path_start(&path, 0);
-    TEST_ASSERT_UINT_WITHIN(1, 50, look_at_another(10, 100000, 1000));
+    path_lay_next(&path);
+    add(10, 100000, 1000);
+    path_lay_next(&path);
+    TEST_ASSERT_EQUAL_UINT32(100, path.looked);
+    assert_planned_well();
+}
+
+void test_nothing_is_looked_at_in_a_cruise_before_the_brake_begins(void)
+{
+    for (unsigned i = 0; i < 100; i++) {
+        add(10, 2000, 40000);
+    }
+    (void)path_start(&path, 0);
+    for (unsigned i = 0; i < 50; i++) {
+        path_lay_next(&path);
+    }
+    add(10, 2000, 40000);
+    for (unsigned i = 50; i < 94; i++) {
+        path_lay_next(&path);
+        TEST_ASSERT_EQUAL_UINT32(100, path.looked);
+        TEST_ASSERT_FALSE(path_lags(&path));
+    }
+    path_lay_next(&path);
+    path_lay_next(&path);
+    TEST_ASSERT_EQUAL_UINT32(101, path.looked);
+}
+
+/* What was the end is laid with what comes after it. */
+void test_an_end_that_vectors_have_been_added_to_is_looked_at_before_it_is_laid(void)
+{
+    add(10, 2000, 40000);
+    add(10, 2000, 40000);
+    (void)path_start(&path, 0);
+    path_lay_next(&path);
+    TEST_ASSERT_FALSE(path_lags(&path));
+    add(1000, 2000, 40000);
+    TEST_ASSERT_EQUAL_UINT32(2, path.looked);
+    path_lay_next(&path);
+    TEST_ASSERT_EQUAL_UINT32(3, path.looked);
+    TEST_ASSERT_TRUE(ring[1].exit2 > 0);
+}
+
+/* Vectors that are added one by one, or all before the path is looked at. */
+void test_vectors_that_join_together_leave_the_plan_that_a_new_one_would_make(void)
+{
+    for (uint32_t run = 1; run < 500; run++) {
+        seed = run;
+        path_init(&path, ring, RING, RIG_TURN_US);
+        for (uint32_t i = 1U + draw(10); i > 0; i--) {
+            add_any();
+        }
+        (void)path_start(&path, 0);
+        for (unsigned i = 0; i < 10 && !path_is_laid(&path); i++) {
+            for (uint32_t more = draw(9); more > 0; more--) {
+                add_any();
+            }
+            if (draw(2) == 0) {
+                assert_planned_well();
+            }
+            path_lay_next(&path);
+        }
+    }
 }

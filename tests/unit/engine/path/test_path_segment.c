@@ -4,6 +4,7 @@
 #include "unity.h"
 
 static struct path_course course;
+static struct path_speeds speeds;
 static struct path_stretch stretch;
 static unsigned leg;
 
@@ -13,7 +14,8 @@ static void lay(const struct path_vector *vector, uint64_t enter2, uint64_t exit
     struct path_entry entry = {.time = {.high = 5000}, .speed2 = enter2};
     path_section_take(&section, vector);
     path_course_lay(&course, &section, &entry,
-                    &(struct path_goal){.exit_speed2 = exit2, .speed = vector->speed, .rests = vector->speed == 0});
+                    &(struct path_goal){.exit_speed2 = exit2, .speed = vector->speed, .rests = vector->speed == 0},
+                    &speeds);
 }
 
 static struct step_segment segment(uint32_t steps, uint32_t pulse)
@@ -58,6 +60,7 @@ void test_the_other_axes_have_their_share_to_the_nearest(void)
 {
     TEST_ASSERT_EQUAL_INT32(42624000, segment(333, 1).accel);
     course.length = 1001;
+    course.per_length = path_divisor_of(1001);
     TEST_ASSERT_EQUAL_INT32(42581419, segment(333, 1).accel);
     leg = 2;
     TEST_ASSERT_EQUAL_INT32(-42581419, segment(333, 330).accel);

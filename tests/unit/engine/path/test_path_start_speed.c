@@ -33,7 +33,7 @@ static void change_at(uint64_t tick, bool stops)
     TEST_ASSERT_TRUE(path_find(&rig.path, &wish, &place));
     (void)pulses(place.entry.time.high + 2U);
     (void)rig_pulses(&rig, 1, place.entry.time.high + 2U, ticks, 0);
-    TEST_ASSERT_TRUE(stops ? path_stop(&rig.path, &place, back) : path_change(&rig.path, &place, back));
+    TEST_ASSERT_TRUE(stops ? rig_stop(&rig, &place, back) : rig_change(&rig, &place, back));
 }
 
 void setUp(void)
@@ -187,7 +187,7 @@ void test_a_change_falls_from_the_start_speed_at_once(void)
     start(1000);
     change_at(16800000 + 28000 * 50, false);
     path_set_speed(&rig.path, 0, 100 * PATH_SPEED_UNITS);
-    TEST_ASSERT_TRUE(path_change(&rig.path, &place, back));
+    TEST_ASSERT_TRUE(rig_change(&rig, &place, back));
     TEST_ASSERT_EQUAL_UINT(550, pulses(UINT64_MAX));
     uint64_t slow = 2 * 16800000 + 28000 * 50;
     TEST_ASSERT_EQUAL_UINT64(slow, ticks[399]);
@@ -201,7 +201,7 @@ void test_a_change_below_the_start_speed_falls_at_once_when_it_is_slow_already(v
     start(1000);
     change_at(84000000 - 10, false);
     path_set_speed(&rig.path, 0, 100 * PATH_SPEED_UNITS);
-    TEST_ASSERT_TRUE(path_change(&rig.path, &place, back));
+    TEST_ASSERT_TRUE(rig_change(&rig, &place, back));
     TEST_ASSERT_EQUAL_UINT(100, pulses(UINT64_MAX));
     TEST_ASSERT_EQUAL_UINT64(84000000 + 840000, ticks[0]);
 }

@@ -129,6 +129,38 @@ void test_a_pulse_inside_a_segment_needs_no_attention(void)
     TEST_ASSERT_FALSE(laid.main_has_work);
 }
 
+void test_a_queue_that_gets_shorter_wants_attention_with_as_much_room_as_it_was_told(void)
+{
+    step_channel_wake_with(&channel, 10);
+    step_channel_begin(&channel, START, false);
+    for (uint32_t i = 0; i < STEP_QUEUE_SEGMENTS; i++) {
+        push(i, 1);
+    }
+    step_channel_run(&channel);
+    uint32_t room = step_channel_room(&channel);
+
+    while (step_channel_room(&channel) < STEP_QUEUE_SEGMENTS - 2U) {
+        make_pulses(1);
+        bool wanted = step_channel_room(&channel) != room && step_channel_room(&channel) >= 10U;
+        TEST_ASSERT_EQUAL(wanted, laid.main_has_work);
+        room = step_channel_room(&channel);
+    }
+}
+
+/* The backend has been told that there is no more, and would ask again at the last pulse only. */
+void test_what_comes_to_a_queue_that_has_run_dry_is_laid_at_once(void)
+{
+    laid.ahead = 10;
+    begin_move(3);
+    make_pulses(1);
+    TEST_ASSERT_EQUAL_UINT(2, laid_waiting());
+
+    push(3, 4);
+
+    TEST_ASSERT_EQUAL_UINT(6, laid_waiting());
+    TEST_ASSERT_EQUAL_UINT(6, run_to_the_end());
+}
+
 /* Segments of one pulse: the queue gets shorter with the first question that no way back leads over. */
 void test_a_queue_that_gets_shorter_wants_attention(void)
 {

@@ -1,0 +1,179 @@
+"""What `bench --target stm32` measures of paths: vectors that four motors follow together.
+
+The image has a main of its own (hal/stm32/bench/path_main.c), which adds vectors as soon as there
+is room for them. As all else of the bench: modelled.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+
+from rkm04_tools.failure import NOT_SO, Failure
+from rkm04_tools.target_figures import Figures, flood
+from rkm04_tools.target_run import MOTORS, TICKS_PER_MS, Ran, Rig
+
+SYMBOLS = ("path_bench_table", "path_bench_report", "path_bench_done")
+KINDS = 2
+BEGIN_MS = 45.0
+"""The image is up by then, its first vectors are there, and nothing has moved."""
+SECONDS_MAX = 20.0
+CYCLES_PER_TICK = 2
+TICKS_PER_US = TICKS_PER_MS / 1000
+
+BORDER_STEPS = 100
+ALIKE = (BORDER_STEPS,) * 4
+APART = (100, -99, 57, 33)
+"""Shares that are fractions, so that the axes' accelerations are rounded."""
+FAST, FAST_VECTORS, FAST_ACCEL = 200_000, 600, 3_000_000
+SLOW, SLOW_VECTORS, SLOW_ACCEL = 50_000, 200, 1_000_000
+RARE = 20
+"""So many times fewer borders."""
+PACKET = 32
+ACT_MS, ACT_SPEED = 130.0, 120_000
+
+
+class Act(IntEnum):
+    """What is done while the path moves: enum act."""
+
+    NONE = 0
+    SPEED = 1
+    HOLD = 2
+    INPUT = 3
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Steps of the motors in a vector, and its speed in steps/s."""
+
+    steps: Sequence[int]
+    speed: int
+
+
+@dataclass(frozen=True)
+class Course:
+    """What the image is to do: vectors of two kinds in turns, and an act."""
+
+    vectors: int
+    kinds: Sequence[Kind]
+    accel: int
+    packet: int = 1
+    act: Act = Act.NONE
+
+    @property
+    def packed(self) -> bytes:
+        """As struct path_bench_table."""
+        act = (self.act, round(ACT_MS * TICKS_PER_MS), ACT_SPEED)
+        kinds = b"".join(struct.pack("<4iI", *kind.steps, kind.speed) for kind in self.kinds)
+        rest = struct.pack("<5I", self.accel, self.packet, *act)
+        return struct.pack("<I", self.vectors) + kinds + rest
+
+    @property
+    def ends(self) -> list[int]:
+        """Where the motors are at the end of all vectors."""
+        counts = [(self.vectors + 1) // KINDS, self.vectors // KINDS]
+        return [
+            sum(count * kind.steps[i] for count, kind in zip(counts, self.kinds, strict=True))
+            for i in range(len(MOTORS))
+        ]
+
+
+@dataclass(frozen=True)
+class Report:
+    """As struct path_bench_report; times in ticks."""
+
+    late: int
+    positions: list[int]
+    added: int
+    path: int
+    add: int
+    poll: int
+    act: int
+    effect: int
+
+
+def report(ran: Ran) -> Report:
+    """What the image told."""
+    late, *rest = ran.summary["watch"][SYMBOLS[1]]
+    positions = [int.from_bytes(p.to_bytes(4, "little"), "little", signed=True) for p in rest[:4]]
+    return Report(late, positions, *rest[4:])
+
+
+def run(rig: Rig, course: Course, *options: str) -> Ran:
+    """Run the image to the end of its path, with the line flooded; it must be all of the path."""
+    table, told, done = SYMBOLS
+    arguments = ["--set", f"{table}={course.packed.hex()}", "--end-at", done, "--watch", told]
+    arguments += ["--measure-from", str(BEGIN_MS), *options]
+    return rig.run_other(rig.paths_elf, SECONDS_MAX, arguments, flood(BEGIN_MS, BEGIN_MS + 1000))
+
+
+def fast(steps: Sequence[int], rarely: int = 1, packet: int = 1, act: Act = Act.NONE) -> Course:
+    """Four motors up to 200 000 steps/s, with 2000 borders a second or fewer."""
+    kind = Kind([rarely * count for count in steps], FAST)
+    return Course(FAST_VECTORS // rarely, [kind] * KINDS, FAST_ACCEL, packet, act)
+
+
+def whole(rig: Rig, name: str, course: Course) -> tuple[Ran, Report]:
+    """The same, of all vectors: the motors must be where these end."""
+    ran = run(rig, course)
+    told = report(ran)
+    if told.positions != course.ends or ran.positions != course.ends:
+        raise Failure(f"{name}: the path did not come to its end", NOT_SO)
+    return ran, told
+
+
+def slow(steps: Sequence[int]) -> Course:
+    """Four motors up to 50 000 steps/s, with 500 borders a second."""
+    return Course(SLOW_VECTORS, [Kind(steps, SLOW)] * KINDS, SLOW_ACCEL)
+
+
+def us(ticks: int) -> float:
+    """Of ticks."""
+    return ticks / TICKS_PER_US
+
+
+def cycles(ran: Ran) -> float:
+    """All that were not asleep while it was measured."""
+    return float(ran.summary["cycles"]) * ran.load / 100
+
+
+def borders(rig: Rig) -> Figures:
+    """Borders on all axes 2000 times a second at 200 000 steps/s, and 500 times at 50 000."""
+    figures: Figures = {"stack_used": 0}
+    for name, steps in (("alike", ALIKE), ("apart", APART)):
+        many, told = whole(rig, f"4 x 200 000 steps/s, {name}", fast(steps))
+        few, _ = whole(rig, f"4 x 200 000 steps/s, few borders, {name}", fast(steps, RARE))
+        count = len(MOTORS) * (FAST_VECTORS - FAST_VECTORS // RARE)
+        step = many.step_interrupt["cycles"] - few.step_interrupt["cycles"]
+        figures |= {
+            f"load_path_{name}": many.load,
+            f"late_path_{name}": told.late,
+            f"time_path_{name}": us(told.path) / 1000,
+            f"border_{name}": (cycles(many) - cycles(few)) / count,
+            f"border_step_{name}": step / count,
+            f"interrupt_path_{name}": many.step_interrupt["max"],
+        }
+        figures["stack_used"] = max(figures["stack_used"], many.stack_used, few.stack_used)
+    calm, told = whole(rig, "4 x 50 000 steps/s", slow(APART))
+    return figures | {"load_path_slow": calm.load, "late_path_slow": told.late}
+
+
+def changes(rig: Rig) -> Figures:
+    """What planning anew takes at 4 x 200 000 steps/s, with 128 vectors ahead."""
+    _, calm = whole(rig, "nothing changed", fast(APART))
+    packets, added = whole(rig, "vectors in packets", fast(APART, packet=PACKET))
+    speeds, changed = whole(rig, "another speed", fast(APART, act=Act.SPEED))
+    holds = [run(rig, fast(APART, act=act)) for act in (Act.HOLD, Act.INPUT)]
+    held = [report(ran) for ran in holds]
+    return {
+        "add_packet": us(added.add),
+        "late_packets": added.late,
+        "effect_speed": us(changed.effect),
+        "late_speed": changed.late,
+        "effect_hold": max(us(told.effect) for told in held),
+        "late_hold": max(told.late for told in held),
+        "pass_path": us(calm.poll),
+        "stack_used": max(ran.stack_used for ran in (packets, speeds, *holds)),
+    }
