@@ -234,13 +234,20 @@ void gve_queue_tell_end(const struct gve_queue *queue, uint64_t tick)
     }
 }
 
+/* The last pulse is rounded by itself, and may be a tick after the rest: onlookers are told of the end with it. */
+static uint64_t end_tick(const struct gve_queue *queue)
+{
+    uint64_t rest_tick = group_end_tick(gve_queue_group(queue));
+    return rest_tick < queue->last_tick ? queue->last_tick : rest_tick;
+}
+
 /* The axes stand. */
 static void end(struct gve_queue *queue, uint8_t inputs)
 {
     enum axis_cause cause = group_cause(gve_queue_group(queue));
     bool stopped = cause == AXIS_CAUSE_HIGH || cause == AXIS_CAUSE_COMMAND || queue->halting || queue->stopping;
     note_last_pulse(queue, hal_time_now());
-    gve_queue_tell_end(queue, group_end_tick(gve_queue_group(queue)));
+    gve_queue_tell_end(queue, end_tick(queue));
     if (gve_home_phase(queue) != GVE_HOME_NONE) {
         gve_home_follow(queue, stopped, inputs);
     } else if (stopped) {
