@@ -26,6 +26,7 @@ RUNS = re.compile(r"^stat::number_of_executed_units:\s*(\d+)", re.MULTILINE)
 INPUT_BYTES_MAX = {
     "frames": 100,
     "gve": 250,
+    "gve-unit": 250,
     "interpreter": 80,
     "message": 250,
     "path": 200,
