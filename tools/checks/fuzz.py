@@ -29,6 +29,7 @@ INPUT_BYTES_MAX = {
     "gve-unit": 250,
     "interpreter": 80,
     "message": 250,
+    "modbus": 250,
     "path": 200,
     "program": 96,
     "unit": 250,
