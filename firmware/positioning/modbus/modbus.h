@@ -4,7 +4,7 @@
  *
  * It knows frames and requests (line.md), nothing of what registers mean. What is wrong in the form it refuses itself,
  * and it tells by itself what the unit is. Nothing here waits: main gives it what has come and the time. It listens or
- * sends, never both. Main only. 900 bytes.
+ * sends, never both. Main only. 880 bytes.
  *
  * In each pass, unless it is sending:
  *

@@ -3,7 +3,7 @@
  *
  * Silence ends a frame, and only that: T, 3.5 characters up to 19 200 Bd and 1.75 ms above. There is no clock inside.
  * A byte has the tick of its end, so up to a character before that tick all silence is known; who waits says what time
- * it is. Main only. 296 bytes.
+ * it is. Main only. 288 bytes.
  */
 #ifndef MODBUS_RECEIVER_H
 #define MODBUS_RECEIVER_H

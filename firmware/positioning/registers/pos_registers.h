@@ -2,7 +2,7 @@
  * The values of all registers, as plain numbers; reading them by the numbers of the line.
  *
  * The owner puts in what is to be read and takes out what is set. A value has 32 bits; those of I16 and I32 are in
- * two's complement over all of them. A register that two images show is one value. Main only; 830 bytes.
+ * two's complement over all of them. A register that two images show is one value. Main only; 650 bytes.
  */
 #ifndef POS_REGISTERS_H
 #define POS_REGISTERS_H
