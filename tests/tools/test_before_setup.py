@@ -20,7 +20,9 @@ FILES = (
     "tools/setup",
     "tools/requirements.txt",
     "firmware/rkm04/rkm04.h",
+    "firmware/rkm04/image/image.h",
     "firmware/gve134/command/gve_commands.def",
+    "firmware/gve134/image/image.h",
 )
 COMMANDS = [name for name, _ in commands_of(make_parser()) if name not in ("build", "size")]
 

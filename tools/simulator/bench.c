@@ -8,7 +8,6 @@
 #include "base_tick.h"
 #include "json.h"
 #include "motion_plan.h"
-#include "rkm04_kind.h"
 #include "rkm04.h"
 #include "rkm04_kind.h"
 #include "run.h"

@@ -130,8 +130,8 @@ void gve_queue_begin(struct gve_queue *queue, uint8_t inputs)
 
 static uint32_t speed_of(void *context, uint32_t section)
 {
-    const struct gve_queue *queue = context;
-    const struct gve_chain *chain = &queue->chain[atomic_load_explicit(&queue->used, memory_order_relaxed)];
+    struct gve_queue *queue = context;
+    const struct gve_chain *chain = gve_queue_chain(queue);
     return gve_speeds_limit(&chain->vectors[section & (chain->size - 1U)], queue->factor, queue->taken_limit);
 }
 
