@@ -192,11 +192,14 @@ static void hand_over(uint64_t until_tick)
     }
 }
 
+/* Of what has been laid since the last change: before that the plan is not seen forward. */
 static void require_plan(void)
 {
     const struct path *path = &bench.path;
     bool slower = bench.slower;
-    for (uint32_t i = path->laid; i + 1U < path->known && path->start_speed == 0 && !path->stopping; i++) {
+    uint32_t origin = path->origin.section;
+    uint32_t first = origin < path->first ? path->first : origin;
+    for (uint32_t i = first; i + 1U < path->laid && path->start_speed == 0 && !path->stopping; i++) {
         const struct path_section *section = &path->ring[i % path->size];
         const struct path_section *after = &path->ring[(i + 1U) % path->size];
         FUZZ_REQUIRE(section->exit2 <= after->exit2 + after->gain2);
