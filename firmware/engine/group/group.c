@@ -204,23 +204,23 @@ uint64_t group_poll(struct group *group)
     if (!is_moving(group)) {
         return TICK_NEVER;
     }
+    uint64_t begin = hal_time_now();
     hal_run_hold_plan();
     group_plan(group);
+    drop_made(group, begin);
     hal_run_release_plan();
-    uint64_t begin = hal_time_now();
-    uint64_t now = begin;
-    bool fed = true;
-    while (fed && now - begin < (uint64_t)FEED_SLICE_TICKS) {
-        fed = feed(group, now + (uint64_t)FEED_TICKS);
-        now = hal_time_now();
+    while (feed(group, hal_time_now() + (uint64_t)FEED_TICKS)) {
+        if (hal_time_now() - begin >= (uint64_t)FEED_SLICE_TICKS) {
+            return begin;
+        }
     }
+    uint64_t now = hal_time_now();
     hal_run_hold_plan();
-    drop_made(group, now);
     if (has_ended(group, now)) {
         end(group);
     }
     hal_run_release_plan();
-    return is_moving(group) && !fed ? next_poll(group, now) : now;
+    return is_moving(group) ? next_poll(group, now) : now;
 }
 
 bool group_take_end(struct group *group)

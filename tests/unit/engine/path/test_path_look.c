@@ -218,3 +218,30 @@ void test_vectors_that_join_together_leave_the_plan_that_a_new_one_would_make(vo
         }
     }
 }
+
+void test_a_stop_rests_where_it_has_braked_to_the_start_speed(void)
+{
+    path_init(&path, ring, RING, 12);
+    add(1000, 1000, 1000);
+    const struct path_section *section = path_section_of(&path, 0);
+    path_set_start_speed(&path, 100);
+    path.stopping = true;
+    TEST_ASSERT_EQUAL_UINT64(0, path_look_exit2(&path, section, section->gain2 + UINT64_C(10000)));
+    TEST_ASSERT_EQUAL_UINT64(10001, path_look_exit2(&path, section, section->gain2 + UINT64_C(10001)));
+}
+
+void test_a_course_that_is_not_kept_is_laid_once_more(void)
+{
+    path_init(&path, ring, RING, 12);
+    add(1000, 1000, 1000);
+    TEST_ASSERT_TRUE(path_start(&path, 1000));
+    path_lay_next(&path);
+    struct path_course kept = *path_lay_course(&path, 0);
+    for (unsigned i = 0; i < PATH_KEPT; i++) {
+        path.kept[i].valid = false;
+    }
+    const struct path_course *course = path_lay_course(&path, 0);
+    TEST_ASSERT_EQUAL_UINT(kept.legs, course->legs);
+    TEST_ASSERT_EQUAL_UINT64(kept.end_time.high, course->end_time.high);
+    TEST_ASSERT_EQUAL_UINT64(kept.end_time.low, course->end_time.low);
+}

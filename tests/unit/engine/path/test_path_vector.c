@@ -139,3 +139,11 @@ void test_a_turn_may_need_a_stand_and_may_need_nothing(void)
     path_section_mind_turns(&after, &before, 12);
     TEST_ASSERT_EQUAL_UINT64(border2, after.border2);
 }
+
+void test_a_speed_of_a_short_extent_is_more_than_any_on_a_long_axis(void)
+{
+    struct path_vector vector = rig_vector(1, INT32_MAX, 1000, 1000);
+    vector.extent2 = 1;
+    struct path_section section = taken(&vector);
+    TEST_ASSERT_EQUAL_UINT64(PATH_SPEED2_ENDLESS, path_section_from_border2(&section, UINT64_C(1) << 52));
+}
