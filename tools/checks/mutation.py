@@ -79,6 +79,9 @@ MODULES = (
         (),
     ),
     Module("axis", "engine/axis", ("axis.c", "axis_state.c", "axis_stop.c"), ()),
+    Module("gve-speeds", "gve134/speeds", ("gve_speeds.c",), ()),
+    Module("gve-guards", "gve134/guards", ("gve_guards.c",), ()),
+    Module("gve-outputs", "gve134/outputs", ("gve_outputs.c",), ()),
 )  # fmt: skip
 
 

@@ -82,6 +82,16 @@ void test_vj_slows_a_corner(void)
     TEST_ASSERT_GREATER_THAN_UINT64(fast + 400U, run_to_the_end_ms());
 }
 
+void test_a_corner_that_vj_allows_no_speed_is_passed_at_a_stand(void)
+{
+    rig_expect("0VK", "0");
+    rig_expect("0VJ0,0,0,1", "0");
+    rig_expect("0L1,0,0,1000", "0");
+    rig_expect("0C1,0,0,-1000", "0");
+    rig_run_ms(20000);
+    rig_expect("0P4", "0,2,0,0,0");
+}
+
 void test_x_commands_act_while_axes_move(void)
 {
     rig_expect("0L10000", "0");

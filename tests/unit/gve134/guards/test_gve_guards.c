@@ -53,6 +53,15 @@ void test_after_a_reset_all_bytes_are_0(void)
     }
 }
 
+void test_a_reset_writes_no_more_than_the_guards(void)
+{
+    struct gve_guards many[2];
+    gve_guards_init(&many[1]);
+    gve_guards_write(&many[1], GVE_STATUS_ENABLED_1, 0xFF);
+    gve_guards_init(&many[0]);
+    TEST_ASSERT_EQUAL_HEX8(0xFF, gve_guards_read(&many[1], GVE_STATUS_ENABLED_1));
+}
+
 void test_every_bit_of_every_byte_is_kept_by_itself(void)
 {
     for (unsigned status = 0; status < GVE_STATUS_GUARDS; status++) {

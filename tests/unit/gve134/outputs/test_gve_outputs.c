@@ -50,8 +50,8 @@ static void led_seen(void *context, uint64_t tick, unsigned led, bool on)
 static void trace_seen(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
 {
     (void)context;
-    (void)motor;
     (void)value;
+    TEST_ASSERT_EQUAL_UINT(0, motor); /* of the unit */
     TEST_ASSERT_EQUAL_UINT64(now, tick);
     TEST_ASSERT_EQUAL(HAL_TRACE_OUT, event);
     writes++;

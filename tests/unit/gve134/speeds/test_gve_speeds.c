@@ -90,6 +90,10 @@ struct border_case {
 
 /* clang-format off */
 static const struct border_case borders[] = {
+    {TOP, VK, {1, 0, 0, MOST}, VK, {1, 0, 0, -MOST}, {0, 0, 0, 1}, 0, "A, so fast that it must stand"},
+    {TOP, VK, {3, 2, 4, 0}, VK, {-6, 8, 8, 0}, {124796, 0, 0, 0}, 31150157, "N is rounded up"},
+    {TOP, VK, {1, 1, 8, 0}, VK, {-9, 7, 4, 0}, {111655, 0, 0, 0}, 32932923, "N is rounded up"},
+    {TOP, VK, {9, 2, 2, 0}, VK, {0, 2, 6, 0}, {190132, 0, 0, 0}, 51020898, "N is rounded up"},
     {5000, VN, {100, 0, 0, 0}, VN, {100, 0, 0, 0}, {0, 0, 0, 0}, 1280000, "B of the one before"},
     {5000, VN, {100, 0, 0, 0}, VN, {7, 0, 0, 0}, {1, 1, 1, 1}, 1280000, "a straight line has no jump"},
     {TOP, VN, {100, 0, 0, 0}, VN, {0, 100, 0, 0}, {500, 0, 0, 0}, 128000, "a right angle: J of either axis"},
@@ -171,6 +175,15 @@ void test_a_vector_keeps_what_it_was_entered_with(void)
     TEST_ASSERT_EQUAL_UINT32(88, vector.brake);
     TEST_ASSERT_TRUE(vector.corrected);
     TEST_ASSERT_FALSE(vector.is_short);
+}
+
+void test_what_stands_after_the_numbers_of_the_axes_does_not_count(void)
+{
+    static const int32_t steps[PATH_AXES + 1] = {1000, 0, 0, 0, 5};
+    static const uint32_t limit[PATH_AXES + 1] = {TOP, TOP, TOP, TOP, 0};
+    struct gve_vector vector = vector_of(false, steps);
+    TEST_ASSERT_EQUAL_UINT32(1000, vector.speed);
+    TEST_ASSERT_EQUAL_UINT32(256000, gve_speeds_limit(&vector, ONE, limit));
 }
 
 void test_the_limit_of_a_vector_is_that_of_the_formula(void)
