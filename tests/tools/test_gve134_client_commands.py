@@ -7,6 +7,7 @@ import pty
 import re
 import sys
 import time
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -424,3 +425,23 @@ def test_output_writes_the_whole_port_and_says_so(gve: Tool, unit: FakeGve) -> N
 def test_spindle(gve: Tool, unit: FakeGve, given: str, permille: int) -> None:
     assert gve("spindle", given).status == 0
     assert unit.ports["spindle"] == permille
+
+
+def test_digits_of_other_scripts_move_nothing(gve: Tool, gve_line: FakeGveLine) -> None:
+    result = gve("jog", "X\N{ARABIC-INDIC DIGIT THREE}")
+
+    assert result.status == 2
+    assert not gve_line.unit.taken
+
+
+def test_where_nothing_was_sent_nothing_is_said_to_go_on(
+    gve: Tool, gve_line: FakeGveLine, tmp_path: Path
+) -> None:
+    path = tmp_path / "a.gve"
+    path.write_text("C1\n")
+    gve_line.unit.mute = True
+
+    result = gve("send", str(path))
+
+    assert result.status == 3
+    assert "; no vector was sent: whether the axes move is NOT KNOWN" in result.complaint

@@ -194,6 +194,9 @@ def test_send_turns_g_code(gve: Tool, unit: FakeGve, tmp_path: Path) -> None:
 
     assert result.status == 0
     assert unit.positions == [320, 0, 0, 0]
+    assert "position 0 of the program is where the axes stand, X 0  Y 0  Z 0  A 0" in result.err
+    open_end = write(tmp_path, "G21 G90\nM3 S1000\nG1 X1 F300\n", "c.nc")
+    assert "warning: the program ends without M2" in gve("send", open_end, "--machine", mill).err
     wrong = write(tmp_path, "G99\n", "b.nc")
     assert "b.nc:1:1: error: G99 is not known" in gve("send", wrong, "--machine", mill).err
 

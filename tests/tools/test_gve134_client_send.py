@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 
 import pytest
 from fake_gve134 import FakeGve
@@ -320,6 +321,60 @@ def test_a_probe_that_touches_nothing_ends_the_job() -> None:
     with pytest.raises(Failure, match=r"a.gve:2: ;@probe: nothing was touched"):
         send(unit, "L0,0,-500\n;@probe\nC1\n")
     assert len(unit.taken) == 1
+
+
+def probing(touch: Callable[[FakeGve], None]) -> tuple[FakeGve, Sender]:
+    """A probe during which this happens once."""
+    unit = FakeGve(vector_s=0.5)
+    sending = sender(unit, "SW1,80\nL0,0,-500\n;@probe\nC1\n")
+    sending.tell = lambda sent: touch(unit) if sent == 1 and unit.run and not unit.inta else None
+    return unit, sending
+
+
+def test_a_sensor_that_is_touched_before_the_probe_moves_is_no_touch() -> None:
+    unit, sending = probing(lambda unit: unit.interrupt(0, 0x80))
+
+    with pytest.raises(Failure, match="touched before the axes moved, so nothing was probed"):
+        sending.send()
+
+    assert unit.taken == [(0, 0, -500, 0)]
+    assert "D" not in unit.done
+
+
+def test_a_reference_switch_that_stops_a_probe_is_no_touch() -> None:
+    def hit(unit: FakeGve) -> None:
+        unit.positions = [0, 0, -30, 0]
+        unit.interrupt(4)
+
+    unit, sending = probing(hit)
+
+    with pytest.raises(Interrupted, match=r"a.gve:3: ;@probe: INTERRUPTED by RefZ"):
+        sending.send()
+
+    assert unit.taken == [(0, 0, -500, 0)]
+    assert "D" not in unit.done
+
+
+def test_a_reference_run_without_a_switch_is_told_as_that() -> None:
+    unit = FakeGve(home_answer=5)
+
+    with pytest.raises(Failure, match="WX1,10,1,10: its switch was not found") as raised:
+        send(unit, "WX1,10,1,10\nC1\n")
+
+    assert "the axes stand at X 0" in str(raised.value)
+    assert "INTERRUPTED" not in str(raised.value)
+
+
+def test_where_no_cause_is_known_no_position_of_it_is_told() -> None:
+    unit = FakeGve(vector_s=0.01)
+    sending = sender(unit, chain(5))
+    sending.send()
+    unit.interrupt()
+
+    with pytest.raises(Interrupted) as raised:
+        sending.finish()
+
+    assert "INTERRUPTED by what the unit does not tell; the axes stand" in str(raised.value)
 
 
 # ---- a bad line ----

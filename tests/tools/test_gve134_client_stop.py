@@ -176,6 +176,9 @@ def test_a_halt_that_is_ended_before_it_is_confirmed_is_shouted(
     unit.mute = True
     process = start_gve("halt")
     gve_line.until(lambda unit: "H" in unit.done)
+    assert process.stderr is not None
+    first = process.stderr.readline()
+    assert "where the axes do not brake, use the emergency stop" in first
 
     status, told = end(process, signal.SIGINT)
 

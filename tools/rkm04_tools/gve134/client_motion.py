@@ -13,7 +13,7 @@ from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.gve134 import answers
 from rkm04_tools.gve134.client_base import require_good, unit_of
 from rkm04_tools.gve134.link_errors import Refused
-from rkm04_tools.gve134.sending import causes_of
+from rkm04_tools.gve134.sending import SWITCH_NOT_FOUND, causes_of
 from rkm04_tools.gve134.state import AXES, INTA, Flags, Positions, positions_text
 from rkm04_tools.gve134.stopping import (
     ENDED_BEFORE,
@@ -27,7 +27,7 @@ from rkm04_tools.gve134.unit import POLL_SECONDS, Unit
 HOME_EXTRA_SECONDS = 10.0
 SLOWEST_RAMP = 1000
 """Pulses/s², the least that A can be."""
-WAY = re.compile(r"([XYZA])([-+]?)(\d{1,10})", re.IGNORECASE)
+WAY = re.compile(r"([XYZA])([-+]?)([0-9]{1,10})", re.IGNORECASE)
 OVERRIDES = {"up": "XU", "down": "XD", "last": "XA"}
 
 
@@ -89,8 +89,7 @@ def _home(options: Namespace, unit: Unit, command: str) -> int:
     flags, positions = unit.flags(), unit.positions()
     at = f"the axes stand at {positions_text(positions)}"
     if answer.code == answers.BOUNDS and answer.inta:
-        why = f"its switch was not found, or not let go, within the ways that were given; {at}"
-        raise Refused(f"{axis} was not homed", answer, why)
+        raise Refused(f"{axis} was not homed", answer, f"{SWITCH_NOT_FOUND}; {at}")
     if answer.code != answers.DONE:
         raise Refused(f"{axis} was not homed", answer)
     if answer.inta:

@@ -57,7 +57,9 @@ COMMANDS = (
             "Nothing is sent of a file with errors. Vectors go in packets; what is lost or damaged "
             "on the line is repeated, and never executed twice. At the end it waits until the axes "
             "stand. %+, %-, @ and > are left out: the line uses them by itself. G-code is turned "
-            "as by gve134 gcode, from where the axes stand.",
+            "as by gve134 gcode: position 0 of the program is where the axes stand when it begins, "
+            "unless its G28 or G92 says otherwise. After a halt bring them back to where "
+            "it began before it is sent again.",
             STOPS,
         ),
     ),
@@ -194,7 +196,7 @@ def add_client_commands(commands: Any, add: AddTo) -> None:
     """Add all of them; `add` takes where to, name, what to run, title and example."""
     for row in COMMANDS:
         _add_own(row.name, _add(commands, add, row, row.name))
-    title = "read, write, save and compare the memory that is kept without power"
+    title = "get, set, back up, restore and compare the memory that is kept without power"
     memory = commands.add_parser("memory", help=title, description=title, allow_abbrev=False)
     actions = memory.add_subparsers(metavar="ACTION", required=True)
     for row in MEMORY:

@@ -40,6 +40,13 @@ def run_send(options: Namespace) -> int:
     if job.pauses and not sys.stdin.isatty():
         raise Failure(f"{job.source.name}: waits for a person (;@pause); send it from a terminal")
     with unit_of(options) as unit, Bar("sending") as bar:
+        if _is_gcode(options):
+            here = positions_text(unit.positions())
+            print(
+                f"gve134: {source.name}: position 0 of the program is where the axes stand, {here},"
+                " unless its G28 or G92 says otherwise",
+                file=sys.stderr,
+            )
         sender = Sender(unit, job, Progress(bar, job.vectors).show)
         try:
             return guarded(
@@ -50,18 +57,23 @@ def run_send(options: Namespace) -> int:
         except (NotConfirmed, Restarted):
             raise
         except LineError as error:
-            what = f"{sender.sent} of {count_of(job.vectors, 'vector')} were sent"
-            raise Failure(
-                f"{error}; {what} and go on by themselves: whether the axes move is NOT KNOWN",
-                error.status,
-            ) from None
+            what = "no vector was sent"
+            if sender.sent:
+                what = f"{sender.sent} of {count_of(job.vectors, 'vector')} were sent and go on"
+                what += " by themselves"
+            text = f"{error}; {what}: whether the axes move is NOT KNOWN"
+            raise Failure(text, error.status) from None
 
 
 def vectors_of(options: Namespace) -> Source | None:
     """The commands of a file, whatever kind of file it is; None: it has errors, which are shown."""
-    if named(options.file).suffix.lower() in GCODE_SUFFIXES:
+    if _is_gcode(options):
         return _turned(options)
     return read_source(options.file)
+
+
+def _is_gcode(options: Namespace) -> bool:
+    return named(options.file).suffix.lower() in GCODE_SUFFIXES
 
 
 def _turned(options: Namespace) -> Source | None:
@@ -70,8 +82,9 @@ def _turned(options: Namespace) -> Source | None:
     pieces: list[str] = []
     with Bar("turning") as bar:
         turned = turn_file(lines_of(path, bar.show), path.name, mill, pieces.append)
-    for problem in turned.problems[:SHOWN_MAX]:
-        print(f"{path}:{problem.line}:{problem.column}: error: {problem.message}", file=sys.stderr)
+    for kind, problems in (("error", turned.problems), ("warning", turned.warnings)):
+        for each in problems[:SHOWN_MAX]:
+            print(f"{path}:{each.line}:{each.column}: {kind}: {each.message}", file=sys.stderr)
     return Source(f"{path} as vectors", "".join(pieces)) if turned.is_good else None
 
 

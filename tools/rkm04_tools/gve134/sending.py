@@ -22,7 +22,7 @@ from rkm04_tools.gve134.gcode.directives import Pause, Probe, Wait
 from rkm04_tools.gve134.job import Asked, Command, Job
 from rkm04_tools.gve134.link import MEMORY_SECONDS
 from rkm04_tools.gve134.link_errors import Refused
-from rkm04_tools.gve134.state import INTA, INTCOM, RUN, Flags, named, positions_text
+from rkm04_tools.gve134.state import INTA, INTCOM, RUN, Flags, Positions, named, positions_text
 from rkm04_tools.gve134.unit import Unit, is_memory_write
 from rkm04_tools.transport import BITS_PER_BYTE
 
@@ -36,6 +36,7 @@ NO_ROOM_SECONDS = 0.01
 WAITS_MAX = 3
 """What is refused so often while nothing moves is refused for good."""
 LONG_SECONDS = 86_400.0
+SWITCH_NOT_FOUND = "its switch was not found, or not let go, within the ways that were given"
 BEGINS_ANEW = ("D", "G", "J", "H", "R")
 """What may stand first in a file for a unit that was interrupted."""
 
@@ -64,6 +65,7 @@ class Sender:
     inta: bool = False
     ask_person: Callable[[str], None] = lambda text: None
     _waits: int = 0
+    _probes_from: Positions | None = None
     _commands: Iterator[Command] = field(default_factory=lambda: iter(()))
     _pending: deque[Command] = field(default_factory=deque)
 
@@ -142,6 +144,10 @@ class Sender:
         if command.text == "*S":
             whole, end = self._packet_of_file()
             command = end or command
+        self._probes_from = None
+        if command.letter == "L" and self._is_probe_next():
+            self.unit.wait_until_stands()
+            self._probes_from = self.unit.positions()
         while True:
             answer = self._packet(whole) if command.text == "*S" else self._ask(command)
             self._judge(command, answer)
@@ -198,8 +204,17 @@ class Sender:
         flags = unit.wait_until_stands()
         if not flags.has(INTA) or flags.has(INTCOM):
             raise Failure(f"{self._where(command)}: nothing was touched on the way", NOT_SO)
-        unit.order("SW1,00")
         touched, stand = unit.positions(latched=True), unit.positions()
+        if int(unit.order("SR4").values, 16):
+            raise self.interrupted(self._where(command))
+        if touched == self._probes_from:
+            raise Failure(
+                f"{self._where(command)}: the sensor was touched before the axes moved, so nothing "
+                "was probed; look at the sensor, its wire and its active level (ST3), then gve134 "
+                f"delete; the axes stand at {positions_text(stand)}; {flags.text}",
+                NOT_SO,
+            )
+        unit.order("SW1,00")
         unit.order("D")
         self.inta = False
         way = (at - now for at, now in zip(touched, stand, strict=True))
@@ -217,16 +232,22 @@ class Sender:
     def _judge(self, command: Command, answer: Answer) -> None:
         """Notice an interrupt, and what the unit refuses for good."""
         is_new = answer.inta and not self.inta
-        following = self._ahead(0) if is_new else None
-        touched = following is not None and isinstance(following.asked_of_host, Probe)
-        if touched and answer.code == answers.DONE:
+        if is_new and answer.code == answers.DONE and self._is_probe_next():
             return
+        if is_new and command.letter == "W" and answer.code == answers.BOUNDS:
+            self.unit.wait_until_stands()
+            at = f"the axes stand at {positions_text(self.unit.positions())}"
+            raise Refused(self._where(command), answer, f"{SWITCH_NOT_FOUND}; {at}")
         if is_new and not (command.letter == "R" or command.text.startswith("SW6")):
             raise self.interrupted(self._where(command))
         self.inta = answer.inta
         waits = answer.code in (answers.NO_ROOM, answers.NOT_WHILE_MOVING) and not answer.inta
         if answer.code != answers.DONE and not waits:
             raise self._refused(command, answer)
+
+    def _is_probe_next(self) -> bool:
+        following = self._ahead(0)
+        return following is not None and isinstance(following.asked_of_host, Probe)
 
     def _refused(self, command: Command, answer: Answer) -> Failure:
         after = f"; the {self.sent} vectors before it are executed" if self.sent else ""
@@ -246,8 +267,8 @@ class Sender:
         """What has stopped the axes, and where they stand."""
         flags = self.unit.wait_until_stands()
         causes = causes_of(self.unit, flags)
-        latched = self.unit.link.ask("PL")
-        at = f", positions at that moment {latched.values}" if latched.values else ""
+        latched = self.unit.link.ask("PL").values if causes else ""
+        at = f", positions at that moment {latched}" if latched else ""
         text = f"INTERRUPTED by {', '.join(causes) or 'what the unit does not tell'}{at}; the axes "
         text += f"stand at {positions_text(self.unit.positions())}; {flags.text}; "
         text += f"{self.sent} of {self.job.vectors} vectors were sent"

@@ -16,6 +16,7 @@ from dataclasses import replace
 from types import FrameType, TracebackType
 
 from rkm04_tools.failure import INTERRUPTED, NO_CONNECTION, Failure
+from rkm04_tools.gve134.link import HALT_SECONDS
 from rkm04_tools.gve134.link_errors import NotConfirmed
 from rkm04_tools.gve134.state import positions_text
 from rkm04_tools.gve134.unit import Halted, Unit
@@ -160,7 +161,8 @@ def shout(why: str) -> None:
 
 def _shout_meanwhile() -> None:
     print(
-        "gve134: STOP NOT CONFIRMED YET: no answer to H; the axes brake, or the line is dead",
+        f"gve134: STOP NOT CONFIRMED YET: no answer to H, which is sent for {HALT_SECONDS:.0f} s; "
+        "where the axes do not brake, use the emergency stop",
         file=sys.stderr, flush=True,
     )  # fmt: skip
 
