@@ -15,14 +15,14 @@ from gve_course import Mismatch
 from gve_model import compare
 from gve_probe import Probe
 from gve_sessions import session
-from gve_unit import AT_END, EARLY, HURRIED, PAUSED, Unsure
+from gve_unit import EARLY, Unsure
 
 SESSIONS = int(os.environ.get("RKM04_PROGRAMS", "600"))
 BATCH = 1000
-ALLOWED = frozenset({AT_END, EARLY, HURRIED, PAUSED})
+ALLOWED = frozenset({EARLY})
 """In what the firmware still differs from the contract."""
 
-WRONG_SHARE_MAX = 0.005 if ALLOWED else 0.0
+WRONG_SHARE_MAX = 0.001 if ALLOWED else 0.0
 """What is allowed makes the model less sure of what came when."""
 
 UNSURE_SHARE_MAX = 0.06
@@ -42,9 +42,6 @@ def test_any_session_goes_as_the_contract_says(probe: Probe, batch: int) -> None
     for seed in seeds:
         spoken = session(seed)
         done = probe.run(spoken)
-        if HURRIED in ALLOWED and any("too late" in text for text in done.complaints):
-            count["hurried"] += 1
-            continue
         try:
             compare(spoken, done, ALLOWED)
         except Unsure:

@@ -357,10 +357,6 @@ class Course:
                 break
         return found
 
-    def is_end(self, step: Step) -> bool:
-        """Whether a step is the end of the last vector."""
-        return step.vector + 1 == len(self.vectors) and step.place == self.vectors[-1].length
-
     def change(self, step: Step, vectors: Vectors, *, stops: bool) -> Course:
         """Return the course that is planned anew from a whole step."""
         old_first, old_ends, old = self.first, self.ends, self.vectors

@@ -16,7 +16,7 @@ from gve_line import Item, Packet, Refusal, Request, read_line
 from gve_record import Done, Edge, Session
 from gve_run import Runner
 from gve_state import BRAKE, BRAKE_MAX, NO_CRYSTAL, RESTARTED
-from gve_unit import LED_LATE, PAUSE_MAX_MS, PAUSED, Chooser, Unit, Unsure
+from gve_unit import LED_LATE, Chooser, Unit, Unsure
 from gve_words import Command
 
 TRIES_MAX = 400
@@ -137,8 +137,7 @@ class Model:
             unit.stand(min(ends), tick)
         unit.state.inta = unit.state.intcom = True
         low = max(math.floor(unit.stood_tick), item.tick)
-        patience = PAUSE_MAX_MS * MS if PAUSED in unit.allowed else MS
-        unit.answer(item, [unit.code(0)], low, max(low, earliest) + patience)
+        unit.answer(item, [unit.code(0)], low, max(low, earliest) + MS)
         unit.note_outputs(low, tick)
 
     def _waited(self, tick: int) -> Request:

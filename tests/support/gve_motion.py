@@ -105,12 +105,10 @@ class Motion:
         for course in self.courses:
             course.begin(vectors, at or course.rest, window)
 
-    def add(
-        self, tick: int, vectors: Vectors, pauses: tuple[int, int], *, late: int, at_end: bool
-    ) -> None:
+    def add(self, tick: int, vectors: Vectors, pause: int, *, late: int) -> None:
         """More vectors are known from a tick on, or from a little later.
 
-        A new chain would begin after a pause. `at_end`: so it may where only the end is left.
+        A new chain would begin after a pause.
         """
 
         def add_to(course: Course) -> list[Course]:
@@ -120,23 +118,20 @@ class Motion:
             joined = [course.change(step, vectors, stops=False) for step in places[:1]]
             if len(places) > 1 and not same_time(joined[0], places[-1]):
                 joined += [course.change(step, vectors, stops=False) for step in places[1:]]
-            over = not places or places[-1].time < tick + late + PATIENCE << ROOT_BITS
-            if over or (at_end and course.is_end(places[-1])):
-                joined.append(self._after(course, vectors, tick, late, pauses))
+            if not places or places[-1].time < tick + late + PATIENCE << ROOT_BITS:
+                joined.append(self._after(course, vectors, tick, late, pause))
             return joined
 
         self._settled(tick, add_to, PATIENCE + late)
 
     @staticmethod
-    def _after(
-        course: Course, vectors: Vectors, tick: int, late: int, pauses: tuple[int, int]
-    ) -> Course:
+    def _after(course: Course, vectors: Vectors, tick: int, late: int, pause: int) -> Course:
         """The course whose path comes to its end, so that the vectors begin a chain."""
         new = course.fork()
         end = math.ceil(course.end_tick())
         new.lay_until(end + 1)
-        low = max(tick, end, end + pauses[0] - 2)
-        window = low, max(tick + late + MS, end + pauses[1] + 1)
+        low = max(tick, end, end + pause - 2)
+        window = low, max(tick + late + MS, end + pause + 1)
         new.begin(vectors, (len(course.vectors), Fraction(0)), window)
         return new
 

@@ -22,15 +22,11 @@ from gve_state import INTA, INTCOM, RUN, STOP, State
 from gve_vector import Entry, path_of
 from gve_words import with_sum
 
-AT_END, EARLY, HURRIED, PAUSED = "at the end", "early", "hurried", "paused"
+EARLY = "early"
 """What a unit may be allowed to do besides the contract, so that the rest can be compared.
 
-AT_END: a C that comes on the last step of the last vector begins a chain. EARLY: a command is
-executed before the answers to those before it are out. HURRIED: pulses come too late after a C that
-comes shortly before a start. PAUSED: an H in the pause before a start is answered at its end.
+EARLY: a command is executed before the answers to those before it are out.
 """
-
-PAUSE_MAX_MS = 24
 
 
 SLACK = MS
@@ -246,16 +242,7 @@ class Unit:
         self.vectors += added[-len(new) :]
         self.entries += new
         if self.phase == "work":
-            pauses = [new[0].pause_ms]
-            if AT_END in self.allowed:
-                pauses = [1, PAUSE_MAX_MS]
-            self.motion.add(
-                low,
-                self.vectors,
-                (pauses[0] * MS, pauses[-1] * MS),
-                late=self.late,
-                at_end=AT_END in self.allowed,
-            )
+            self.motion.add(low, self.vectors, new[0].pause_ms * MS, late=self.late)
         for course in self.motion.courses:
             course.vectors = self.vectors
 

@@ -54,7 +54,7 @@ def end(process: subprocess.Popen[str], *numbers: signal.Signals) -> tuple[int, 
     return process.returncode, shown + told
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT])
 def test_a_signal_halts_a_job_and_tells_state_and_position(
     start_gve: Start, gve_line: FakeGveLine, unit: FakeGve, job: Path, number: signal.Signals
 ) -> None:

@@ -159,10 +159,13 @@ static bool all_rest(const struct group *group)
     return true;
 }
 
-/* All that is due up to the rest has been handed over by the time of the rest, if there was room. */
+/* All that is due up to the rest has been handed over by the time of the rest, if there was room. A path that is
+ * stopped before it has left its stand is at rest already. */
 static bool has_ended(const struct group *group, uint64_t now)
 {
-    return path_is_laid(&group->path) && group->path.rest.entry.time.high < now && all_rest(group);
+    const struct path *path = &group->path;
+    bool stays = path->stopping && path->rest.entry.time.high == path->origin.entry.time.high;
+    return path_is_laid(path) && (stays || path->rest.entry.time.high < now) && all_rest(group);
 }
 
 /* A stop that comes in just this moment is told as the cause, and there is nothing left to stop. */

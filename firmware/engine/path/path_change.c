@@ -135,7 +135,7 @@ static uint32_t section_at(struct path *path, uint64_t tick)
     return section;
 }
 
-/* The end of a section is the beginning of the next one. */
+/* The end of a section is the beginning of the next one; the end of what is planned that of one that was added. */
 static bool pass_border(const struct path *path, struct path_place *place)
 {
     const struct path_section *section = path_section_of(path, place->section);
@@ -143,7 +143,7 @@ static bool pass_border(const struct path *path, struct path_place *place)
         return true;
     }
     place->section++;
-    if (place->section == path->known) {
+    if (place->section == (path->start_speed == 0 ? path->end : path->known)) {
         return false;
     }
     place->entry.place = (struct wide){0};

@@ -43,7 +43,6 @@ void gve_queue_init(struct gve_queue *queue)
     queue->intcom = false;
     queue->halting = false;
     queue->stopping = false;
-    queue->moving = false;
     queue->last_tick = 0;
     gve_queue_couple(queue, OWN_AXIS);
 }
@@ -101,18 +100,12 @@ void gve_queue_add(struct gve_queue *queue, const struct gve_vector *vector, uin
     (void)added;
 }
 
-/* Whether a vector that is entered joins another one: else it begins a chain. */
-static bool joins(const struct gve_queue *queue)
-{
-    return gve_queue_runs(queue);
-}
-
 void gve_queue_enter(struct gve_queue *queue, const int32_t steps[PATH_AXES])
 {
     const struct gve_chain *chain = gve_queue_chain(queue);
     struct gve_vector vector = gve_speeds_take(&queue->modal, steps);
     uint32_t border_speed = PATH_SPEED_MAX;
-    if (joins(queue)) {
+    if (gve_queue_runs(queue)) {
         const struct gve_vector *before = &chain->vectors[(group_end(&chain->group) - 1U) & (chain->size - 1U)];
         border_speed = gve_speeds_border(before, &vector, queue->modal.jump);
     } else {

@@ -95,7 +95,6 @@ struct gve_queue {
     bool intcom;
     bool halting;                       /* H waits for the axes */
     bool stopping;                      /* a stop by SW6 waits for them */
-    bool moving;                        /* a motion has been told to onlookers */
     uint64_t pause_ticks;               /* before the next start; 0: it goes on */
     uint64_t last_tick;                 /* of the last pulse of all axes; 0: none was made */
     int64_t start_steps[UNIT_MOTORS];   /* positions at the last start */

@@ -242,3 +242,47 @@ void test_missing_parameters_of_a_vector_are_0(void)
     rig_run_ms(2000);
     rig_expect("0P4", "0,12,24,6,4");
 }
+
+void test_a_vector_that_comes_on_the_last_step_goes_on_from_the_stand(void)
+{
+    const uint64_t way_ticks = 1187939; /* one pulse from stand to stand with A20: twice the root of 1/20 000 s */
+    (void)enter("0L1");
+    rig_run_ms(4);
+    (void)enter("0C1");
+    rig_run_ms(15);
+    uint64_t end = rig_pulse_tick[0];
+    rig_run_ms(100);
+    TEST_ASSERT_EQUAL_UINT(2, rig_pulses[0]);
+    TEST_ASSERT_UINT64_WITHIN(1, end + way_ticks, rig_pulse_tick[0]);
+}
+
+void test_a_halt_in_a_pause_is_answered_at_once(void)
+{
+    rig_expect("0T24", "0");
+    (void)enter("0L4");
+    rig_run_ms(30);
+    (void)enter("0L4");
+    rig_run_ms(2);
+    rig_heard_count = 0;
+    rig_send("!0H\r");
+    TEST_ASSERT_EQUAL_STRING("8", rig_answer_within(1));
+    TEST_ASSERT_EQUAL_UINT(4, rig_pulses[0]);
+    rig_expect("0G", "0");
+    rig_run_ms(100);
+    TEST_ASSERT_EQUAL_UINT(8, rig_pulses[0]);
+}
+
+/* The pulse of L1 comes 14.14 ms after a start that is 0.6 ms after the CR. */
+void test_a_vector_that_comes_too_late_to_join_begins_a_chain_after_the_pause(void)
+{
+    const uint64_t to_pulse_ticks = 600U * TICKS_PER_US + 1187939U;
+    rig_expect("0T5", "0");
+    uint64_t end = enter("0L1") + to_pulse_ticks;
+    rig_run_ticks(end - 100U * TICKS_PER_US - 7U * (uint64_t)RIG_BYTE_TICKS - machine.now);
+    (void)enter("0C100");
+    rig_run_ticks(RIG_MS);
+    TEST_ASSERT_UINT64_WITHIN(RIG_MS / 10U, end, rig_pulse_tick[0]);
+    uint64_t last = rig_pulse_tick[0];
+    uint64_t start = next_start(100);
+    TEST_ASSERT_UINT64_WITHIN(2, last + 5U * (uint64_t)RIG_MS, start);
+}

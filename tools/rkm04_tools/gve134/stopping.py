@@ -24,7 +24,7 @@ from rkm04_tools.gve134.unit import Halted, Unit
 ENDED_BEFORE = "the tool was ended before the unit had confirmed the stop"
 TWICE_SECONDS = 0.3
 """A second signal before that is the same wish: H has gone out by then."""
-SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
+SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT")
 # Letters of five rows and five columns, a row a number, the left column its highest bit.
 LETTERS = {
     "N": (17, 25, 21, 19, 17), "O": (14, 17, 17, 17, 14), "T": (31, 4, 4, 4, 4),
