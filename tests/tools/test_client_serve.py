@@ -147,6 +147,15 @@ def test_a_line_that_only_harms_ends_in_a_typed_error(port):
         bad.close()
 
 
+def test_every_exchange_gets_through_the_bad_line_of_a_unit(serve):
+    port = serve("--node", str(NODE), "--unpaced", "--noise", "500", "--loss", "500")
+    with open_line(port) as client:
+        motor = client.unit(NODE).motor(2)
+        for number in range(1, 51):
+            motor.send(f"F{number}")
+            assert motor.program() == f"F{number}"
+
+
 def position(port: str) -> int:
     with open_line(port) as line:
         return line.unit(NODE).motor(2).position()

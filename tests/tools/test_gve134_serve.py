@@ -43,7 +43,7 @@ class Host:
                 return None
             self._came += os.read(self._fd, 4096)
         answer, _, self._came = self._came.partition(b"\r")
-        return answer.decode()
+        return answer.decode("latin-1")
 
     def ask(self, line: str) -> str | None:
         self.send(line)
@@ -185,6 +185,50 @@ def order(served: Served, text: str) -> dict[str, object]:
     return answer
 
 
+# ---- a bad line ---------------------------------------------------------------------------------
+
+
+def heard(host: Host, count: int) -> list[str]:
+    """What comes back to so many commands, sent together, and a silence after them."""
+    host.send("\r".join(f"!0A{number + 100}" for number in range(count)))
+    came = []
+    while (answer := host.answer(SILENCE_SECONDS)) is not None:
+        came.append(answer)
+    return came
+
+
+def test_a_bad_line_is_the_same_with_the_same_seed_and_another_one_with_another(
+    serve: Serve, meet: Meet
+) -> None:
+    bad = ["--noise", "2000", "--loss", "2000", "--seed"]
+    one, same, other = (heard(meet(serve(*bad, seed)), 300) for seed in ("1", "1", "2"))
+
+    assert one == same
+    assert one != other
+    assert one != ["0"] * 300
+
+
+def test_what_a_line_changes_and_loses_is_told(serve: Serve, meet: Meet) -> None:
+    served = serve("--unpaced", "--noise", "20000", "--loss", "10000")
+    heard(meet(served), 1000)
+    state = order(served, "?")
+
+    assert isinstance(state["changed"], int)
+    assert isinstance(state["lost"], int)
+    assert 100 < state["changed"] < 400
+    assert 50 < state["lost"] < 200
+
+
+def test_a_line_that_loses_all_is_silent_and_a_good_one_harms_nothing(
+    serve: Serve, meet: Meet
+) -> None:
+    assert heard(meet(serve("--loss", "1000000")), 3) == []
+    served = serve("--seed", "7")
+    assert heard(meet(served), 3) == ["0"] * 3
+    state = order(served, "?")
+    assert (state["changed"], state["lost"]) == (0, 0)
+
+
 # ---- the EEPROM ---------------------------------------------------------------------------------
 
 
@@ -253,6 +297,8 @@ def test_a_flash_in_use_is_refused(serve: Serve, tmp_path: Path) -> None:
         (["--baud", "19200"], "--baud 19200: no rate of the unit; write 38400, 57600, 115200, "),
         (["--speed", "2000"], "--speed 2000: write 0.001 to 1000 times real time"),
         (["--tcp", "99999"], "--tcp 99999: not a port"),
+        (["--noise", "1000001"], "--noise 1000001: not such a number, or out of range"),
+        (["--loss", "-1"], "--loss -1: not such a number, or out of range"),
         (["--node", "1"], "unrecognized arguments: --node 1"),
         (["--tcp", "0", "--pty", "x"], "not allowed with argument"),
     ],

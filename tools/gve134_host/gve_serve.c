@@ -5,7 +5,8 @@
 
 const char gve_serve_usage[] =
     "usage: gve134-host serve [--tcp PORT | --pty PATH] [--flash FILE] [--speed X] [--baud N]\n"
-    "                         [--unpaced] [--control PORT] [--address ADDRESS] [--json] [--until-eof]\n"
+    "                         [--unpaced] [--control PORT] [--address ADDRESS] [--noise N] [--loss N] [--seed N]\n"
+    "                         [--json] [--until-eof]\n"
     "\n"
     "A unit in real time, until Ctrl-C. When ready it prints where it listens.\n"
     "\n"
@@ -17,6 +18,9 @@ const char gve_serve_usage[] =
     "--unpaced         bytes take no time on the line\n"
     "--control PORT    takes the lines of standard input by TCP too; 0 takes any free port\n"
     "--address ADDRESS listens there, for others to connect (127.0.0.1: only this machine)\n"
+    "--noise N         a bad line: so many bytes of a million come changed, on both ways (0)\n"
+    "--loss N          and so many are lost (0)\n"
+    "--seed N          others are changed and lost with another one (0)\n"
     "--json            says where it listens as a JSON object\n"
     "--until-eof       ends when standard input does, as it does when the program that writes there ends\n"
     "\n"

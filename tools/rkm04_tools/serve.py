@@ -34,6 +34,9 @@ PASSED_ON: Passed = [
     ("--speed", "X", "times real time, 0.001 to 1000; 0: as fast as possible (default: 1)"),
     ("--control", "PORT", "take the lines of standard input by TCP too (0: any free port)"),
     ("--address", "ADDRESS", "listen there (default: 127.0.0.1, for this machine only)"),
+    ("--noise", "N", "a bad line: N bytes of a million are changed, each way (default: 0)"),
+    ("--loss", "N", "N bytes of a million are lost, each way (default: 0)"),
+    ("--seed", "N", "with another seed other bytes are changed and lost (default: 0)"),
 ]
 
 

@@ -282,8 +282,8 @@ static void hold_standard_descriptors(void)
 static enum exit_status begin(struct serve *serve)
 {
     hold_standard_descriptors();
-    serve_line_init(&serve->line, &serve->line_port, serve->options->unpaced ? 0 : serve->kind->byte_ticks);
-    serve_talk_init(&serve->talk, &serve->units, &serve->line_port, &serve->control_port);
+    serve_line_init(&serve->line, &serve->line_port, serve->kind->byte_ticks, serve->options);
+    serve_talk_init(&serve->talk, &serve->units, &serve->line, &serve->control_port);
     serve->slots[SLOT_SIGNAL] = (struct pollfd){.fd = serve_signal_catch(), .events = POLLIN};
     serve->slots[SLOT_USER] = (struct pollfd){.fd = STDIN_FILENO, .events = POLLIN};
     if (serve->slots[SLOT_SIGNAL].fd < 0) {

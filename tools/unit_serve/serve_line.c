@@ -8,13 +8,18 @@ enum {
     UNPACED_TICKS = 1
 };
 
-void serve_line_init(struct serve_line *line, struct serve_port *port, uint32_t byte_ticks)
+void serve_line_init(struct serve_line *line, struct serve_port *port, uint32_t byte_ticks,
+                     const struct serve_options *options)
 {
+    uint32_t noise = (uint32_t)options->noise;
+    uint32_t loss = (uint32_t)options->loss;
     line->heard_count = 0;
-    line->byte_ticks = byte_ticks == 0 ? UNPACED_TICKS : byte_ticks;
+    line->byte_ticks = options->unpaced ? UNPACED_TICKS : byte_ticks;
     line->last_tick = 0;
     line->said_count = 0;
     line->port = port;
+    serve_noise_init(&line->to_units, noise, loss, options->seed);
+    serve_noise_init(&line->to_clients, noise, loss, ~options->seed);
 }
 
 uint32_t serve_line_room(struct serve_line *line, uint64_t now)
@@ -33,8 +38,11 @@ void serve_line_put(struct serve_line *line, uint64_t now, const uint8_t *bytes,
     assert(count <= SERVE_HEARD_MAX - line->heard_count);
     for (uint32_t i = 0; i < count; i++) {
         uint64_t begin = line->last_tick < now ? now : line->last_tick;
+        uint8_t value = bytes[i];
         line->last_tick = begin + line->byte_ticks;
-        line->heard[line->heard_count++] = (struct host_line_byte){.tick = line->last_tick, .value = bytes[i]};
+        if (serve_noise_pass(&line->to_units, &value)) {
+            line->heard[line->heard_count++] = (struct host_line_byte){.tick = line->last_tick, .value = value};
+        }
     }
 }
 
@@ -42,6 +50,9 @@ void serve_line_say(void *context, uint64_t tick, uint8_t value)
 {
     struct serve_line *line = context;
     (void)tick;
+    if (!serve_noise_pass(&line->to_clients, &value)) {
+        return;
+    }
     if (line->said_count == SERVE_SAID_MAX) {
         serve_line_flush(line);
     }

@@ -1,6 +1,6 @@
 /*
  * The line between clients and units: what clients send goes to every unit at the same tick, what units send to every
- * client. Units do not hear each other.
+ * client. Units do not hear each other. A bad line loses and changes bytes on both ways; all who listen miss the same.
  */
 #ifndef SERVE_LINE_H
 #define SERVE_LINE_H
@@ -9,6 +9,8 @@
 #include <stdint.h>
 
 #include "host_machine.h"
+#include "serve_noise.h"
+#include "serve_options.h"
 #include "serve_port.h"
 
 enum {
@@ -24,10 +26,13 @@ struct serve_line {
     uint8_t said[SERVE_SAID_MAX]; /* by units, not yet given to clients */
     uint32_t said_count;
     struct serve_port *port;
+    struct serve_noise to_units;
+    struct serve_noise to_clients;
 };
 
-/* `byte_ticks`: what a byte takes; 0: next to nothing. */
-void serve_line_init(struct serve_line *line, struct serve_port *port, uint32_t byte_ticks);
+/* `byte_ticks`: what a byte takes, unless the options say that it takes next to nothing. */
+void serve_line_init(struct serve_line *line, struct serve_port *port, uint32_t byte_ticks,
+                     const struct serve_options *options);
 
 /* Forgets the bytes that all units have heard: those before `now`. Returns the room for more. */
 uint32_t serve_line_room(struct serve_line *line, uint64_t now);

@@ -5,10 +5,12 @@
 
 #include "arguments.h"
 #include "serve_clock.h"
+#include "serve_noise.h"
 
 enum {
     SPEED_DECIMALS = 3,
     PORT_MAX = 65535,
+    SEED_MAX = 1000000000,
 };
 
 static bool read_port(const char *name, const char *value, uint16_t *port)
@@ -65,6 +67,12 @@ static bool read_speed(void *target, const char *value)
     return true;
 }
 
+#define NUMBER_ROW(option, member, limit)                                                                              \
+    {.name = (option),                                                                                                 \
+     .kind = ARGUMENT_NUMBER,                                                                                          \
+     .offset = offsetof(struct serve_options, member),                                                                 \
+     .number = {.most = (limit), .factor = 1}}
+
 static const struct argument common_rows[] = {
     ARGUMENT_TEXT_ROW(serve_options, "--pty", pty),
     ARGUMENT_TEXT_ROW(serve_options, "--flash", flash),
@@ -72,6 +80,9 @@ static const struct argument common_rows[] = {
     ARGUMENT_FLAG_ROW(serve_options, "--unpaced", unpaced),
     ARGUMENT_FLAG_ROW(serve_options, "--json", json),
     ARGUMENT_FLAG_ROW(serve_options, "--until-eof", until_eof),
+    NUMBER_ROW("--noise", noise, SERVE_NOISE_PER_MAX),
+    NUMBER_ROW("--loss", loss, SERVE_NOISE_PER_MAX),
+    NUMBER_ROW("--seed", seed, SEED_MAX),
     ARGUMENT_OTHER_ROW("--tcp", read_tcp),
     ARGUMENT_OTHER_ROW("--control", read_control),
     ARGUMENT_OTHER_ROW("--speed", read_speed),

@@ -20,6 +20,9 @@ struct serve_options {
     const char *address;  /* to listen on */
     const char *flash;    /* null: programs are kept until the end only */
     uint64_t baud;        /* the rate of the line, where it can be chosen; 0: as it is delivered */
+    uint64_t noise;       /* bytes of a million that the line changes, each way */
+    uint64_t loss;        /* and that it loses */
+    uint64_t seed;        /* of what is changed and lost */
     uint32_t milli_speed; /* thousandths of real time; 0: as fast as possible */
     uint16_t tcp_port;    /* 0: any free one */
     uint16_t control_port;

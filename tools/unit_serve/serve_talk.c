@@ -9,11 +9,11 @@ enum {
     ANSWER_BYTES_MAX = SERVE_STATUS_BYTES_MAX + 128,
 };
 
-void serve_talk_init(struct serve_talk *talk, struct serve_units *units, const struct serve_port *line_port,
+void serve_talk_init(struct serve_talk *talk, struct serve_units *units, const struct serve_line *line,
                      struct serve_port *control)
 {
     talk->units = units;
-    talk->line_port = line_port;
+    talk->line = line;
     talk->control = control;
     serve_text_clear(&talk->user);
     for (unsigned i = 0; i < SERVE_CLIENTS_MAX; i++) {
@@ -46,16 +46,24 @@ static void answer_done(struct serve_talk *talk, int client)
     answer(talk, client, text, line_put_string(text, "{\"ok\": true}\n"));
 }
 
+static char *put_count(const char *name, uint64_t count, char *at)
+{
+    at = line_put_string(at, ", \"");
+    at = line_put_string(at, name);
+    at = line_put_string(at, "\": ");
+    return line_put_unsigned(at, count);
+}
+
 static void answer_status(struct serve_talk *talk, int client)
 {
     char text[ANSWER_BYTES_MAX];
     for (unsigned i = 0; i < talk->units->count; i++) {
         char *at = line_put_string(text, "{");
         at = serve_unit_put_status(talk->units->list[i], at);
-        at = line_put_string(at, ", \"clients\": ");
-        at = line_put_unsigned(at, serve_port_clients(talk->line_port));
-        at = line_put_string(at, ", \"dropped\": ");
-        at = line_put_unsigned(at, talk->line_port->dropped);
+        at = put_count("clients", serve_port_clients(talk->line->port), at);
+        at = put_count("dropped", talk->line->port->dropped, at);
+        at = put_count("lost", talk->line->to_units.lost + talk->line->to_clients.lost, at);
+        at = put_count("changed", talk->line->to_units.changed + talk->line->to_clients.changed, at);
         answer(talk, client, text, line_put_string(at, "}\n"));
     }
 }

@@ -6,19 +6,20 @@
 
 #include <stddef.h>
 
+#include "serve_line.h"
 #include "serve_order.h"
 #include "serve_port.h"
 #include "serve_units.h"
 
 struct serve_talk {
     struct serve_units *units;
-    const struct serve_port *line_port; /* whose clients and losses the state tells */
+    const struct serve_line *line; /* whose clients and losses the state tells */
     struct serve_port *control;
     struct serve_text user;
     struct serve_text clients[SERVE_CLIENTS_MAX];
 };
 
-void serve_talk_init(struct serve_talk *talk, struct serve_units *units, const struct serve_port *line_port,
+void serve_talk_init(struct serve_talk *talk, struct serve_units *units, const struct serve_line *line,
                      struct serve_port *control);
 
 /* Takes what has come from standard input; answers there. */

@@ -11,6 +11,7 @@ from rkm04_tools.gve134 import host
 EXAMPLE = """\
 gve134 serve --flash unit.flash
   gve134 serve --pty /tmp/unit --speed 10
+  gve134 serve --noise 500 --loss 500      # one byte of a thousand comes to harm
 
 Others then connect, from a second terminal:
   gve134 status --port socket://127.0.0.1:5000
@@ -27,6 +28,9 @@ PASSED_ON: serve.Passed = [
     ("--baud", "N", "the rate of the line, 38400 to 921600 (default: 115200)"),
     ("--control", "PORT", "take the lines of standard input by TCP too (0: any free port)"),
     ("--address", "ADDRESS", "listen there (default: 127.0.0.1, for this machine only)"),
+    ("--noise", "N", "a bad line: N bytes of a million are changed, each way (default: 0)"),
+    ("--loss", "N", "N bytes of a million are lost, each way (default: 0)"),
+    ("--seed", "N", "with another seed other bytes are changed and lost (default: 0)"),
 ]
 
 
