@@ -151,9 +151,11 @@ def test_every_exchange_gets_through_the_bad_line_of_a_unit(serve):
     port = serve("--node", str(NODE), "--unpaced", "--noise", "500", "--loss", "500")
     with open_line(port) as client:
         motor = client.unit(NODE).motor(2)
+        program = ""
         for number in range(1, 51):
             motor.send(f"F{number}")
-            assert motor.program() == f"F{number}"
+            program += f"F{number}"
+            assert motor.program() == program
 
 
 def position(port: str) -> int:
