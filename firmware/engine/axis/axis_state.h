@@ -2,12 +2,12 @@
  * The states of an axis, and what leads from one to another. One trigger, one reason: whatever ends a motion goes
  * through this table, and the first that comes is the one that counts.
  *
- *               BEGIN    REFUSE   STOP      HALT       PLANNED    LAST     TAKE
- *   STANDING    MOVING   ENDED    -         -          -          -        -
- *   MOVING      -        -        BRAKING   STOPPING   -          ENDED    -
- *   BRAKING     -        -        -         -          STOPPING   ENDED    -
- *   STOPPING    -        -        -         -          -          ENDED    -
- *   ENDED       -        -        -         -          -          -        STANDING
+ *               BEGIN    REFUSE   STOP      HALT       PLANNED    RESUME   LAST     TAKE
+ *   STANDING    MOVING   ENDED    -         -          -          -        -        -
+ *   MOVING      -        -        BRAKING   STOPPING   -          -        ENDED    -
+ *   BRAKING     -        -        -         -          STOPPING   -        ENDED    -
+ *   STOPPING    -        -        -         -          -          MOVING   ENDED    -
+ *   ENDED       -        -        -         -          -          -        -        STANDING
  *
  * The states of a group are the same, of all its motors together.
  * Any context but the step interrupt.
@@ -35,6 +35,7 @@ enum axis_event {
     AXIS_STOP,    /* stop down the ramp */
     AXIS_HALT,    /* stop at once */
     AXIS_PLANNED, /* the stop has been planned */
+    AXIS_RESUME,  /* a stop is taken back; groups only */
     AXIS_LAST,    /* the last pulse has been made */
     AXIS_TAKE,    /* the owner has seen the end */
     AXIS_EVENTS,

@@ -38,6 +38,13 @@ void group_connect(struct group *group, unsigned motor, struct step_channel *cha
     group->axis[motor] = (uint8_t)axis;
 }
 
+void group_set_manner(struct group *group, const struct group_manner *manner)
+{
+    assert(!group_is_busy(group) && group->path.first == group->path.end);
+    group->manner = *manner;
+    path_set_start_speed(&group->path, manner->start_speed);
+}
+
 bool group_add(struct group *group, const struct path_vector *vector)
 {
     hal_run_hold_plan();
@@ -245,4 +252,13 @@ void group_forget(struct group *group)
 {
     assert(!group_is_busy(group));
     path_init(&group->path, group->path.ring, group->path.size, group->path.turn_us);
+    path_set_start_speed(&group->path, group->manner.start_speed);
+}
+
+uint32_t group_speed_at(struct group *group, uint32_t section, uint32_t step)
+{
+    hal_run_hold_plan();
+    uint32_t speed = path_speed_at(&group->path, section, step);
+    hal_run_release_plan();
+    return speed;
 }

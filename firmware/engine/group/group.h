@@ -31,6 +31,14 @@ struct group_speeds {
     void *context;
 };
 
+/* How a group moves. */
+struct group_manner {
+    uint32_t start_speed; /* path_set_start_speed */
+    uint32_t fault_accel; /* with which a stop for AXIS_CAUSE_FAULT brakes, 1/128 step/s^2, up to PATH_ACCEL_MAX; 0, or
+                             where the motion ends before: as other stops. What is left is not to be gone on with. */
+    bool between_steps;   /* in a cruise a change does not wait for a step that is due more than 0.5 ms later */
+};
+
 /*
  * Who may call:
  *   tick interrupt   group_stop_isr
@@ -41,6 +49,7 @@ struct group_speeds {
  */
 struct group {
     struct path path;
+    struct group_manner manner;
     struct group_speeds speeds;                /* that wait to be taken, if `of` is not NULL */
     struct step_channel *channel[UNIT_MOTORS]; /* NULL: the motor is not of the group */
     uint8_t axis[UNIT_MOTORS];                 /* of the path, that the motor follows */
@@ -57,6 +66,9 @@ void group_init(struct group *group, struct path_section *ring, uint32_t size);
  * axis. Main is not woken for each segment of the channel from then on, but for half of its queue. Only while STANDING,
  * and not where something is left of a path that has moved the axis. */
 void group_connect(struct group *group, unsigned motor, struct step_channel *channel, unsigned axis);
+
+/* Only while STANDING, and without vectors. All 0 after group_init; group_forget leaves it. */
+void group_set_manner(struct group *group, const struct group_manner *manner);
 
 /* Appends a vector. False if there is no room. A motion in progress takes it along if it can, and needs no stop for
  * it. Vectors in which an axis turns after one without steps on it last hal_step_turn_us at least. */
@@ -75,11 +87,15 @@ uint32_t group_end(const struct group *group);
 bool group_start(struct group *group, uint64_t start_tick);
 
 /* Stops the motion down its ramp. True if this is why it ends; else nothing happens, as it does not move, or is being
- * stopped already. */
+ * stopped already; but a stop for AXIS_CAUSE_FAULT takes the place of another one. */
 bool group_stop(struct group *group, enum axis_cause cause);
 
 /* The same in the tick interrupt. True: the plan interrupt is needed. */
 bool group_stop_isr(struct group *group, enum axis_cause cause);
+
+/* Takes a stop back: the motion goes on from the first step at which a change can take effect, with the speeds that its
+ * sections have. False if there is no stop, or it comes to rest before: to be asked again, or started after the end. */
+bool group_resume(struct group *group);
 
 /* Plans a stop that was asked for. */
 void group_plan_isr(struct group *group);
@@ -117,6 +133,9 @@ static inline enum axis_cause group_cause(const struct group *group)
 
 /* The unit's time at which the path came to rest; of the motion that was taken last. */
 uint64_t group_end_tick(const struct group *group);
+
+/* The speed of the path at a whole step of a section (path_speed_at). */
+uint32_t group_speed_at(struct group *group, uint32_t section, uint32_t step);
 
 /* Whether something is left of the path, or waits. */
 bool group_has_rest(const struct group *group);

@@ -12,7 +12,8 @@ enum {
     LEAD_TICKS_MAX = 8 * LEAD_TICKS,
     LOOK_TICKS = 2 * TICKS_PER_US / 5, /* more for each section that is looked at, */
     SPEED_TICKS = LOOK_TICKS,          /* and for each that gets another speed */
-    GO_ON_TICKS = 300 * TICKS_PER_US,  /* so much is handed over after the place at once */
+    PATIENCE_TICKS = 500 * TICKS_PER_US,
+    GO_ON_TICKS = 300 * TICKS_PER_US, /* so much is handed over after the place at once */
 };
 
 /* Thaws the motors before `motor`. */
@@ -117,15 +118,37 @@ static uint64_t lead_of(const struct group *group)
     return (uint64_t)LEAD_TICKS + sections * each;
 }
 
+/* With which a stop brakes; 0: with that of the sections. */
+static uint32_t accel_of(const struct group *group)
+{
+    bool fault = is_in(group, AXIS_BRAKING) && group_cause(group) == AXIS_CAUSE_FAULT;
+    return fault ? group->manner.fault_accel : 0;
+}
+
+/* The first place that leaves time enough. */
+static bool find(struct group *group, uint64_t lead, struct path_place *place)
+{
+    struct path_wish wish = {
+        .tick = hal_time_now() + lead,
+        .patience_ticks = group->manner.between_steps ? (uint64_t)PATIENCE_TICKS : TICK_NEVER / 2U,
+        .accel = accel_of(group),
+    };
+    bool found = path_find(&group->path, &wish, place);
+    if (found && wish.accel != 0 && !path_can_rest(&group->path, place)) {
+        wish.accel = 0;
+        found = path_find(&group->path, &wish, place);
+    }
+    return found;
+}
+
 /* Plans anew from the first place that leaves time enough; where it is too late to take back what lies after it, from
  * one that is twice as far ahead. */
 static enum change change(struct group *group)
 {
     for (uint64_t lead = lead_of(group); lead <= (uint64_t)LEAD_TICKS_MAX; lead *= 2U) {
-        const struct path_wish wish = {.tick = hal_time_now() + lead, .patience_ticks = TICK_NEVER / 2U};
         struct path_place place;
         uint64_t back[PATH_AXES];
-        if (!path_find(&group->path, &wish, &place)) {
+        if (!find(group, lead, &place)) {
             return RESTS;
         }
         if (!reach(group, &place, back)) {
@@ -169,6 +192,10 @@ void group_plan_isr(struct group *group)
 
 bool group_stop_isr(struct group *group, enum axis_cause cause)
 {
+    bool harder = cause == AXIS_CAUSE_FAULT && group_cause(group) != AXIS_CAUSE_FAULT;
+    if (harder) {
+        (void)axis_state_enter(&group->state, AXIS_RESUME);
+    }
     bool stops = axis_state_enter(&group->state, AXIS_STOP);
     if (stops) {
         atomic_store_explicit(&group->cause, (unsigned)cause, memory_order_relaxed);
@@ -193,4 +220,22 @@ void group_set_speeds(struct group *group, const struct group_speeds *speeds)
     group->speeds = *speeds;
     group_plan(group);
     hal_run_release_plan();
+}
+
+/* The tick interrupt may stop it meanwhile: then that counts. */
+bool group_resume(struct group *group)
+{
+    hal_run_hold_plan();
+    unsigned cause = atomic_load_explicit(&group->cause, memory_order_relaxed);
+    bool resumes = axis_state_enter(&group->state, AXIS_RESUME);
+    if (resumes && change(group) != CHANGED) {
+        (void)axis_state_enter(&group->state, AXIS_HALT);
+        resumes = false;
+    }
+    if (resumes) {
+        (void)atomic_compare_exchange_strong_explicit(&group->cause, &cause, AXIS_CAUSE_NONE, memory_order_relaxed,
+                                                      memory_order_relaxed);
+    }
+    hal_run_release_plan();
+    return resumes;
 }

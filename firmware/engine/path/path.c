@@ -24,6 +24,26 @@ bool path_is_laid(const struct path *path)
     return path->laid == path->known;
 }
 
+/* Whether the path comes into its last section as fast as it would have ended before it, at least. */
+static bool is_as_fast(const struct path *path, uint32_t section)
+{
+    const struct path_section *after = path_section_of(path, section);
+    if (section == path->first) {
+        return false;
+    }
+    uint64_t speed2 = path_section_of(path, section - 1U)->speed2;
+    return after->speed2 >= speed2 && after->border2 >= speed2;
+}
+
+/* The path goes on to its last section, unless all before it has been laid. */
+static void join(struct path *path)
+{
+    if (!path->stopping && !path_is_laid(path)) {
+        path->known = path->end;
+    }
+    path->chain = path->end;
+}
+
 bool path_add(struct path *path, const struct path_vector *vector)
 {
     if (path->end - path->first == path->size) {
@@ -35,10 +55,19 @@ bool path_add(struct path *path, const struct path_vector *vector)
         path_section_mind_turns(section, path_section_of(path, path->end - 1U), path->turn_us);
     }
     path->end++;
-    if (!path->stopping && !path_is_laid(path) && path->start_speed == 0) {
-        path->known = path->end;
+    if (path->start_speed == 0 || (path->chain == path->end - 1U && is_as_fast(path, path->end - 1U))) {
+        join(path);
     }
     return true;
+}
+
+uint32_t path_speed_at(struct path *path, uint32_t section, uint32_t step)
+{
+    if (section - path->first >= path->laid - path->first) {
+        return 0;
+    }
+    struct path_entry at = path_course_step(path_lay_course(path, section), step);
+    return (uint32_t)wide_root_nearest((struct wide){.low = at.speed2});
 }
 
 bool path_lags(struct path *path)

@@ -68,7 +68,7 @@ struct path {
     uint32_t known;  /* count after the last one that is planned */
     uint32_t looked; /* count after the last one that look-ahead knows: it waits until what is laid next hangs on it */
     uint32_t end;    /* count after the last one in the ring */
-    uint32_t chain;  /* count after the last one that was there when the path left a stand */
+    uint32_t chain;  /* count after the last one that a path with a start speed goes on to */
     bool stopping;
     bool too_fast;            /* `laid` is left at the speed to which it can be braked */
     bool held_back;           /* the speed at which `laid` is entered was as low as the end that was known made it */
@@ -97,14 +97,19 @@ void path_init(struct path *path, struct path_section *ring, uint32_t size, uint
  *   takes speeds up to S at once where it is changed, no higher than the border allowed as long as an axis that turned
  *   there has not made its first pulse; and falls from S to a speed below at once,
  *   is stopped when it has braked to S; at once, if it is no faster,
- *   is the vectors that were there when it left the stand: later ones wait for the next start, as a border with a turn
- *   or a low border speed may be slower than the end that was planned.
+ *   is the vectors that were there when it left the stand, and later ones that are as fast
+ *   and are entered with no less than their speed: others wait for the next start, as their border may be slower than
+ *   the end that was planned.
  * Borders are as ever: the path is at 0 where a border speed wants it. The path must stand. */
 void path_set_start_speed(struct path *path, uint32_t start_speed);
 
 /* Appends a vector; false if the ring is full. A path that moves joins it by itself, if not all of it has been laid.
  * Look-ahead comes later, once for all vectors that have been added until the path hangs on them. */
 bool path_add(struct path *path, const struct path_vector *vector);
+
+/* The speed with which the path comes through a whole step of a section's longest axis, as it is planned; where it
+ * was changed after that step, the speed at the change. 1/256 step/s; 0 where the section has not been laid. */
+uint32_t path_speed_at(struct path *path, uint32_t section, uint32_t step);
 
 /* Whether a change would make the path faster or longer, as vectors have been added after it had been laid so far that
  * they did not count. */
@@ -137,6 +142,9 @@ static inline void path_set_speed(const struct path *path, uint32_t section, uin
 {
     path_section_set_speed(&path->ring[section & (path->size - 1U)], speed);
 }
+
+/* Whether a path that is stopped at a place with an acceleration of its own comes to rest before its end. */
+bool path_can_rest(const struct path *path, const struct path_place *place);
 
 /* How many of the last pulses of each axis that were handed over lie after a place that path_find has found: those that
  * a change there makes void. False if an axis has not been handed over as far as that. */

@@ -45,22 +45,6 @@ static uint64_t way_at(const struct look *look, uint64_t *rest)
     return wide_divide(path_wide_multiply(mean, ticks), STEP_QUANTA, rest);
 }
 
-static struct wide grains_of(const struct path_course *course, uint64_t step)
-{
-    return path_wide_multiply(course->grains_per_step, step);
-}
-
-/* A whole step of the course, on whichever leg it is. */
-static struct path_entry step_at(const struct path_course *course, uint64_t step)
-{
-    struct wide place = grains_of(course, step);
-    const struct path_leg *leg = &course->leg[0];
-    for (unsigned i = 0; i + 1U < course->legs && !path_wide_is_at_least(course->leg[i].end, place); i++) {
-        leg = &course->leg[i + 1U];
-    }
-    return path_course_at(course, leg, place);
-}
-
 /* The first whole step of the course after its beginning that is due at or after a tick; after the last one if none is.
  * What way_at tells is less than the way of a tick too much, so the step before that one is due earlier. It is hardly
  * too little: the leg's place and the way are rounded down, which makes two steps, a speed's fraction of a quantum and
@@ -75,7 +59,7 @@ static uint64_t find_step(const struct look *look)
     uint64_t step = begin + way_at(look, &rest);
     step = step < first ? first : step;
     for (unsigned i = 0; i < most; i++) {
-        if (step > last || is_due(step_at(look->course, step).time, look->tick)) {
+        if (step > last || is_due(path_course_step(look->course, step).time, look->tick)) {
             break;
         }
         step++;
@@ -105,7 +89,7 @@ static bool find_in(const struct look *look, uint64_t patience_ticks, uint64_t g
     uint64_t last = wide_divide(look->course->end, look->course->grains_per_step, &rest);
     uint64_t step = find_step(look);
     if (step <= last) {
-        *entry = step_at(look->course, step);
+        *entry = path_course_step(look->course, step);
         entry->place = path_wide_multiply(grains_per_step, step);
     }
     bool soon = step <= last && entry->time.high <= look->tick + patience_ticks;
@@ -222,6 +206,20 @@ static uint64_t count_void(const struct path *path, const struct path_place *pla
         count += path_section_steps(path_section_of(path, i), axis);
     }
     return count - there;
+}
+
+bool path_can_rest(const struct path *path, const struct path_place *place)
+{
+    uint64_t steps = 0;
+    uint64_t rest = 0;
+    uint32_t end = path->start_speed == 0 ? path->end : path->chain;
+    for (uint32_t i = place->section; i != end; i++) {
+        steps += path_section_of(path, i)->length;
+    }
+    steps -= wide_divide(place->entry.place, path_lay_grains(path, place), &rest);
+    struct wide gain = path_wide_multiply(PATH_GRAINS_PER_ACCEL / 2U * place->accel, steps - (rest != 0 ? 1U : 0U));
+    gain = path_wide_add(gain, (struct wide){.low = path_look_start2(path)});
+    return path_wide_is_at_least(gain, (struct wide){.low = place->entry.speed2});
 }
 
 /* An axis that turns must be slower at the border if it speeds up faster after it. */

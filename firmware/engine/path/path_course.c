@@ -72,6 +72,19 @@ static struct wide cruise_time(const struct path_leg *leg, struct wide steps)
     return path_wide_add(leg->time, path_fixed_multiply(path_wide_subtract(steps, leg->begin), leg->pace));
 }
 
+struct path_entry path_course_step(const struct path_course *course, uint64_t step)
+{
+    struct wide place = path_wide_multiply(course->grains_per_step, step);
+    const struct path_leg *leg = &course->leg[0];
+    if (!path_wide_is_at_least(place, leg->place)) {
+        place = leg->place;
+    }
+    for (unsigned i = 0; i + 1U < course->legs && !path_wide_is_at_least(course->leg[i].end, place); i++) {
+        leg = &course->leg[i + 1U];
+    }
+    return path_course_at(course, leg, place);
+}
+
 struct path_entry path_course_cruise_at(const struct path_leg *leg, struct wide place, uint64_t grains_per_step)
 {
     return (struct path_entry){

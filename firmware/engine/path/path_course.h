@@ -94,6 +94,9 @@ struct path_pulse path_course_pulse(const struct path_course *course, const stru
 /* The path at a place of a leg, in even grains; as an entry it loses nothing. */
 struct path_entry path_course_at(const struct path_course *course, const struct path_leg *leg, struct wide place);
 
+/* The same at a whole step, on whichever leg it is; of one before the course begins its beginning. */
+struct path_entry path_course_step(const struct path_course *course, uint64_t step);
+
 /* The same at a place of a cruise, in grains of which `grains_per_step` are a step. */
 struct path_entry path_course_cruise_at(const struct path_leg *leg, struct wide place, uint64_t grains_per_step);
 

@@ -123,7 +123,7 @@ void test_a_second_stop_changes_nothing(void)
     start();
     run_us(20000);
     TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
-    TEST_ASSERT_FALSE(group_stop(&group, AXIS_CAUSE_FAULT));
+    TEST_ASSERT_FALSE(group_stop(&group, AXIS_CAUSE_HIGH));
     run_to_the_end();
     TEST_ASSERT_EQUAL_INT(AXIS_CAUSE_COMMAND, group_cause(&group));
     TEST_ASSERT_FALSE(group_stop(&group, AXIS_CAUSE_FAULT));

@@ -208,3 +208,113 @@ void test_the_plan_interrupt_means_nothing_to_a_group_that_is_not_stopped(void)
     run_to_the_end();
     assert_arrived();
 }
+
+static void begin_manner(uint32_t fault_accel, bool between_steps)
+{
+    group_set_manner(&group, &(struct group_manner){.fault_accel = fault_accel, .between_steps = between_steps});
+}
+
+void test_a_stop_that_is_taken_back_leaves_the_path_as_it_was(void)
+{
+    for (uint64_t us = 0; us < 9000; us += 293) {
+        begin(AHEAD_TICKS);
+        add(500, 250, -500, 5, 50000);
+        start();
+        run_us(3000);
+        TEST_ASSERT_FALSE(group_resume(&group));
+        TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_PAUSE));
+        run_us(us);
+        bool resumes = group_resume(&group);
+        TEST_ASSERT_EQUAL_INT(resumes ? AXIS_CAUSE_NONE : AXIS_CAUSE_PAUSE, group_cause(&group));
+        run_to_the_end();
+        TEST_ASSERT_EQUAL(!resumes, group_has_rest(&group));
+        if (!resumes) {
+            start();
+            run_to_the_end();
+        }
+        assert_arrived();
+    }
+}
+
+void test_a_stop_at_once_taken_back_moves_no_pulse(void)
+{
+    add(500, 0, 0, 0, 50000);
+    start();
+    run_to_the_end();
+    static uint64_t plain[500];
+    for (unsigned i = 0; i < 500; i++) {
+        plain[i] = made_tick[0][i] - made_tick[0][0];
+    }
+    begin(AHEAD_TICKS);
+    add(500, 0, 0, 0, 50000);
+    start();
+    run_us(3000);
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_PAUSE));
+    TEST_ASSERT_TRUE(group_resume(&group));
+    run_to_the_end();
+    for (unsigned i = 0; i < 500; i++) {
+        TEST_ASSERT_UINT64_WITHIN(1, plain[i], made_tick[0][i] - made_tick[0][0]);
+    }
+}
+
+/* 50 000 steps/s and 1 000 000 steps/s^2: 1250 steps down to a stand; with twice as much 625. */
+void test_a_fault_brakes_with_the_acceleration_for_faults(void)
+{
+    begin_manner(2000000 * STEP_ACCEL_PER_ACCEL, false);
+    add(10000, 0, 0, 0, 50000);
+    start();
+    run_us(100000);
+    int64_t before = position[0];
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_FAULT));
+    run_to_the_end();
+    TEST_ASSERT_INT64_WITHIN(26, before + 625 + 25, position[0]);
+}
+
+void test_a_fault_takes_the_place_of_another_stop(void)
+{
+    begin_manner(8000000 * STEP_ACCEL_PER_ACCEL, false);
+    add(10000, 0, 0, 0, 50000);
+    start();
+    run_us(100000);
+    int64_t before = position[0];
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_PAUSE));
+    run_us(1000);
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_FAULT));
+    TEST_ASSERT_FALSE(group_stop(&group, AXIS_CAUSE_FAULT));
+    TEST_ASSERT_EQUAL_INT(AXIS_CAUSE_FAULT, group_cause(&group));
+    run_to_the_end();
+    TEST_ASSERT_INT64_WITHIN(40, before + 50 + 25 + 156, position[0]);
+}
+
+void test_a_fault_on_the_way_down_to_the_end_does_not_lengthen_the_way(void)
+{
+    begin_manner(100000 * STEP_ACCEL_PER_ACCEL, false);
+    add(10000, 0, 0, 0, 50000);
+    start();
+    while (position[0] < 9000) {
+        run_us(100);
+    }
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_FAULT));
+    run_to_the_end();
+    assert_arrived();
+    TEST_ASSERT_UINT64_WITHIN(90000, 118794, made_tick[0][9999] - made_tick[0][9998]);
+}
+
+/* A step takes a minute. */
+void test_a_change_between_two_slow_steps_takes_effect_at_once(void)
+{
+    begin_manner(0, true);
+    uint32_t speed = 1000;
+    struct path_vector vector = vector_of(100, 0, 0, 0, 1);
+    vector.speed = 4;
+    TEST_ASSERT_TRUE(group_add(&group, &vector));
+    start();
+    run_us(70000000);
+    TEST_ASSERT_EQUAL_UINT(1, made[0]);
+    group_set_speeds(&group, &(struct group_speeds){.of = slow, .context = &speed});
+    run_us(2000);
+    TEST_ASSERT_EQUAL_UINT(2, made[0]);
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_PAUSE));
+    run_us(2000);
+    TEST_ASSERT_TRUE(group_take_end(&group));
+}

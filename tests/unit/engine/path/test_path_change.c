@@ -415,3 +415,44 @@ void test_a_stop_at_a_stand_moves_nothing(void)
     TEST_ASSERT_FALSE(find(5000000, UINT64_MAX / 2U));
     TEST_ASSERT_EQUAL_UINT64(5000000, rig.path.rest.entry.time.high);
 }
+
+void test_a_stop_with_its_own_acceleration_that_is_too_weak_does_not_come_to_rest(void)
+{
+    start();
+    all_pulses(UINT64_MAX);
+    const uint32_t own = rig.ring[0].vector.accel;
+    struct path_wish wish = {.tick = 1000 + 2940000 + 8400 * 450, .patience_ticks = UINT64_MAX / 2U, .accel = own};
+    TEST_ASSERT_TRUE(path_find(&rig.path, &wish, &place));
+    TEST_ASSERT_TRUE(path_can_rest(&rig.path, &place));
+    wish.accel = own / 20U;
+    TEST_ASSERT_TRUE(path_find(&rig.path, &wish, &place));
+    TEST_ASSERT_FALSE(path_can_rest(&rig.path, &place));
+    wish.accel = own / 4U;
+    TEST_ASSERT_TRUE(path_find(&rig.path, &wish, &place));
+    TEST_ASSERT_TRUE(path_can_rest(&rig.path, &place));
+}
+
+/* From 0 with 1 000 000 steps/s^2 to 10 000 steps/s at step 50. */
+void test_the_speed_at_a_step_is_that_of_the_plan(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, path_speed_at(&rig.path, 0, 0));
+    start();
+    TEST_ASSERT_EQUAL_UINT32(0, path_speed_at(&rig.path, 0, 25));
+    all_pulses(UINT64_MAX);
+    TEST_ASSERT_EQUAL_UINT32(0, path_speed_at(&rig.path, 0, 0));
+    TEST_ASSERT_EQUAL_UINT32(2000 * PATH_SPEED_UNITS, path_speed_at(&rig.path, 0, 2));
+    TEST_ASSERT_EQUAL_UINT32(10000 * PATH_SPEED_UNITS, path_speed_at(&rig.path, 0, 50));
+    TEST_ASSERT_EQUAL_UINT32(10000 * PATH_SPEED_UNITS, path_speed_at(&rig.path, 0, 950));
+    TEST_ASSERT_EQUAL_UINT32(2000 * PATH_SPEED_UNITS, path_speed_at(&rig.path, 0, 998));
+    TEST_ASSERT_EQUAL_UINT32(0, path_speed_at(&rig.path, 0, 1000));
+}
+
+void test_the_speed_at_a_step_before_a_change_is_that_at_the_change(void)
+{
+    start();
+    all_pulses(UINT64_MAX);
+    TEST_ASSERT_TRUE(find(1000 + 2940000, UINT64_MAX / 2U));
+    TEST_ASSERT_TRUE(rig_stop(&rig, &place, back));
+    all_pulses(UINT64_MAX);
+    TEST_ASSERT_EQUAL_UINT32(10000 * PATH_SPEED_UNITS, path_speed_at(&rig.path, 0, 2));
+}
