@@ -1,0 +1,304 @@
+"""An axis of the positioning unit: its states and bits, written from the contract alone."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from pos_bits import Bits
+from pos_curve import Order
+from pos_homing import Homing
+from pos_motion import CHANGE, Motion, Train
+from pos_session import Act
+from pos_target import Goal, Origin, Seat, absolute, relative
+from pos_words import (
+    HERE_METHOD,
+    MS,
+    US,
+    WAY_MAX,
+    Code,
+    Error,
+    Settings,
+    Unsure,
+    is_active,
+)
+
+EDGE_LATE = 60 * US
+"""An edge of an input is seen so late, if it follows another one."""
+
+INITIATOR = 2 * MS
+"""From a stand to the start of what waits for it: a pass for the initiator, one for the start."""
+
+
+class Axis:
+    """The state of an axis."""
+
+    def __init__(self, train: Train) -> None:
+        """Switch the unit on."""
+        self.settings = Settings()
+        self.bits = Bits()
+        self.history: list[tuple[float, float, Bits]] = [(0, 0, Bits())]
+        self.origin = Origin()
+        self.seat = Seat(0, 0, 0)
+        self.motion = Motion(train)
+        self.levels: dict[int, int] = {}
+        self.goal: Goal | None = None
+        self.programmed: Act | None = None
+        self.cut = False
+        self.order = Order(0, 0, 1, 0)
+        self.homing: Homing | None = None
+        self.captured: set[int] = set()
+        """What CAPTURED_STEPS may be; empty: nothing was captured."""
+        self.stood = -math.inf
+        """Until then the unit may not have noticed that the axis stands."""
+        self.crystal = True
+        self.damaged = False
+
+    def note(self, low: float, high: float) -> None:
+        """Keep what the registers tell from a time in a window on."""
+        if self.history[-1][2] != self.bits:
+            self.history.append((low, high, replace(self.bits)))
+
+    def active(self, name: str) -> bool:
+        """Whether one of the four inputs is active: limit_minus, limit_plus, reference, capture."""
+        return is_active(self.levels, getattr(self.settings, name))
+
+    def seat_at(self, tick: float) -> Seat:
+        """Where the motor was at a tick of the measure."""
+        made = self.motion.train.count_until(tick) - self.motion.offset
+        return self.seat.moved(made * self.motion.sign)
+
+    # --- instructions ---
+
+    def take(self, act: Act) -> None:
+        """Execute an instruction."""
+        bits = self.bits
+        near = self.motion.stand()[0] - MS if bits.jede else math.inf
+        if act.code != Code.POS_CAPTURE and (act.tick > near or act.tick < self.stood):
+            raise Unsure("an instruction just when the axis comes to stand")
+        if act.code == Code.POS_CONTROL:
+            self._control(act)
+        else:
+            bits.result = self._refusal(act)
+            if bits.result:
+                bits.err, bits.error = True, bits.error or bits.result
+            elif act.code == Code.POS_INIT:
+                self._release(act.tick, disp=True)
+            elif act.code == Code.POS_RESET:
+                self._release(act.tick, disp=False)
+            elif act.code == Code.POS_CAPTURE:
+                bits.armed = True
+            else:
+                self._measure(act)
+        self.note(act.tick, act.tick + MS)
+
+    def _refusal(self, act: Act) -> Error:
+        """The first of the reasons to refuse an instruction."""
+        bits, code, values = self.bits, act.code, act.values
+        if code == Code.POS_INIT:
+            return Error.SPACE if values and values[0] > 6 else Error.NONE
+        if code == Code.POS_CAPTURE:
+            return Error.NONE if self.settings.capture else Error.NO_INPUT
+        if code == Code.POS_RESET:
+            return Error.NONE
+        homing = code == Code.POS_HOME
+        here = homing and values[0] == HERE_METHOD
+        reasons = (
+            (not bits.disp, Error.NOT_TAKEN),
+            (bits.fault, Error.FAULT),
+            (bits.prog and bits.jede, Error.MOVES),
+            (homing and values[0] not in (19, 21, 37), Error.METHOD),
+            (self.damaged and not here, Error.DAMAGED),
+            (not self.crystal and not here, Error.NO_CRYSTAL),
+            (homing and not here and not self.settings.reference, Error.NO_INPUT),
+            (values[-1] == 0 and not here, Error.ACCEL),
+            (self._too_far(act), Error.WAY),
+        )
+        return next((error for holds, error in reasons if holds), Error.NONE)
+
+    def _too_far(self, act: Act) -> bool:
+        way = act.values[-2]
+        if way == -(2**31):
+            return True
+        if act.code == Code.POS_HOME:
+            return False
+        if act.code == Code.POS_MODE_ABS:
+            here = self.seat_at(act.tick).step
+            if abs(way - self.origin.position_of(self.settings, here)) > WAY_MAX:
+                return True
+        return not self._goal(act).possible
+
+    def _goal(self, act: Act) -> Goal:
+        make = absolute if act.code == Code.POS_MODE_ABS else relative
+        return make(self.origin, self.settings, act.values[-2])
+
+    def _release(self, tick: int, *, disp: bool) -> None:
+        bits = self.bits
+        bits.disp = bits.mp = disp
+        bits.prog = bits.pol = bits.err = bits.inic = bits.cont = False
+        bits.error, bits.feed = Error.NONE, 0
+        self._give_up(tick)
+
+    def _give_up(self, tick: int, accel: int = 0, late: int = CHANGE) -> None:
+        """Forget the measure; brake, with an acceleration of its own if it is not 0."""
+        self.goal, self.programmed, self.homing, self.cut = None, None, None, False
+        self.bits.homing = False
+        if self.bits.jede:
+            self.want(tick, replace(self.order, speed=0, accel=accel or self.order.accel), late)
+        else:
+            self.settle()
+
+    def settle(self) -> None:
+        """The axis stands on a step, and what it was to do is over."""
+        self.settle_at_end()
+        self.origin.given_up(self.settings, self.seat.step)
+
+    def settle_at_end(self) -> None:
+        """The axis stands on a step."""
+        self.seat = self.seat.moved(self.motion.seen * self.motion.sign)
+        self.motion.prepare(self.motion.sign)
+
+    def _measure(self, act: Act) -> None:
+        bits = self.bits
+        bits.prog, bits.inic, bits.pol, bits.cont, bits.feed = True, True, False, False, 0
+        self.programmed = act
+        if not bits.jede:
+            self.note(act.tick, act.tick + MS)
+            self.settle()
+            self.initiate(act, act.tick, act.tick + CHANGE)
+
+    def initiate(self, act: Act, low: float, high: float) -> None:
+        """The axis stands: the measure is there."""
+        bits = self.bits
+        bits.inic = False
+        self.programmed, self.cut, self.homing = None, False, None
+        accel = self.settings.accel(act.values[-1])
+        if act.code == Code.POS_HOME:
+            self.homing = Homing(self, act, accel)
+            self.homing.initiate()
+        else:
+            self.goal = self._goal(act)
+            step = self._inside(self.goal.step)
+            self.cut = step != self.goal.step
+            self.lay_out(self.seat.pulses_to(step), accel)
+            bits.cont = self.order.end > 0
+            bits.pol = not bits.cont
+            if bits.pol:
+                self._reached(low, high)
+        self.note(low, high + MS)
+        self.go(low, high)
+
+    def _inside(self, step: int) -> int:
+        """A step, or the last one that software limits let the axis reach."""
+        settings, here = self.settings, self.seat.step
+        if not (settings.soft and self.bits.referenced) or step == here:
+            return step
+        limit = settings.soft_max if step > here else settings.soft_min
+        exact = self.origin.reference + (limit - self.origin.position) * settings.ratio
+        sign = 1 if step > here else -1
+        last = math.floor(sign * exact) * sign
+        beyond = self.origin.position_of(settings, last + sign)
+        if (beyond - limit) * sign <= 0 and (step - last) * sign > 0:
+            raise Unsure("a step whose position is inside only if it is rounded")
+        return sign * min(sign * step, max(sign * here, sign * last))
+
+    def lay_out(self, pulses: int, accel: int) -> None:
+        """A motion of so many pulses, signed, from where the axis stands."""
+        self.motion.prepare(1 if pulses > 0 else -1 if pulses < 0 else self.motion.sign)
+        self.order = Order(0, self.settings.start_speed, accel, abs(pulses))
+
+    # --- motion ---
+
+    @property
+    def speed(self) -> int:
+        """W, in 1/256 step/s."""
+        bits = self.bits
+        feed = min(bits.feed, self.homing.feed) if self.homing else bits.feed
+        return self.settings.speed(feed) if bits.mp else 0
+
+    def _control(self, act: Act) -> None:
+        feed, mp = act.values
+        bits = self.bits
+        if not bits.disp:
+            return
+        if mp >= 0:
+            bits.mp = bool(mp)
+        if bits.prog:
+            bits.feed = feed
+            self.go(act.tick, act.tick + CHANGE)
+
+    def go(self, low: float, high: float) -> None:
+        """Start, change or hold, if what is wanted says so."""
+        bits = self.bits
+        if not bits.prog or bits.pol or self.programmed:
+            return
+        if bits.jede:
+            if not (self.homing and self.homing.stops):
+                self.want(int(low), replace(self.order, speed=self.speed))
+        elif self.speed and self.order.end:
+            if self.homing:
+                self.homing.begins()
+            self._start(int(low), int(high))
+
+    def _start(self, low: int, high: int) -> None:
+        sign = self.motion.sign
+        if self.blocked(sign):
+            self.fault(Error.LIMIT, low, high)
+            return
+        self.order = replace(self.order, speed=self.speed)
+        self.motion.begin(self.order, low, high)
+        self.bits.jede, self.bits.smer = True, sign < 0
+        self.note(low, high + MS)
+
+    def blocked(self, sign: int) -> bool:
+        """Whether the limit input of a direction is active, and counts."""
+        name = "limit_plus" if sign > 0 else "limit_minus"
+        if self.homing and self.homing.switch == abs(getattr(self.settings, name)):
+            return False
+        return self.active(name)
+
+    def want(self, tick: int, order: Order, late: int = CHANGE) -> None:
+        """Want something else of an axis that moves."""
+        if order != self.order:
+            self.order = order
+            self.motion.change(tick, order, late)
+
+    def fault(self, error: Error, low: int, high: float, late: int = CHANGE) -> None:
+        """A fault ends the measure."""
+        bits = self.bits
+        bits.err = True
+        if not bits.fault:
+            bits.error = error
+        bits.prog = bits.pol = bits.inic = bits.cont = False
+        bits.feed = 0
+        self._give_up(low, self.settings.accel(self.settings.error_accel), late)
+        self.note(low, high + MS)
+
+    def stands(self) -> None:
+        """The axis has come to stand."""
+        low, high = self.motion.stand()
+        bits = self.bits
+        self.stood = high + (INITIATOR if self.programmed or self.homing else MS)
+        if self.homing and self.homing.stands(low, high):
+            return
+        bits.jede = False
+        if self.homing is None and self.goal is None:
+            self.settle()
+            act = self.programmed
+            if act:
+                self.initiate(act, low, high + INITIATOR)
+        elif self.motion.every(lambda c: c.reaches, "an axis that may have reached its measure"):
+            self.settle_at_end()
+            bits.pol, bits.cont = True, False
+            self._reached(low, high)
+        self.note(low, high + MS)
+
+    def _reached(self, low: float, high: float) -> None:
+        """The last pulse, or none to make."""
+        assert self.goal is not None
+        if self.cut:
+            self.bits.jede = False
+            self.fault(Error.SOFT_LIMIT, int(low), high)
+            return
+        self.origin.base, self.origin.way = self.goal.base, self.goal.way
+        self.goal = None

@@ -1,0 +1,148 @@
+"""The positioning unit against the contract: a session and what the unit did in it, side by side.
+
+`compare` raises `Mismatch` with the first thing that no reading of the contract explains, and
+`Unsure` where the contract does not tell what has to come; `judge` tells all that is wrong.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+from pos_axis import EDGE_LATE, Axis
+from pos_motion import Train
+from pos_read import check_sample, read
+from pos_session import Act, Edge, Event, Sample, Session, Setting
+from pos_target import Origin, Seat
+from pos_words import AXES, MOVES_ORIGIN, MS, REGISTER, US, Error, Mismatch, Settings, Unsure
+
+NOTICED = 4
+"""Ticks after a stand, by when its last pulse has come for sure."""
+
+
+@dataclass
+class Done:
+    """What a unit did: the pulses of the axes 1 to 4, and registers that were read."""
+
+    trains: list[Train] = field(default_factory=lambda: [Train() for _ in AXES])
+    samples: list[Sample] = field(default_factory=list)
+
+
+class Follower:
+    """Leads one axis through a session."""
+
+    def __init__(self, session: Session, done: Done, number: int) -> None:
+        """Switch the unit on."""
+        self.number = number
+        self.train = done.trains[number - 1]
+        self.axis = Axis(self.train)
+        self.end = session.end
+        self.edge_tick = -math.inf
+        self.events = sorted(self._events(session, done), key=lambda event: event.tick)
+
+    def _events(self, session: Session, done: Done) -> Iterator[Event]:
+        yield from session.edges
+        yield from (each for each in session.script if each.axis == self.number)
+        if self.train.growing:
+            yield from (Sample(t, a, {}) for t, a in session.reads if a == self.number)
+        else:
+            yield from (sample for sample in done.samples if sample.axis == self.number)
+
+    def go(self) -> Iterator[Sample]:
+        """Follow the session to its end; what a growing unit would tell, when it is asked."""
+        for event in self.events:
+            self.advance(event.tick)
+            if isinstance(event, Edge):
+                self._edge(event)
+            elif isinstance(event, Act):
+                self.axis.take(event)
+            elif isinstance(event, Setting):
+                self._set(event)
+            elif self.train.growing:
+                yield read(self.axis, event.tick, self.number)
+            else:
+                check_sample(self.axis, event)
+        self.advance(self.end)
+
+    def advance(self, tick: int) -> None:
+        """Let the axis come to all stands up to a tick."""
+        axis = self.axis
+        while axis.bits.jede:
+            stands = math.ceil(axis.motion.stand()[1]) + NOTICED
+            if stands > tick:
+                break
+            axis.motion.verify(stands)
+            if math.ceil(axis.motion.stand()[1]) + NOTICED <= stands:
+                axis.stands()
+        if not (axis.bits.jede and self.train.growing and tick == self.end):
+            axis.motion.verify(tick - NOTICED if not axis.bits.jede else tick)
+
+    def _edge(self, edge: Edge) -> None:
+        axis, bits = self.axis, self.axis.bits
+        before = {name: axis.active(name) for name in ("capture", "reference")}
+        late = EDGE_LATE if edge.tick - self.edge_tick < EDGE_LATE else 0
+        axis.levels[edge.number] = edge.level
+        self.edge_tick = edge.tick
+        if bits.armed and axis.active("capture") and not before["capture"]:
+            steps = [axis.seat_at(edge.tick + off).step for off in (-US, US, max(US, late))]
+            axis.captured = set(range(min(steps), max(steps) + 1))
+            bits.armed, bits.captures = False, bits.captures + 1
+        if axis.homing and axis.active("reference") != before["reference"]:
+            axis.homing.edge(edge.tick, late)
+        if bits.jede and bits.disp and axis.blocked(axis.motion.sign) and not bits.fault:
+            if any(f.starts and edge.tick <= f.high for f in axis.motion.families):
+                raise Unsure("a limit just when the axis starts")
+            axis.fault(Error.LIMIT, edge.tick, edge.tick, EDGE_LATE)
+        axis.note(edge.tick, edge.tick + MS)
+
+    def _set(self, event: Setting) -> None:
+        axis = self.axis
+        if axis.bits.disp or axis.bits.jede:
+            return
+        axis.settings = replace(axis.settings, **{event.name: event.value})
+        if event.name in MOVES_ORIGIN:
+            step = axis.seat.step
+            backlash = axis.settings.backlash_steps
+            axis.seat = Seat(step, backlash, backlash)
+            axis.origin = Origin(step, 0, step, 0)
+            axis.bits.referenced = False
+        axis.note(event.tick, event.tick + MS)
+
+
+def compare(session: Session, done: Done) -> None:
+    """Hold what a unit did against the contract."""
+    for number in AXES:
+        for _ in Follower(session, done, number).go():
+            raise AssertionError("a unit that has been watched tells nothing more")
+
+
+def judge(session: Session, done: Done) -> list[str]:
+    """What is wrong: the first thing of each axis."""
+    wrong = []
+    for number in AXES:
+        try:
+            list(Follower(session, done, number).go())
+        except Mismatch as mismatch:
+            wrong.append(f"axis {number}: {mismatch}")
+        except Unsure:
+            continue
+    return wrong
+
+
+def imagine(session: Session, seed: object = 0) -> Done:
+    """What a unit that keeps the contract could do; what is open is drawn from a seed."""
+    done = Done([Train(growing=random.Random(f"{seed} {number}")) for number in AXES])
+    for number in AXES:
+        done.samples += Follower(session, done, number).go()
+    for train in done.trains:
+        train.growing = None
+    done.samples.sort(key=lambda sample: sample.tick)
+    return done
+
+
+def setting(tick: int, axis: int, name: str, value: int) -> Setting:
+    """A setting by its name."""
+    assert hasattr(Settings(), name)
+    return Setting(tick, 100 * axis + REGISTER[name], value)
