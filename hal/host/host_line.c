@@ -138,6 +138,15 @@ bool hal_line_is_idle(void)
     return host_current()->line.to_send_count == 0;
 }
 
+void hal_line_set(uint32_t rate_bd, enum hal_line_format format)
+{
+    struct host_line *line = &host_current()->line;
+    uint32_t bits = format == HAL_LINE_8N1 ? 10U : 11U;
+    line->byte_ticks = TICK_HZ / rate_bd * bits;
+    line->rate_bd = rate_bd;
+    line->format = format;
+}
+
 uint8_t hal_line_node(void)
 {
     return host_current()->line.node;

@@ -87,6 +87,8 @@ struct host_line {
     uint64_t sent_tick;  /* the end of the byte on the bus; TICK_NEVER: the bus is free */
     uint64_t next_tick;  /* the next event of script or bus; TICK_NEVER: none */
     uint8_t node;
+    uint32_t rate_bd; /* as the unit has set them; 0: it has not */
+    enum hal_line_format format;
 };
 
 /* What of its word or area a flash operation gets done when it goes wrong. */

@@ -1,6 +1,7 @@
 /*
- * The seam to the line, 8N1, and the switch that gives the unit its address where a board has one. Rate and duplex are
- * fixed when an image is built: IMAGE_LINE_BD and IMAGE_LINE_FULL_DUPLEX of its image.h.
+ * The seam to the line, and the switch that gives the unit its address where a board has one. Duplex is fixed when an
+ * image is built, and so are rate and format, 8N1, unless the unit sets others: IMAGE_LINE_BD and
+ * IMAGE_LINE_FULL_DUPLEX of its image.h.
  *
  * The backend keeps received bytes in a ring with the tick of their end. Half duplex, an RS-485 bus: it drives the bus
  * as long as there are bytes to send, lets it go within one character time after the last one, and does not hear
@@ -15,8 +16,19 @@
 struct hal_line_byte {
     uint64_t tick; /* the unit's time at which the byte was complete; full duplex: up to 2 ms later */
     uint8_t value;
-    bool broken; /* a framing or noise error in this byte, or bytes after it were lost in an overrun */
+    bool broken; /* a parity, framing or noise error in this byte, or bytes after it were lost in an overrun */
 };
+
+/* Parity, none, even or odd, and stop bits. */
+enum hal_line_format {
+    HAL_LINE_8E1,
+    HAL_LINE_8O1,
+    HAL_LINE_8N1,
+    HAL_LINE_8N2,
+};
+
+/* Another rate, 9600 to 115 200 Bd, and format. Half duplex, before hal_run_start. */
+void hal_line_set(uint32_t rate_bd, enum hal_line_format format);
 
 /* Takes the oldest received byte; false if there is none. */
 bool hal_line_read(struct hal_line_byte *byte);

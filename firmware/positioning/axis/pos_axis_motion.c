@@ -1,0 +1,301 @@
+#include "pos_axis_private.h"
+
+#include "base_tick.h"
+#include "hal_step.h"
+#include "hal_time.h"
+
+/* ---- positions ------------------------------------------------------------------------------------------------- */
+
+static void note_capture(struct pos_axis *axis, int64_t motor_steps)
+{
+    axis->captured_step = pos_frame_step_of(&axis->frame, motor_steps);
+    axis->captured_um = pos_frame_position_um(&axis->frame, axis->captured_step);
+    axis->captures++;
+}
+
+/* What an input has kept is of a moment since the last look, so it comes before the frame goes on. */
+void pos_axis_look(struct pos_axis *axis)
+{
+    hal_step_hold();
+    bool captured = axis->watch.captured;
+    axis->watch.captured = false;
+    int64_t captured_motor_steps = axis->watch.captured_motor_steps;
+    int64_t reference_motor_steps = axis->watch.reference_motor_steps;
+    bool found = axis->watch.reference_hit;
+    int64_t motor_steps = pos_drive_steps_held(&axis->drive);
+    hal_step_release();
+    if (captured) {
+        note_capture(axis, captured_motor_steps);
+    }
+    if (found && !axis->found) {
+        axis->found = true;
+        axis->reference_step = pos_frame_step_of(&axis->frame, reference_motor_steps);
+    }
+    pos_frame_follow(&axis->frame, motor_steps);
+}
+
+/* ---- measures -------------------------------------------------------------------------------------------------- */
+
+static uint32_t accel_of(const struct pos_axis *axis, uint32_t accel_mm_s2)
+{
+    uint32_t highest_mm_s2 = pos_axis_setting(axis, POS_AXIS_HIGHEST_ACCEL);
+    uint32_t accel = accel_mm_s2 < highest_mm_s2 ? accel_mm_s2 : highest_mm_s2;
+    return pos_measure_accel(&axis->frame.scale, accel, PATH_ACCEL_MAX);
+}
+
+static uint32_t speed_of(const struct pos_axis *axis, uint32_t feed)
+{
+    uint32_t highest = pos_axis_setting(axis, POS_AXIS_HIGHEST_FEED);
+    return pos_measure_speed(&axis->frame.scale, feed < highest ? feed : highest, POS_SPEED_MAX);
+}
+
+/* W of unit.md. */
+static uint32_t wanted_speed(const struct pos_axis *axis)
+{
+    if (((unsigned)axis->control->control2 & (unsigned)POS_CNT_MP) == 0U) {
+        return 0;
+    }
+    uint32_t feed = axis->feed;
+    if (axis->phase != (uint8_t)POS_PHASE_NONE) {
+        uint32_t most = pos_home_feed(axis);
+        feed = feed < most ? feed : most;
+    }
+    return speed_of(axis, feed);
+}
+
+bool pos_axis_aim(struct pos_axis *axis, int64_t step)
+{
+    struct pos_way way = pos_frame_way(&axis->frame, pos_drive_steps(&axis->drive), step);
+    if (way.pulses == 0U) {
+        return false;
+    }
+    const struct pos_measure measure = {
+        .pulses = way.pulses,
+        .accel = accel_of(axis, axis->order.accel_mm_s2),
+        .fault_accel = accel_of(axis, pos_axis_setting(axis, POS_AXIS_ERROR_ACCEL)),
+        .start_speed = speed_of(axis, pos_axis_setting(axis, POS_AXIS_START_FEED)),
+        .backward = way.backward,
+    };
+    pos_drive_aim(&axis->drive, &measure);
+    axis->speed = 0;
+    pos_axis_mark(axis, POS_CNT_CONT, 0);
+    return true;
+}
+
+void pos_axis_reached(struct pos_axis *axis)
+{
+    axis->state = (uint8_t)POS_REACHED;
+    axis->phase = (uint8_t)POS_PHASE_NONE;
+    pos_axis_mark(axis, 0, POS_CNT_CONT);
+}
+
+static void clear_watch(struct pos_axis *axis)
+{
+    hal_step_hold();
+    axis->watch.seek = (uint8_t)POS_SEEK_NOTHING;
+    axis->watch.reference_hit = false;
+    hal_step_release();
+    axis->found = false;
+}
+
+void pos_axis_give_up(struct pos_axis *axis, bool fault)
+{
+    axis->phase = (uint8_t)POS_PHASE_NONE;
+    axis->waits = false;
+    axis->feed = 0;
+    pos_axis_mark(axis, 0, (unsigned)POS_CNT_INIC | (unsigned)POS_CNT_CONT);
+    clear_watch(axis);
+    if (!pos_axis_is_busy(axis)) {
+        pos_axis_look(axis);
+        pos_frame_give_up(&axis->frame);
+    } else if (fault) {
+        pos_drive_fault(&axis->drive);
+    } else {
+        pos_drive_hold(&axis->drive);
+    }
+}
+
+/* Whether the limits of a measure act. */
+static void limit(struct pos_axis *axis)
+{
+    int32_t min_um = pos_axis_signed_setting(axis, POS_AXIS_SOFT_MIN);
+    int32_t max_um = pos_axis_signed_setting(axis, POS_AXIS_SOFT_MAX);
+    if (axis->frame.referenced && min_um < max_um) {
+        pos_frame_limit(&axis->frame, &axis->target, min_um, max_um);
+    }
+}
+
+static void end_measure(struct pos_axis *axis)
+{
+    if (axis->target.cut) {
+        pos_axis_fault(axis, POS_ERROR_SOFT);
+    } else {
+        pos_frame_reach(&axis->frame, &axis->target);
+        pos_axis_reached(axis);
+    }
+}
+
+static void begin_measure(struct pos_axis *axis)
+{
+    bool way = axis->order.kind == (uint8_t)POS_KIND_WAY;
+    int32_t len_um = axis->order.len_um;
+    bool aimed = way ? pos_frame_aim(&axis->frame, len_um, &axis->target)
+                     : pos_frame_aim_at(&axis->frame, len_um, &axis->target);
+    limit(axis);
+    if (!aimed) {
+        pos_axis_fault(axis, POS_ERROR_WAY);
+    } else if (!pos_axis_aim(axis, axis->target.step)) {
+        end_measure(axis);
+    } else {
+        /* it is ready */
+    }
+}
+
+/* The initiator: the axis stands. What a measure before has left is dropped. */
+static void initiate(struct pos_axis *axis, uint8_t inputs)
+{
+    axis->waits = false;
+    axis->state = (uint8_t)POS_READY;
+    pos_axis_mark(axis, 0, POS_CNT_INIC);
+    pos_frame_give_up(&axis->frame);
+    if (axis->order.kind == (uint8_t)POS_KIND_HOME) {
+        pos_home_begin(axis, inputs);
+    } else {
+        begin_measure(axis);
+    }
+}
+
+/* ---- a pass ---------------------------------------------------------------------------------------------------- */
+
+/* The motor has come to rest. */
+static void end(struct pos_axis *axis, uint8_t inputs)
+{
+    if (axis->state != (uint8_t)POS_MOVING) {
+        pos_frame_give_up(&axis->frame);
+        return;
+    }
+    bool left = pos_drive_left(&axis->drive) != 0U;
+    axis->speed = 0;
+    if (axis->phase != (uint8_t)POS_PHASE_NONE && (axis->found || !left)) {
+        pos_home_follow(axis, inputs);
+    } else if (!left) {
+        end_measure(axis);
+    } else {
+        axis->state = (uint8_t)POS_READY;
+    }
+}
+
+/* A stop that cannot be taken back any more comes to its end first, and so does one at the switch, which may be found
+ * just in this moment. */
+static void resume(struct pos_axis *axis, uint32_t speed)
+{
+    if (axis->found || !pos_drive_resume(&axis->drive, speed)) {
+        return;
+    }
+    axis->speed = speed;
+    hal_step_hold();
+    bool found = axis->watch.reference_hit;
+    hal_step_release();
+    if (found) {
+        pos_drive_hold(&axis->drive);
+    }
+}
+
+/* A change of the wanted speed. */
+static void follow(struct pos_axis *axis)
+{
+    uint32_t speed = wanted_speed(axis);
+    if (axis->state != (uint8_t)POS_MOVING || speed == axis->speed) {
+        return;
+    }
+    if (!pos_axis_is_busy(axis)) {
+        axis->state = (uint8_t)(speed == 0U ? POS_READY : POS_MOVING);
+    } else if (speed == 0U) {
+        pos_drive_hold(&axis->drive);
+        axis->speed = 0;
+    } else if (axis->speed == 0U) {
+        resume(axis, speed);
+    } else {
+        pos_drive_change(&axis->drive, speed);
+        axis->speed = speed;
+    }
+}
+
+static enum pos_axis_register limit_of(const struct pos_axis *axis)
+{
+    return axis->drive.measure.backward ? POS_AXIS_LIMIT_MINUS : POS_AXIS_LIMIT_PLUS;
+}
+
+/* The limit input that acts on the way that the drive has; 0: none. In homing not the one that is the reference, too.
+ */
+static int8_t limit_input(const struct pos_axis *axis)
+{
+    int32_t input = pos_axis_signed_setting(axis, limit_of(axis));
+    int32_t reference = pos_axis_signed_setting(axis, POS_AXIS_REFERENCE);
+    bool same = input == reference || input == -reference;
+    return axis->phase != (uint8_t)POS_PHASE_NONE && same ? 0 : (int8_t)input;
+}
+
+static void take_limit(struct pos_axis *axis)
+{
+    hal_step_hold();
+    bool hit = axis->watch.limit_hit;
+    axis->watch.limit_hit = false;
+    hal_step_release();
+    if (hit) {
+        pos_axis_fault(axis, POS_ERROR_LIMIT);
+    }
+}
+
+uint64_t pos_axis_poll(struct pos_axis *axis, uint8_t inputs)
+{
+    pos_axis_mark(axis, 0, POS_CNT_RESET);
+    uint64_t wake = pos_drive_poll(&axis->drive);
+    bool ended = pos_drive_take_end(&axis->drive);
+    pos_axis_look(axis);
+    take_limit(axis);
+    if (ended) {
+        end(axis, inputs);
+        wake = hal_time_now();
+    }
+    if (axis->waits && !pos_axis_is_busy(axis)) {
+        initiate(axis, inputs);
+    }
+    follow(axis);
+    return wake;
+}
+
+bool pos_axis_wants_start(const struct pos_axis *axis)
+{
+    bool ready = axis->state == (uint8_t)POS_READY || axis->state == (uint8_t)POS_MOVING;
+    bool aimed = ((unsigned)axis->control->control2 & (unsigned)POS_CNT_CONT) != 0U;
+    return ready && aimed && !axis->waits && !pos_axis_is_busy(axis) && wanted_speed(axis) != 0U;
+}
+
+static void watch_limit(struct pos_axis *axis, int8_t input)
+{
+    hal_step_hold();
+    axis->watch.limit = input;
+    axis->watch.limit_hit = false;
+    hal_step_release();
+}
+
+void pos_axis_start(struct pos_axis *axis, uint64_t start_tick, uint8_t inputs)
+{
+    if (axis->phase != (uint8_t)POS_PHASE_NONE && !pos_home_may_start(axis, inputs)) {
+        return;
+    }
+    int8_t input = limit_input(axis);
+    if (pos_watch_is_active(input, inputs)) {
+        pos_axis_fault(axis, POS_ERROR_LIMIT);
+        return;
+    }
+    if (axis->state != (uint8_t)POS_MOVING) {
+        axis->start_tick = start_tick;
+    }
+    axis->state = (uint8_t)POS_MOVING;
+    axis->negative = axis->drive.measure.backward;
+    axis->speed = wanted_speed(axis);
+    watch_limit(axis, input);
+    pos_drive_start(&axis->drive, axis->speed, start_tick);
+}

@@ -1,0 +1,106 @@
+/*
+ * The drive of one motor: measures of any length in pulses, on one curve from a stand to a stand, whatever the speed
+ * that is wanted on the way.
+ *
+ * Comes in: measures in pulses and one way, speeds, stops. Goes out: pulses, by a group of one motor (group.h). Between
+ * pos_drive_aim and the end of the measure it may stop and go on as often as is wanted: it goes on from the real place
+ * at which it stood. About 2.6 kB.
+ */
+#ifndef POS_DRIVE_H
+#define POS_DRIVE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "../../engine/group/group.h"
+
+enum {
+    /* Sections of a path are at most 2^31 - 1 pulses long, and a measure may have 2^40: they follow one another. At the
+     * highest rate a section takes three hours. */
+    POS_DRIVE_SECTIONS = 4,
+};
+
+#define POS_DRIVE_PULSES_MAX (UINT64_C(1) << 41)
+
+/* Units as of path_vector.h. */
+struct pos_measure {
+    uint64_t pulses;      /* 1 to POS_DRIVE_PULSES_MAX */
+    uint32_t accel;       /* 1 to PATH_ACCEL_MAX */
+    uint32_t fault_accel; /* with which a fault brakes; 0: the same */
+    uint32_t start_speed; /* 0 to PATH_SPEED_MAX */
+    bool backward;
+};
+
+/*
+ * Who may call:
+ *   step interrupt   pos_drive_lay_isr
+ *   plan interrupt   pos_drive_plan_isr
+ *   tick interrupt   pos_drive_stop_isr, pos_drive_steps
+ *   main             everything else
+ */
+struct pos_drive {
+    struct step_channel channel;
+    struct group group;
+    struct path_section ring[POS_DRIVE_SECTIONS];
+    struct pos_measure measure;
+    uint64_t to_add;      /* pulses of the measure that are not in the ring yet */
+    uint64_t start_tick;  /* of the motion in progress */
+    int64_t origin_steps; /* where the measure began */
+    uint32_t speed;       /* wanted by all sections */
+    uint8_t motor;
+};
+
+/* Stands at step 0. */
+void pos_drive_init(struct pos_drive *drive, unsigned motor);
+
+/* Takes a measure from where it stands. Only while it does. */
+void pos_drive_aim(struct pos_drive *drive, const struct pos_measure *measure);
+
+/* Begins the measure, or goes on with it, with a speed, 1 to PATH_SPEED_MAX. Only while it stands and pulses are left;
+ * the tick at least 0.5 ms ahead. */
+void pos_drive_start(struct pos_drive *drive, uint32_t speed, uint64_t start_tick);
+
+/* Another speed from the next step on, or at once in a slow cruise. Nothing while it is being stopped. */
+void pos_drive_change(struct pos_drive *drive, uint32_t speed);
+
+/* Stops down the ramp: to go on later; or for a fault, also while it is being stopped to go on. */
+void pos_drive_hold(struct pos_drive *drive);
+void pos_drive_fault(struct pos_drive *drive);
+
+/* A stop from the tick interrupt; the drive is held, and its owner decides what follows. True: the plan interrupt is
+ * needed. */
+bool pos_drive_stop_isr(struct pos_drive *drive, bool fault);
+void pos_drive_plan_isr(struct pos_drive *drive);
+
+/* Goes on while it comes to rest because of pos_drive_hold. False: it is too late, or nothing is to be taken back. */
+bool pos_drive_resume(struct pos_drive *drive, uint32_t speed);
+
+/* Returns when to call again at the latest. */
+uint64_t pos_drive_poll(struct pos_drive *drive);
+
+/* It has come to rest: standing from now on. False if it has not, or that has been told. */
+bool pos_drive_take_end(struct pos_drive *drive);
+
+/* Whether a motion has begun whose end has not been taken. */
+bool pos_drive_is_busy(const struct pos_drive *drive);
+
+/* Whether it is coming to rest before its end. */
+bool pos_drive_is_stopping(const struct pos_drive *drive);
+
+/* Pulses of the measure that have not been made. */
+uint64_t pos_drive_left(const struct pos_drive *drive);
+
+/* The step of the motor. Also in the tick interrupt; `_held`: while hal_step_hold is in force. */
+int64_t pos_drive_steps(const struct pos_drive *drive);
+int64_t pos_drive_steps_held(const struct pos_drive *drive);
+
+/* The speed at the last pulse, 1/256 step/s; 0 at rest. */
+uint32_t pos_drive_speed(struct pos_drive *drive);
+
+/* Lays the pulses that are due next (hal_run.h). */
+static inline unsigned pos_drive_lay_isr(struct pos_drive *drive, struct hal_step_room *room)
+{
+    return step_channel_lay_isr(&drive->channel, room);
+}
+
+#endif

@@ -1,0 +1,23 @@
+/*
+ * What is fixed when an image of this unit is built. The STM32 backend includes it, as it does the header of the board.
+ */
+#ifndef IMAGE_H
+#define IMAGE_H
+
+/* The line: its rate, and whether it hears while it sends (hal_line.h). */
+#define IMAGE_LINE_BD 19200U
+#define IMAGE_LINE_FULL_DUPLEX 0
+
+/* The width of a pulse at STEP; 0: that of the board. */
+#define IMAGE_STEP_HIGH_NS 0U
+
+/* Of the 8 LEDs of hal_io.h those that the unit has, whether all of them blink without the crystal, and whether there
+ * is a PWM output. */
+#define IMAGE_LEDS 4
+#define IMAGE_LEDS_BLINK 1
+#define IMAGE_PWM 0
+
+/* The stack; tools/rkm04_tools/board_size.py proves how much of it can be needed. */
+#define IMAGE_STACK_BYTES 5120
+
+#endif
