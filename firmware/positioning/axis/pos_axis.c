@@ -118,37 +118,60 @@ static bool is_too_long(const struct pos_axis *axis, const struct pos_order *ord
     return order->kind == (uint8_t)POS_KIND_POSITION && is_far;
 }
 
+/* Why the state of the axis forbids a measure. */
+static enum pos_error check_state(const struct pos_axis *axis)
+{
+    enum pos_error error = POS_OK;
+    switch ((enum pos_state)axis->state) {
+    case POS_FREE:
+        error = POS_ERROR_NOT_TAKEN;
+        break;
+    case POS_FAULT:
+        error = POS_ERROR_FAULT;
+        break;
+    case POS_WAITING:
+    case POS_MOVING:
+        error = POS_ERROR_MOVES;
+        break;
+    case POS_TAKEN:
+    case POS_READY:
+    case POS_REACHED:
+        break;
+    }
+    return error;
+}
+
+/* Why a measure that needs motion cannot be made. */
+static enum pos_error check_motion(const struct pos_axis *axis, const struct pos_order *order,
+                                   const struct pos_allowed *allowed)
+{
+    if (!allowed->settings) {
+        return POS_ERROR_SETTINGS;
+    }
+    if (!allowed->crystal) {
+        return POS_ERROR_NO_CRYSTAL;
+    }
+    if (order->kind == (uint8_t)POS_KIND_HOME && pos_axis_setting(axis, POS_AXIS_REFERENCE) == 0U) {
+        return POS_ERROR_NO_INPUT;
+    }
+    if (order->accel_mm_s2 == 0U) {
+        return POS_ERROR_ACCEL;
+    }
+    return is_too_long(axis, order) ? POS_ERROR_WAY : POS_OK;
+}
+
 /* In the order in which the causes count. */
 static enum pos_error check(const struct pos_axis *axis, const struct pos_order *order,
                             const struct pos_allowed *allowed)
 {
-    bool home = order->kind == (uint8_t)POS_KIND_HOME;
-    bool here = is_here(order);
-    if (axis->state == (uint8_t)POS_FREE) {
-        return POS_ERROR_NOT_TAKEN;
+    enum pos_error error = check_state(axis);
+    if (error != POS_OK) {
+        return error;
     }
-    if (axis->state == (uint8_t)POS_FAULT) {
-        return POS_ERROR_FAULT;
-    }
-    if (axis->state == (uint8_t)POS_WAITING || axis->state == (uint8_t)POS_MOVING) {
-        return POS_ERROR_MOVES;
-    }
-    if (home && !is_method(order->method)) {
+    if (order->kind == (uint8_t)POS_KIND_HOME && !is_method(order->method)) {
         return POS_ERROR_METHOD;
     }
-    if (!here && !allowed->settings) {
-        return POS_ERROR_SETTINGS;
-    }
-    if (!here && !allowed->crystal) {
-        return POS_ERROR_NO_CRYSTAL;
-    }
-    if (home && !here && pos_axis_setting(axis, POS_AXIS_REFERENCE) == 0U) {
-        return POS_ERROR_NO_INPUT;
-    }
-    if (!here && order->accel_mm_s2 == 0U) {
-        return POS_ERROR_ACCEL;
-    }
-    return is_too_long(axis, order) ? POS_ERROR_WAY : POS_OK;
+    return is_here(order) ? POS_OK : check_motion(axis, order, allowed);
 }
 
 enum pos_error pos_axis_order(struct pos_axis *axis, struct pos_control_record *control, const struct pos_order *order,
@@ -185,7 +208,7 @@ void pos_axis_control(struct pos_axis *axis, uint32_t feed, int mp)
     if (axis->state == (uint8_t)POS_FREE) {
         return;
     }
-    if (mp != (int)POS_MP_NIL) {
+    if (mp != POS_MP_NIL) {
         pos_axis_mark(axis, mp != 0 ? POS_CNT_MP : 0U, mp != 0 ? 0U : POS_CNT_MP);
     }
     if (axis->state != (uint8_t)POS_TAKEN && axis->state != (uint8_t)POS_FAULT) {

@@ -233,7 +233,8 @@ static int8_t limit_input(const struct pos_axis *axis)
     int32_t input = pos_axis_signed_setting(axis, limit_of(axis));
     int32_t reference = pos_axis_signed_setting(axis, POS_AXIS_REFERENCE);
     bool same = input == reference || input == -reference;
-    return axis->phase != (uint8_t)POS_PHASE_NONE && same ? 0 : (int8_t)input;
+    int32_t acts = axis->phase != (uint8_t)POS_PHASE_NONE && same ? 0 : input;
+    return (int8_t)acts;
 }
 
 static void take_limit(struct pos_axis *axis)

@@ -1,6 +1,6 @@
 #include "pos_watch.h"
 
-#include "../drive/pos_drive.h"
+#include "pos_drive.h"
 
 bool pos_watch_is_active(int32_t input, uint8_t inputs)
 {
