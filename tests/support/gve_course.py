@@ -215,6 +215,30 @@ class Course:
         ahead = (leg.vector for leg, _ in self.legs if leg.end_time > tick << ROOT_BITS)
         return next(ahead, self.first)
 
+    def way_from(self, tick: int) -> object:
+        """The way from a tick on, but for its times: where it is equal, two courses go on alike.
+
+        None: it has not begun.
+        """
+        leg = self._leg_at(tick)
+        if self.pending or leg is None:
+            return None
+        ahead = max(leg.vector, self.first)
+        plan = ahead, tuple(self.ends[ahead - self.first :]), self.stops, self.rests
+        return leg.vector, leg.sign, leg.x1, leg.square_at_end, plan, self.begun
+
+    def end_of_leg(self, tick: int) -> int:
+        """When the leg ends that the course is on."""
+        leg = self._leg_at(tick)
+        return leg.end_time if leg else 0
+
+    def _leg_at(self, tick: int) -> Leg | None:
+        self.lay_until(tick)
+        for leg, _ in reversed(self.legs):
+            if leg.time <= tick << ROOT_BITS < leg.end_time:
+                return leg
+        return None
+
     # --- starts and changes ---
 
     def begin(self, vectors: Vectors, at: Place, window: tuple[int, int]) -> None:

@@ -20,7 +20,7 @@ ADDRESSES = "07"
 PACKET_MAX = 128
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Byte:
     """A byte that comes to the unit; the tick of the end of its stop bit."""
 

@@ -33,14 +33,20 @@ def same_time(course: Course, step: Step) -> bool:
 
 
 def merged(courses: list[Course], tick: int) -> list[Course]:
-    """Keep one of the courses that came to rest at the same place, some ticks apart."""
+    """Keep one of the courses that came to rest at the same place, some ticks apart.
+
+    Of those that move, one of those that go on alike.
+    """
     kept: list[Course] = []
     resting: dict[object, Course] = {}
     for course in courses:
-        if not course.ended or course.time > tick << ROOT_BITS:
-            kept.append(course)
-            continue
         seen = tuple(cursor.seen for cursor in course.cursors)
+        if not course.ended or course.time > tick << ROOT_BITS:
+            way = course.way_from(tick)
+            other = resting.setdefault((way, seen, course.kept), course) if way else course
+            if other is course or abs(other.end_of_leg(tick) - course.end_of_leg(tick)) > SAME:
+                kept.append(course)
+            continue
         key = (course.rest, course.kept, len(course.vectors), seen, course.pending is None)
         other = resting.setdefault(key, course)
         if other is course or abs(other.time - course.time) > NEAR:

@@ -10,11 +10,14 @@
  *   in T INPUT LEVEL    an input changes; as its port reads it, at first 1: open
  *   hear T HEX BROKEN   a byte has come by the line
  *   run T               runs all of the above up to T, and answers
- * Goes out, for each session:
+ *   go T                the same, but only to the end of the unit's next answer if that comes before T, and the session
+ *                       goes on: what follows comes after that
+ * Goes out, for each session, or each part of it:
  *   sent T HEX          the end of a byte that the unit has sent
  *   signal T LEVEL NAME as it changes: outputs, pwm, led 0 to 7, polarity 1 to 4 (1: STEP falls, 2: DIR is turned)
  *   judge SENTENCE      pulses too close to each other or to a change of DIR
  *   pulses MOTOR T ...  of each motor that made any; a minus: backward
+ *   at T                how far a part came
  *   end LATE IDLE       pulses that came too late, and whether nothing happens any more
  * Exit status 2: the input is no such thing, or too long.
  */
@@ -38,6 +41,7 @@ enum {
 
 struct train {
     int64_t pulse[PULSES_MAX];
+    int64_t last;         /* 0: there was none */
     uint64_t turned_tick; /* when DIR last changed */
     uint32_t count;
 };
@@ -50,6 +54,8 @@ struct probe {
     struct host_line_byte heard[HEARD_MAX];
     uint32_t input_count;
     uint32_t heard_count;
+    bool runs;
+    bool has_answered;
 };
 
 static _Noreturn void complain(const char *what)
@@ -60,8 +66,7 @@ static _Noreturn void complain(const char *what)
 
 static uint64_t last_pulse(const struct train *train)
 {
-    int64_t last = train->pulse[train->count - 1];
-    return (uint64_t)(last < 0 ? -last : last);
+    return (uint64_t)(train->last < 0 ? -train->last : train->last);
 }
 
 static void judge(const char *what, unsigned motor, uint64_t tick)
@@ -75,17 +80,18 @@ static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
     if (train->count == PULSES_MAX) {
         complain("too many pulses");
     }
-    if (train->count != 0 && tick - last_pulse(train) < INTERVAL_TICKS) {
+    if (train->last != 0 && tick - last_pulse(train) < INTERVAL_TICKS) {
         judge("two pulses are too close", motor, tick);
     }
-    bool turns = train->count != 0 && (train->pulse[train->count - 1] < 0) != backward;
+    bool turns = train->last != 0 && (train->last < 0) != backward;
     if (turns && tick - last_pulse(train) < HOST_HOLD_TICKS + HOST_SETUP_TICKS - ROUNDING_TICKS) {
         judge("DIR has no time to turn", motor, tick);
     }
     if (train->turned_tick != 0 && tick - train->turned_tick < HOST_SETUP_TICKS - ROUNDING_TICKS) {
         judge("DIR has just changed", motor, tick);
     }
-    train->pulse[train->count++] = backward ? -(int64_t)tick : (int64_t)tick;
+    train->last = backward ? -(int64_t)tick : (int64_t)tick;
+    train->pulse[train->count++] = train->last;
 }
 
 /* The driver of a board keeps HOLD by itself where an axis stands (hal_step_set_direction); the host has none. */
@@ -128,7 +134,8 @@ static void on_led(void *context, uint64_t tick, unsigned led, bool on)
 
 static void on_line(void *context, uint64_t tick, uint8_t value)
 {
-    (void)context;
+    struct probe *probe = context;
+    probe->has_answered = probe->has_answered || value == '\r';
     (void)printf("sent %" PRIu64 " %02x\n", tick, value);
 }
 
@@ -153,10 +160,12 @@ static void begin(struct probe *probe, uint64_t epoch)
     };
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         probe->trains[motor].count = 0;
+        probe->trains[motor].last = 0;
         probe->trains[motor].turned_tick = 0;
     }
     probe->input_count = 0;
     probe->heard_count = 0;
+    probe->runs = false;
 }
 
 static void set_cause(struct probe *probe, const char *cause)
@@ -205,14 +214,51 @@ static void report(const struct probe *probe)
     (void)fflush(stdout);
 }
 
-static void run(struct probe *probe, uint64_t tick)
+static bool has_answered(void *context)
+{
+    return ((struct probe *)context)->has_answered;
+}
+
+static void start(struct probe *probe)
 {
     host_machine_set_script(&probe->machine, probe->input, probe->input_count);
     host_machine_set_line(&probe->machine, probe->heard, probe->heard_count);
-    gve134_init(&probe->unit);
-    gve134_start(&probe->unit);
+    if (!probe->runs) {
+        probe->runs = true;
+        gve134_init(&probe->unit);
+        gve134_start(&probe->unit);
+    }
+}
+
+static void run(struct probe *probe, uint64_t tick)
+{
+    start(probe);
     host_machine_run(&probe->machine, tick, pass, NULL, probe);
     report(probe);
+}
+
+/* Forgets what has come and has been told. */
+static void forget_past(struct probe *probe)
+{
+    uint32_t inputs = probe->machine.script_next;
+    uint32_t bytes = probe->machine.line.script_next;
+    probe->input_count -= inputs;
+    probe->heard_count -= bytes;
+    memmove(probe->input, probe->input + inputs, probe->input_count * sizeof probe->input[0]);
+    memmove(probe->heard, probe->heard + bytes, probe->heard_count * sizeof probe->heard[0]);
+    for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
+        probe->trains[motor].count = 0;
+    }
+}
+
+static void go(struct probe *probe, uint64_t tick)
+{
+    probe->has_answered = false;
+    start(probe);
+    host_machine_run(&probe->machine, tick, pass, has_answered, probe);
+    (void)printf("at %" PRIu64 "\n", probe->machine.now);
+    report(probe);
+    forget_past(probe);
 }
 
 static void obey(struct probe *probe, const char *line)
@@ -231,6 +277,8 @@ static void obey(struct probe *probe, const char *line)
         add_byte(probe, line + 5);
     } else if (strncmp(line, "run ", 4) == 0) {
         run(probe, strtoull(line + 4, NULL, 10));
+    } else if (strncmp(line, "go ", 3) == 0) {
+        go(probe, strtoull(line + 3, NULL, 10));
     } else {
         complain("no such line");
     }

@@ -7,20 +7,25 @@ from __future__ import annotations
 
 import os
 import subprocess
+from collections.abc import Iterable
 from pathlib import Path
 
 from gve_course import Record
-from gve_record import BYTE_TICKS, Answer, Done, Session
+from gve_line import Byte
+from gve_record import BYTE_TICKS, Answer, Done, Edge, Session
 from motion_probe import ROOT, Missing
 
 
-def lines_of(session: Session) -> str:
-    """Return a session as the probe reads it."""
+def begin_of(session: Session) -> list[str]:
+    """How a session begins, as the probe reads it."""
     lines = [f"epoch {session.epoch}", f"ahead {session.ahead}", f"byte {BYTE_TICKS}"]
-    lines.append(f"cause {session.cause}")
-    lines += [f"in {edge.tick} {edge.number} {edge.level}" for edge in session.edges]
-    lines += [f"hear {byte.tick} {byte.value:02x} {byte.broken:d}" for byte in session.line]
-    return "\n".join([*lines, f"run {session.end}\n"])
+    return [*lines, f"cause {session.cause}"]
+
+
+def lines_of(edges: Iterable[Edge], line: Iterable[Byte]) -> list[str]:
+    """What comes to a unit, as the probe reads it."""
+    lines = [f"in {edge.tick} {edge.number} {edge.level}" for edge in edges]
+    return lines + [f"hear {byte.tick} {byte.value:02x} {byte.broken:d}" for byte in line]
 
 
 class Probe:
@@ -46,22 +51,31 @@ class Probe:
 
     def run(self, session: Session) -> Done:
         """Run a session from power-on."""
+        reader = Reader(session.end)
+        lines = begin_of(session) + lines_of(session.edges, session.line)
+        self.tell([*lines, f"run {session.end}"], reader)
+        return reader.done
+
+    def tell(self, lines: list[str], reader: Reader) -> None:
+        """Have lines obeyed, the last of which runs the unit, and what it does read."""
         assert self._process.stdin
         assert self._process.stdout
-        self._process.stdin.write(lines_of(session))
+        self._process.stdin.write("\n".join([*lines, ""]))
         self._process.stdin.flush()
-        reader = _Reader(session.end)
         for line in self._process.stdout:
             if reader.read(line.split()):
-                return reader.done
-        raise RuntimeError(f"the probe ended with status {self._process.wait()}:\n{session.text}")
+                return
+        raise RuntimeError(f"the probe ended with status {self._process.wait()}: {lines[-1]}")
 
 
-class _Reader:
+class Reader:
     """Reads what the probe tells of a session."""
 
     def __init__(self, end: int) -> None:
         self.done = Done(Record(end))
+        self.tick = 0
+        self.sent: list[tuple[int, int]] = []
+        """The bytes that it has sent, each with its tick."""
         self._text = ""
         self._begin = 0
 
@@ -72,6 +86,8 @@ class _Reader:
             self._hear(int(words[1]), int(words[2], 16))
         elif kind == "signal":
             self._note(" ".join(words[3:]), int(words[1]), int(words[2]))
+        elif kind == "at":
+            self.tick = int(words[1])
         elif kind == "judge":
             self.done.complaints.append(" ".join(words[1:]))
         elif kind == "pulses":
@@ -93,6 +109,7 @@ class _Reader:
 
     def _hear(self, tick: int, value: int) -> None:
         """A byte of the unit has ended at a tick."""
+        self.sent.append((tick, value))
         if not self._text:
             self._begin = tick - BYTE_TICKS
         if value == 13:

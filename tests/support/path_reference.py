@@ -237,6 +237,11 @@ class Leg:
         """When the leg ends."""
         return self.time + self._time_of_way(self.x1.numerator, self.x1.denominator)
 
+    @property
+    def square_at_end(self) -> int | Fraction:
+        """2·u² at x1."""
+        return self.square + self.sign * (self.x1 - self.x0)
+
     @cached_property
     def _root(self) -> int:
         return _root(self.square, 1)

@@ -31,7 +31,7 @@ LONG_MINUTES = 4  # the same with --long
 SOAK_MINUTES = 24 * 60  # of unit time, with --long
 NICENESS = 10  # of what runs beside the Python tests
 TRIED_AGAIN = 3  # Python tests that may have failed for a busy machine; more is no accident
-SWEEPS = {"RKM04_LONG": "1", "RKM04_PROGRAMS": "11000"}  # with --long; 10 000 compared
+SWEEPS = {"RKM04_LONG": "1", "RKM04_PROGRAMS": "11000", "RKM04_JOB": "100000"}  # with --long
 
 UNITY_SUMMARY = re.compile(r"^(\d+) Tests (\d+) Failures (\d+) Ignored", re.MULTILINE)
 UNITY_SKIP = re.compile(r"^(?:.*/)?(.+:\d+:.+:IGNORE.*)$", re.MULTILINE)
