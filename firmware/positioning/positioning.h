@@ -63,6 +63,9 @@ enum pos_error pos_capture(struct pos_unit *unit, unsigned axis);
 /* What an axis shows now; nothing for an axis that is not there. */
 void pos_read(struct pos_unit *unit, unsigned axis, struct pos_values *values);
 
+/* Writes registers, as one request of the line does; what it refuses, it refuses here. */
+enum modbus_exception positioning_write(struct pos_unit *unit, uint32_t first, uint32_t count, const uint16_t *values);
+
 /* The PLC program that is linked in: called once in each pass, after the line; to be back within 100 us. The one that
  * is delivered (plc_pass.c) does nothing. */
 void plc_pass(struct pos_unit *unit);

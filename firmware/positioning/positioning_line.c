@@ -238,25 +238,31 @@ static bool is_busy(const struct pos_unit *unit, uint32_t axes)
     return false;
 }
 
-/* In the order in which the exceptions count; without one all has been done. */
-static enum modbus_exception take(struct pos_unit *unit, const struct modbus_request *request)
+enum modbus_exception positioning_write(struct pos_unit *unit, uint32_t first, uint32_t count, const uint16_t *values)
 {
-    bool writes = request->write_count != 0U;
-    bool only_read = request->function == (uint8_t)MODBUS_READ_INPUTS;
-    if ((writes && !pos_registers_may_write(request->write_first, request->write_count)) ||
-        (request->read_count != 0U && !pos_registers_may_read(request->read_first, request->read_count, only_read))) {
+    if (!pos_registers_may_write(first, count)) {
         return MODBUS_EXCEPTION_ADDRESS;
     }
-    if (!writes) {
-        return MODBUS_EXCEPTION_NONE;
-    }
-    if (!pos_write_init(&unit->write, &unit->registers, request->write_first, request->write_count, request->values)) {
+    if (!pos_write_init(&unit->write, &unit->registers, first, count, values)) {
         return MODBUS_EXCEPTION_VALUE;
     }
     if (is_busy(unit, pos_write_axes(&unit->write))) {
         return MODBUS_EXCEPTION_BUSY;
     }
     return write(unit) ? MODBUS_EXCEPTION_NONE : MODBUS_EXCEPTION_FAILURE;
+}
+
+/* Without an exception all has been done. */
+static enum modbus_exception take(struct pos_unit *unit, const struct modbus_request *request)
+{
+    bool only_read = request->function == (uint8_t)MODBUS_READ_INPUTS;
+    if (request->read_count != 0U && !pos_registers_may_read(request->read_first, request->read_count, only_read)) {
+        return MODBUS_EXCEPTION_ADDRESS;
+    }
+    if (request->write_count == 0U) {
+        return MODBUS_EXCEPTION_NONE;
+    }
+    return positioning_write(unit, request->write_first, request->write_count, request->values);
 }
 
 /* True: a request has been executed. */

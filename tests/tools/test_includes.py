@@ -11,7 +11,15 @@ from checks.house import ROOT
 
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 CHECKS = re.compile(r"^ *(?:from|import) checks\b", re.MULTILINE)
-FOLDERS = ("common", "unit_host", "unit_serve", "simulator", "gve134_host", "vboard")
+FOLDERS = (
+    "common",
+    "unit_host",
+    "unit_serve",
+    "simulator",
+    "gve134_host",
+    "positioning_host",
+    "vboard",
+)
 
 
 def modules(folder: Path) -> dict[str, set[str]]:

@@ -36,6 +36,7 @@ HOST = (
     "tools/simulator/*.c",
     "tools/simulator/wasm/*.c",
     "tools/gve134_host/*.c",
+    "tools/positioning_host/*.c",
     "tools/vboard/*.c",
 )
 ARM = ("hal/stm32/*.c",)
@@ -50,6 +51,7 @@ FOLDERS = (
     "tools/unit_serve",
     "tools/simulator",
     "tools/gve134_host",
+    "tools/positioning_host",
 )
 ARM_FOLDERS = (*STAGES, "hal/include", "hal/stm32", f"hal/stm32/boards/{BOARD}")
 CLASS_2 = "/stm32_gpio_"

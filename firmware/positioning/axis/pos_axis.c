@@ -4,6 +4,7 @@
 
 #include "hal_step.h"
 #include "hal_time.h"
+#include "hal_trace.h"
 
 enum {
     SPACE_MAX = 6,
@@ -221,6 +222,7 @@ void pos_axis_fault(struct pos_axis *axis, enum pos_error error)
     if (axis->state != (uint8_t)POS_FREE && axis->state != (uint8_t)POS_FAULT) {
         axis->state = (uint8_t)POS_FAULT;
         axis->error = (uint16_t)error;
+        hal_trace(hal_time_now(), axis->drive.motor + 1U, HAL_TRACE_ERROR, (int64_t)error);
         pos_axis_give_up(axis, true);
     }
 }

@@ -81,6 +81,7 @@ struct pos_axis {
     struct pos_target target;
     uint64_t start_tick;    /* at which the motion that shows in JEDE begins */
     int64_t reference_step; /* where the switch was left */
+    int64_t motion_steps;   /* the motor's, where the motion in progress began */
     int64_t captured_step;
     int64_t captured_um;
     uint32_t feed;  /* wanted; 1/65 536 mm/min */

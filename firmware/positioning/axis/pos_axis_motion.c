@@ -3,6 +3,7 @@
 #include "base_tick.h"
 #include "hal_step.h"
 #include "hal_time.h"
+#include "hal_trace.h"
 
 /* ---- positions ------------------------------------------------------------------------------------------------- */
 
@@ -32,6 +33,36 @@ void pos_axis_look(struct pos_axis *axis)
         axis->reference_step = pos_frame_step_of(&axis->frame, reference_motor_steps);
     }
     pos_frame_follow(&axis->frame, motor_steps);
+}
+
+/* ---- onlookers ------------------------------------------------------------------------------------------------- */
+
+static void tell(const struct pos_axis *axis, uint64_t tick, enum hal_trace_event event, int64_t value)
+{
+    hal_trace(tick, axis->drive.motor + 1U, event, value);
+}
+
+static void tell_begin(struct pos_axis *axis, uint64_t tick)
+{
+    int64_t left = (int64_t)pos_drive_left(&axis->drive);
+    axis->motion_steps = pos_drive_steps(&axis->drive);
+    tell(axis, tick, HAL_TRACE_MOVE, axis->negative ? -left : left);
+}
+
+static void tell_end(const struct pos_axis *axis)
+{
+    tell(axis, pos_drive_end_tick(&axis->drive), HAL_TRACE_DONE, pos_drive_steps(&axis->drive) - axis->motion_steps);
+}
+
+static void tell_speed(const struct pos_axis *axis)
+{
+    tell(axis, hal_time_now(), HAL_TRACE_SPEED, (int64_t)(axis->speed / PATH_SPEED_UNITS));
+}
+
+static void hold(struct pos_axis *axis)
+{
+    tell(axis, hal_time_now(), HAL_TRACE_STOP, AXIS_CAUSE_PAUSE);
+    pos_drive_hold(&axis->drive);
 }
 
 /* ---- measures -------------------------------------------------------------------------------------------------- */
@@ -109,9 +140,10 @@ void pos_axis_give_up(struct pos_axis *axis, bool fault)
         pos_axis_look(axis);
         pos_frame_give_up(&axis->frame);
     } else if (fault) {
+        tell(axis, hal_time_now(), HAL_TRACE_STOP, AXIS_CAUSE_FAULT);
         pos_drive_fault(&axis->drive);
     } else {
-        pos_drive_hold(&axis->drive);
+        hold(axis);
     }
 }
 
@@ -170,6 +202,7 @@ static void initiate(struct pos_axis *axis, uint8_t inputs)
 /* The motor has come to rest. */
 static void end(struct pos_axis *axis, uint8_t inputs)
 {
+    tell_end(axis);
     if (axis->state != (uint8_t)POS_MOVING) {
         pos_frame_give_up(&axis->frame);
         return;
@@ -193,11 +226,12 @@ static void resume(struct pos_axis *axis, uint32_t speed)
         return;
     }
     axis->speed = speed;
+    tell_speed(axis);
     hal_step_hold();
     bool found = axis->watch.reference_hit;
     hal_step_release();
     if (found) {
-        pos_drive_hold(&axis->drive);
+        hold(axis);
     }
 }
 
@@ -211,13 +245,14 @@ static void follow(struct pos_axis *axis)
     if (!pos_axis_is_busy(axis)) {
         axis->state = (uint8_t)(speed == 0U ? POS_READY : POS_MOVING);
     } else if (speed == 0U) {
-        pos_drive_hold(&axis->drive);
+        hold(axis);
         axis->speed = 0;
     } else if (axis->speed == 0U) {
         resume(axis, speed);
     } else {
         pos_drive_change(&axis->drive, speed);
         axis->speed = speed;
+        tell_speed(axis);
     }
 }
 
@@ -298,5 +333,6 @@ void pos_axis_start(struct pos_axis *axis, uint64_t start_tick, uint8_t inputs)
     axis->negative = axis->drive.measure.backward;
     axis->speed = wanted_speed(axis);
     watch_limit(axis, input);
+    tell_begin(axis, start_tick);
     pos_drive_start(&axis->drive, axis->speed, start_tick);
 }

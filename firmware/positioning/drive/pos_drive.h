@@ -81,6 +81,9 @@ uint64_t pos_drive_poll(struct pos_drive *drive);
 /* It has come to rest: standing from now on. False if it has not, or that has been told. */
 bool pos_drive_take_end(struct pos_drive *drive);
 
+/* The unit's time at which it came to rest, or of its last pulse, which may be a tick later. */
+uint64_t pos_drive_end_tick(const struct pos_drive *drive);
+
 /* Whether a motion has begun whose end has not been taken. */
 bool pos_drive_is_busy(const struct pos_drive *drive);
 

@@ -1,0 +1,52 @@
+#include "pos_serve.h"
+
+#include "base_tick.h"
+#include "pos_kind.h"
+#include "serve.h"
+
+/* A byte at the delivered 19 200 Bd, 8E1. */
+#define BYTE_TICKS (TICK_HZ / 19200U * 11U)
+
+const char pos_serve_usage[] =
+    "usage: positioning-host serve [--tcp PORT | --pty PATH] [--node N ...] [--flash FILE] [--speed X]\n"
+    "                              [--unpaced] [--control PORT] [--address ADDRESS] [--noise N] [--loss N]\n"
+    "                              [--seed N] [--json] [--until-eof]\n"
+    "\n"
+    "Units on one line in real time, until Ctrl-C. The line carries Modbus RTU. When ready it prints where it\n"
+    "listens.\n"
+    "\n"
+    "--tcp PORT        listens there (5000), for the bytes of RTU; 0 takes any free port\n"
+    "--pty PATH        makes a pty and the link PATH to it\n"
+    "--node N          a unit of address 1 to 16; may be repeated (1)\n"
+    "--flash FILE      keeps stored settings; with several units in FILE.nodeN\n"
+    "--speed X         times real time, 0.001 to 1000; 0: as fast as possible (1)\n"
+    "--unpaced         bytes take no time on the line\n"
+    "--control PORT    takes the lines of standard input by TCP too; 0 takes any free port\n"
+    "--address ADDRESS listens there, for others to connect (127.0.0.1: only this machine)\n"
+    "--noise N         a bad line: so many bytes of a million come changed, on both ways (0)\n"
+    "--loss N          and so many are lost (0)\n"
+    "--seed N          others are changed and lost with another one (0)\n"
+    "--json            says where it listens as a JSON object\n"
+    "--until-eof       ends when standard input does, as it does when the program that writes there ends\n"
+    "\n"
+    "Lines on standard input: 3=1 sets input 3, 2.3=1 that of unit 2, ? prints the state of all\n"
+    "units. Each is answered by JSON: the state by a line per unit, the others by one line.\n"
+    "\n"
+    "example: positioning-host serve --pty /tmp/unit --flash unit.flash\n";
+
+static const struct serve_kind kind = {
+    .unit = &pos_kind_of_unit,
+    .tool = "positioning",
+    .order_help = "not understood; write 3=1 or 3=0 for input 3, 2.3=1 for that of unit 2, or ?",
+    .flash_mark = "POS4",
+    .byte_ticks = BYTE_TICKS,
+    .has_nodes = true,
+};
+
+enum exit_status pos_serve(int count, char *const arguments[])
+{
+    const struct argument node = ARGUMENT_OTHER_ROW("--node", serve_options_read_node);
+    struct serve_options options;
+    enum exit_status status = serve_options_read(&options, &node, count, arguments);
+    return status == EXIT_DONE ? serve_run(&kind, &options) : status;
+}
