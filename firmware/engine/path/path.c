@@ -6,9 +6,6 @@
 #include "path_look.h"
 #include "path_segment.h"
 
-/* From so many ticks on an interval tells the generator nothing about the next one. */
-static const uint64_t GAP_TICKS = UINT64_C(1) << 30;
-
 void path_init(struct path *path, struct path_section *ring, uint32_t size, uint32_t turn_us)
 {
     *path = (struct path){.ring = ring, .size = size, .turn_us = turn_us};
@@ -114,7 +111,6 @@ static void enter_section(struct path_cursor *cursor)
     cursor->pulse = 1;
     cursor->leg = 0;
     cursor->entered = false;
-    cursor->section_begins = true;
 }
 
 /* Puts the cursor on the leg with its next pulse; false if there is none in its section. */
@@ -123,7 +119,6 @@ static bool seek_leg(struct path_cursor *cursor, const struct path_course *cours
     for (; cursor->leg < course->legs; cursor->leg++) {
         if (!cursor->entered) {
             cursor->last = path_course_last_pulse(course, course->leg[cursor->leg].end, steps);
-            cursor->leg_begins = true;
             cursor->entered = true;
         }
         if (cursor->pulse <= cursor->last) {
@@ -152,16 +147,6 @@ static const struct path_course *seek(struct path *path, unsigned axis, uint64_t
     return NULL;
 }
 
-/* Whether the interval before a pulse may mislead the generator. */
-static bool is_alone(const struct path_cursor *cursor, const struct path_course *course, uint32_t steps,
-                     const struct path_pulse *at)
-{
-    const struct path_leg *leg = &course->leg[cursor->leg];
-    bool gap = cursor->fresh || path_segment_tick(at) - cursor->before >= GAP_TICKS;
-    bool brakes = leg->accel < 0 && cursor->leg_begins;
-    return gap || (brakes && (cursor->section_begins || !path_segment_is_fast(course, leg, steps, at)));
-}
-
 /* Whether the next pulse is known to come at a tick or later. */
 static bool cursor_is_late(const struct path_cursor *cursor, uint64_t until_tick)
 {
@@ -171,12 +156,8 @@ static bool cursor_is_late(const struct path_cursor *cursor, uint64_t until_tick
 
 static void hand_over(struct path_cursor *cursor, const struct path_segment *segment)
 {
-    cursor->before = segment->tick;
     cursor->pulse += segment->segment.steps;
-    cursor->fresh = false;
     cursor->found = false;
-    cursor->section_begins = false;
-    cursor->leg_begins = false;
 }
 
 bool path_next(struct path *path, unsigned axis, uint64_t until_tick, struct path_segment *segment)
@@ -188,7 +169,7 @@ bool path_next(struct path *path, unsigned axis, uint64_t until_tick, struct pat
     }
     const struct path_section *section = path_section_of(path, cursor->section);
     const struct path_leg *leg = &course->leg[cursor->leg];
-    struct path_stretch stretch = {
+    const struct path_stretch stretch = {
         .steps = path_section_steps(section, axis), .pulse = cursor->pulse, .last = cursor->last};
     if (!cursor->found) {
         cursor->at = path_course_pulse(course, leg, stretch.steps, stretch.pulse);
@@ -197,7 +178,6 @@ bool path_next(struct path *path, unsigned axis, uint64_t until_tick, struct pat
     if (cursor_is_late(cursor, until_tick)) {
         return false;
     }
-    stretch.alone = is_alone(cursor, course, stretch.steps, &cursor->at);
     segment->tick = path_segment_tick(&cursor->at);
     segment->segment = path_segment_lay(course, leg, &stretch, &cursor->at);
     segment->backward = section->vector.steps[axis] < 0;

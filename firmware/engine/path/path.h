@@ -34,7 +34,6 @@ struct path_segment {
 
 /* How far the pulses of an axis have been handed over. */
 struct path_cursor {
-    uint64_t before;      /* tick of the first pulse of the segment before */
     struct path_pulse at; /* of `pulse`, if it has been found, but was too late to be handed over */
     uint32_t section;     /* count */
     uint32_t pulse;       /* the next one in that section, from 1 */
@@ -42,9 +41,6 @@ struct path_cursor {
     unsigned leg;         /* that of the course which it is on; as many as there are: none is left */
     bool entered;         /* `last` is of `leg` */
     bool found;           /* `at` is known */
-    bool fresh;           /* the next pulse follows a stand or a change */
-    bool section_begins;  /* no pulse of the section has been handed over */
-    bool leg_begins;      /* none of the leg */
 };
 
 /* The course of a section that has been laid, kept while it is of use. */

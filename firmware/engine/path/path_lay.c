@@ -30,8 +30,6 @@ void path_lay_begin(struct path *path, const struct path_place *place)
         path->axis[axis] = (struct path_cursor){
             .section = place->section,
             .pulse = pulses[axis] + 1U,
-            .fresh = true,
-            .section_begins = true,
         };
     }
     for (unsigned i = 0; i < PATH_KEPT; i++) {

@@ -116,7 +116,7 @@ static bool is_useless(uint64_t slope, int32_t accel)
 static uint32_t pulses_of(const struct path_stretch *stretch, uint64_t slope, struct share share)
 {
     uint32_t left = stretch->last - stretch->pulse;
-    if (stretch->alone || left == 0 || slope < SLOPE_LEAST || is_useless(slope, share.accel)) {
+    if (left == 0 || slope < SLOPE_LEAST || is_useless(slope, share.accel)) {
         return 1;
     }
     if (are_near(left, slope, share)) {
@@ -149,26 +149,14 @@ struct step_segment path_segment_lay(const struct path_course *course, const str
     int64_t late = (tick > at->ticks ? INT64_C(1) << 32 : 0) - (int64_t)at->fraction;
     struct share share = share_of(course, leg, stretch->steps);
     uint64_t slope = slope_at(course, leg, stretch->steps, at, late);
+    uint32_t pulses = pulses_of(stretch, slope, share);
+    bool paced = slope >= SLOPE_LEAST && (share.accel == 0 || pulses > 1U);
     return (struct step_segment){
         .residual = residual_at(slope, share.accel, late),
         .slope = slope,
         .accel = share.accel,
         .tick = (uint32_t)tick,
-        .pace_ticks = share.accel == 0 && slope >= SLOPE_LEAST ? pace_of(slope) : 0U,
-        .steps = pulses_of(stretch, slope, share),
+        .pace_ticks = paced ? pace_of(slope) : 0U,
+        .steps = pulses,
     };
-}
-
-/* v^2 >= 8*A: over a step it was at least v^2 - 2*A, so the interval before is 1.16 times as long as at v at most, and
- * the generator foretells less than its way to a stand. slope256^2 = 2^16 * 2^16*f^2 * v^2 and
- * PATH_SLOPE2_PER_TWICE_SPEED2 = f^2/2; per step of the axis the path goes L/steps. */
-bool path_segment_is_fast(const struct path_course *course, const struct path_leg *leg, uint32_t steps,
-                          const struct path_pulse *at)
-{
-    uint64_t rest = 0;
-    uint64_t accel = (uint64_t)(leg->accel < 0 ? -leg->accel : leg->accel);
-    uint64_t change = accel * course->length / steps + 1U;
-    struct wide square = path_wide_multiply(at->slope256, at->slope256);
-    uint64_t scaled = wide_divide(square, STEP_QUANTA, &rest);
-    return scaled >> 20U >= change;
 }

@@ -20,21 +20,14 @@ struct path_stretch {
     uint32_t steps; /* of the axis in the vector */
     uint32_t pulse; /* in the vector, from 1 */
     uint32_t last;  /* the last one on the leg */
-    bool alone;     /* the pulse makes a segment by itself */
 };
 
-/* The segment that begins with the pulse `at` of a stretch. The generator finds every further pulse of it from the
- * interval before, whatever came before the segment while its first pulse is less than 2^31 ticks after the one before
- * and, where it brakes, no farther than the next one. Where that is not certain `alone` must be set. */
+/* The segment that begins with the pulse `at` of a stretch. The generator finds every further pulse of it, whatever
+ * came before. */
 struct step_segment path_segment_lay(const struct path_course *course, const struct path_leg *leg,
                                      const struct path_stretch *stretch, const struct path_pulse *at);
 
 /* The whole tick of a pulse. */
 uint64_t path_segment_tick(const struct path_pulse *pulse);
-
-/* Whether an axis that brakes from such a pulse on came to it, within the same vector, no slower than it needs to find
- * the next ones. */
-bool path_segment_is_fast(const struct path_course *course, const struct path_leg *leg, uint32_t steps,
-                          const struct path_pulse *at);
 
 #endif

@@ -30,7 +30,7 @@ struct step_generator {
     uint64_t slope;    /* quanta a tick, at `tick` */
     int32_t accel;     /* quanta a tick^2 */
     uint32_t tick;     /* of the last pulse, or of the start */
-    uint32_t interval; /* from the pulse before, ticks */
+    uint32_t interval; /* from the pulse before, ticks; on a segment's first pulse what that tells, if it does */
 
     /* At constant speed: the whole ticks of a step's time, and the part of the step that they
      * leave. */
@@ -65,10 +65,11 @@ static inline void step_generator_take_motion(struct step_generator *generator, 
 /* Goes on with a segment, on its first pulse. */
 static inline void step_generator_load(struct step_generator *generator, const struct step_segment *segment)
 {
+    bool told = segment->accel != 0 && segment->pace_ticks != 0;
     step_generator_take_motion(generator, segment);
     generator->residual = segment->residual;
     generator->slope = segment->slope;
-    generator->interval = segment->tick - generator->tick;
+    generator->interval = told ? segment->pace_ticks : segment->tick - generator->tick;
     generator->tick = segment->tick;
 }
 

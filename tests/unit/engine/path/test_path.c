@@ -111,7 +111,8 @@ void test_what_begins_later_than_wanted_is_not_handed_over(void)
     (void)path_start(&rig.path, 0);
     TEST_ASSERT_FALSE(path_next(&rig.path, 0, 118794, &segment));
     TEST_ASSERT_TRUE(path_next(&rig.path, 0, 118795, &segment));
-    TEST_ASSERT_EQUAL_UINT(99, pulses(0, 1200000));
+    TEST_ASSERT_EQUAL_UINT32(50, segment.segment.steps);
+    TEST_ASSERT_EQUAL_UINT(50, pulses(0, 1200000));
     TEST_ASSERT_EQUAL_UINT32(1, rig.path.laid);
     TEST_ASSERT_EQUAL_UINT(100, pulses(0, 5000000));
     TEST_ASSERT_EQUAL_UINT32(2, rig.path.laid);
@@ -209,22 +210,30 @@ void test_a_chain_that_has_ended_is_followed_by_another_one(void)
     TEST_ASSERT_EQUAL_UINT64(99999999 + 1187939, ticks[0]);
 }
 
-/* 40 s of rest for axis 1: its interval says nothing, so its first pulse is a segment by itself. */
-void test_after_a_long_rest_the_first_pulse_of_an_axis_is_alone(void)
+/* Axis 1 has rested for 40 s, which its interval must not be taken for. All of the last vector is its brake. */
+void test_a_brake_after_a_long_rest_has_its_pulses_on_their_ticks(void)
 {
-    struct path_segment segment;
+    const uint64_t late_tick = UINT64_C(3360000000);
     (void)rig_add(&rig, 100, 100, 1000, 100000);
     (void)rig_add(&rig, 40000, 0, 1000, 100000);
-    (void)rig_add(&rig, 1000, 1000, 1000, 100000);
+    (void)rig_add(&rig, 50, 50, 1000, 10000);
     (void)path_start(&rig.path, 0);
-    bool alone = false;
-    while (path_next(&rig.path, 1, UINT64_MAX, &segment)) {
-        if (rig.path.axis[1].section == 2 && segment.tick > UINT64_C(3360000000)) {
-            alone = alone || segment.segment.steps == 1;
-            break;
+    TEST_ASSERT_EQUAL_UINT(40100, pulses(0, late_tick));
+    TEST_ASSERT_EQUAL_UINT(50, pulses(0, UINT64_MAX));
+    uint64_t expected[50];
+    for (unsigned i = 0; i < 50; i++) {
+        expected[i] = ticks[i];
+    }
+    struct path_segment next;
+    struct step_generator generator = {0};
+    for (unsigned made = 0; path_next(&rig.path, 1, UINT64_MAX, &next);) {
+        step_generator_load(&generator, &next.segment);
+        for (uint32_t i = 0; i < next.segment.steps; i++, made++) {
+            uint32_t tick = i == 0 ? generator.tick : step_generator_next(&generator);
+            TEST_ASSERT_TRUE(made < 100 || tick == (uint32_t)expected[made - 100]);
         }
     }
-    TEST_ASSERT_TRUE(alone);
+    TEST_ASSERT_EQUAL_UINT32((uint32_t)expected[49], generator.tick);
 }
 
 /* What has been laid and forgotten is laid again for an axis that comes later. */

@@ -77,10 +77,12 @@ void test_a_cruise_is_one_segment_with_its_pace(void)
     TEST_ASSERT_EQUAL_UINT32(25225, segment(333, 17).pace_ticks);
 }
 
-void test_a_pulse_that_must_be_alone_is(void)
+/* At 9899.5 steps/s. */
+void test_a_ramp_tells_its_first_pace_unless_it_has_one_pulse(void)
 {
-    stretch.alone = true;
-    TEST_ASSERT_EQUAL_UINT32(1, segment(1000, 2).steps);
+    TEST_ASSERT_EQUAL_UINT32(8485, segment(1000, 49).pace_ticks);
+    TEST_ASSERT_EQUAL_UINT32(1, segment(1000, 50).steps);
+    TEST_ASSERT_EQUAL_UINT32(0, segment(1000, 50).pace_ticks);
 }
 
 void test_a_brake_is_laid_anew_before_a_quarter_of_its_slope_is_left(void)
@@ -141,17 +143,4 @@ void test_a_first_pulse_too_slow_to_foretell_the_next_from_is_alone(void)
     TEST_ASSERT_EQUAL_UINT32(1, path_segment_lay(&course, &course.leg[0], &stretch, &at).steps);
     at.slope256 *= 2U;
     TEST_ASSERT_TRUE(path_segment_lay(&course, &course.leg[0], &stretch, &at).steps > 1);
-}
-
-/* v^2 against 8*A: of an axis with a tenth of the way it takes a path sqrt(10) times as fast. */
-void test_a_brake_is_fast_while_a_step_changes_little_of_its_speed(void)
-{
-    leg = 2;
-    struct path_pulse at = {.slope256 = 2829 * STEP_SLOPE_PER_SPEED * 256U};
-    TEST_ASSERT_TRUE(path_segment_is_fast(&course, &course.leg[leg], 1000, &at));
-    TEST_ASSERT_FALSE(path_segment_is_fast(&course, &course.leg[leg], 100, &at));
-    at.slope256 = 2828 * STEP_SLOPE_PER_SPEED * 256U;
-    TEST_ASSERT_FALSE(path_segment_is_fast(&course, &course.leg[leg], 1000, &at));
-    at.slope256 = 8945 * STEP_SLOPE_PER_SPEED * 256U;
-    TEST_ASSERT_TRUE(path_segment_is_fast(&course, &course.leg[0], 100, &at));
 }

@@ -130,6 +130,22 @@ void test_the_interval_is_the_way_from_the_pulse_before(void)
     TEST_ASSERT_EQUAL_UINT32(5250, generator.interval);
 }
 
+void test_a_ramp_may_tell_what_the_interval_before_it_would_have_been(void)
+{
+    struct step_segment ramp = segment_of(&(struct motion){.speed_steps_per_s = 1000, .accel_steps_per_s2 = -1000});
+    ramp.tick = 500000000;
+    step_generator_start(&generator, 0);
+    step_generator_load(&generator, &ramp);
+    TEST_ASSERT_EQUAL_UINT32(500000000, generator.interval);
+
+    ramp.pace_ticks = 84000;
+    step_generator_start(&generator, 0);
+    step_generator_load(&generator, &ramp);
+
+    TEST_ASSERT_EQUAL_UINT32(84000, generator.interval);
+    TEST_ASSERT_EQUAL_UINT32(500084042, step_generator_next(&generator));
+}
+
 void test_constant_speed_does_not_drift_over_ten_million_pulses(void)
 {
     const uint32_t speed = 15999;
