@@ -76,7 +76,9 @@ static void put(struct host_machine *machine, unsigned motor, const struct hal_s
     struct host_laid *laid = &machine->laid[motor];
     int32_t way = tick_difference(pulse->rise_tick, (uint32_t)host_unit_time(machine));
     bool turns = laid->turn != TICK_NEVER;
+    uint64_t before = laid->count != 0 ? *laid_slot(laid, laid->count - 1U) : 0;
     uint64_t least = turns ? laid->turn + HOST_SETUP_TICKS : machine->now;
+    least = before > least ? before : least;
     uint64_t tick = make_good(machine, (int64_t)machine->now + way, least);
     laid->turned += turns ? 1U : 0U;
     *laid_slot(laid, laid->count) = tick;

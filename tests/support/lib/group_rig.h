@@ -82,10 +82,7 @@ static inline void direction_seen(void *context, uint64_t tick, unsigned motor, 
 static inline uint64_t poll(void *context)
 {
     (void)context;
-    if (machine.now < busy_until) {
-        return busy_until;
-    }
-    return group_poll(&group) - machine.epoch;
+    return machine.now < busy_until ? machine.epoch + busy_until : group_poll(&group);
 }
 
 static inline void begin_ring(uint32_t ahead_ticks, uint32_t places)

@@ -383,6 +383,24 @@ void test_a_pulse_too_soon_after_a_turn_waits_for_the_direction_and_is_counted(v
     TEST_ASSERT_EQUAL_UINT64(1, machine.late_steps);
 }
 
+void test_late_pulses_after_a_turn_keep_their_order(void)
+{
+    machine.ahead_ticks = 20000;
+    run_until(5000);
+    give_way(1, 1000, true);
+    give_way(1, 2000, true);
+    give_way(1, 3000, true);
+    run_given(1);
+
+    run_until(5000 + HOST_SETUP_TICKS);
+    TEST_ASSERT_EQUAL_UINT(0, edges);
+    run_until(5000 + HOST_SETUP_TICKS + 1U);
+
+    TEST_ASSERT_EQUAL_UINT(3, edges);
+    TEST_ASSERT_EQUAL_UINT64(5000 + HOST_SETUP_TICKS, edge_tick);
+    TEST_ASSERT_EQUAL_UINT64(3, machine.late_steps);
+}
+
 void test_no_pulse_is_asked_for_while_a_direction_is_to_turn(void)
 {
     machine.ahead_ticks = 20000;
