@@ -32,6 +32,8 @@ from checks.mutation_operators import Mutant, mutants
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "host"
 WORK = ROOT / "build" / "mutation"
+TESTS = ROOT / "tests"
+GROUPS = {"system/gve134": "gve134_unit"}  # as tests/CMakeLists.txt calls them
 EQUIVALENT = ROOT / "tests" / "mutation" / "equivalent.txt"
 MINUTES = 10
 SEED = 1
@@ -45,11 +47,25 @@ class Module:
     name: str
     folder: str
     files: tuple[str, ...]
-    programs: tuple[str, ...]  # none named: all of the folder
+    programs: tuple[str, ...]  # none named: all of the folders of tests/
+    tests: tuple[str, ...] = ()  # those folders; none named: that of the unit tests of the folder
 
-    @property
-    def library(self) -> str:
-        return self.folder.replace("/", "_")
+    def sources(self) -> dict[str, Path]:
+        """The test programs, each with its source."""
+        folders = self.tests or (f"unit/{self.folder}",)
+        paths = [path for each in folders for path in sorted((TESTS / each).glob("test_*.c"))]
+        return {
+            f"{group_of(path.parent)}.{name}": path
+            for path in paths
+            if (name := path.stem.removeprefix("test_")) in (self.programs or (name,))
+        }
+
+
+def group_of(folder: Path) -> str:
+    """What the names of the test programs of a folder begin with."""
+    kind, *names = folder.relative_to(TESTS).parts
+    group = "_".join(names)
+    return GROUPS.get(f"{kind}/{group}", group)
 
 
 MODULES = (
@@ -82,6 +98,10 @@ MODULES = (
     Module("gve-speeds", "gve134/speeds", ("gve_speeds.c",), ()),
     Module("gve-guards", "gve134/guards", ("gve_guards.c",), ()),
     Module("gve-outputs", "gve134/outputs", ("gve_outputs.c",), ()),
+    Module(
+        "gve-queue", "gve134/queue", ("gve_queue.c", "gve_queue_home.c", "gve_queue_stop.c"), (),
+        ("unit/gve134/queue", "system/gve134"),
+    ),
 )  # fmt: skip
 
 
@@ -104,11 +124,8 @@ class Bench:
         self.source = ROOT / "firmware" / module.folder
         database = json.loads((BUILD / "compile_commands.json").read_text())
         self.compile = {Path(entry["file"]): shlex.split(entry["command"]) for entry in database}
-        names = module.programs or tuple(
-            path.stem.removeprefix("test_")
-            for path in sorted((ROOT / "tests/unit" / module.folder).glob("test_*.c"))
-        )
-        self.programs = [f"{module.library}.{name}" for name in names]
+        self.tests = module.sources()
+        self.programs = list(self.tests)
         self.link = {name: self.link_command(name) for name in self.programs}
         self.original: dict[str, bytes] = {}
         self.restore()
@@ -131,11 +148,6 @@ class Bench:
         self.folder.mkdir(parents=True, exist_ok=True)
         for path in self.source.glob("*.[ch]"):
             (self.folder / path.name).write_text(path.read_text())
-
-    def test_source(self, program: str) -> Path:
-        """The source of a test program."""
-        name = program.partition(".")[2]
-        return ROOT / "tests" / "unit" / self.module.folder / f"test_{name}.c"
 
     def compile_one(self, original: Path, source: Path) -> Path | None:
         """Compile a source as the build does its original; None where that fails."""
@@ -167,7 +179,7 @@ class Bench:
 
     def add_test(self, program: str, objects: dict[Path, Path]) -> bool:
         """Compile the source of a test program too, as it includes the header that is changed."""
-        test = self.test_source(program)
+        test = self.tests[program]
         target = self.compile_one(test, test)
         if target is not None:
             objects[test] = target
@@ -178,7 +190,7 @@ class Bench:
         command = list(self.link[program])
         target = self.folder / program
         command[command.index("-o") + 1] = str(target)
-        test = self.test_source(program)
+        test = self.tests[program]
         own = next(i for i, word in enumerate(command) if word.endswith(f"{test.name}.o"))
         command[own : own + 1] = [
             str(objects.get(test, command[own])),

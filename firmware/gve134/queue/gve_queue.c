@@ -196,7 +196,7 @@ void gve_queue_start(struct gve_queue *queue, uint8_t inputs)
 {
     uint64_t tick = hal_time_now() + (uint64_t)START_TICKS;
     uint64_t paused = queue->last_tick + queue->pause_ticks;
-    tick = queue->pause_ticks != 0 && queue->last_tick != 0 && paused > tick ? paused : tick;
+    tick = queue->last_tick != 0 && paused > tick ? paused : tick;
     queue->pause_ticks = 0;
     tell_start(queue, tick);
     bool started = group_start(&gve_queue_chain(queue)->group, tick);
@@ -264,7 +264,6 @@ uint64_t gve_queue_poll(struct gve_queue *queue, uint8_t inputs)
     if (group_take_end(group)) {
         end(queue, inputs);
         gve_queue_begin(queue, inputs);
-        wake = hal_time_now();
     }
     return wake;
 }

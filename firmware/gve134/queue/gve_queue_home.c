@@ -83,7 +83,6 @@ void gve_home_follow(struct gve_queue *queue, bool stopped, uint8_t inputs)
     group_forget(&gve_queue_chain(queue)->group);
     if (stopped || atomic_load_explicit(&queue->home.ended, memory_order_relaxed)) {
         finish(queue, GVE_HOME_STOPPED);
-        queue->intcom = false;
     } else if (phase == GVE_HOME_BACK) {
         finish(queue, GVE_HOME_DONE);
     } else if (!reached) {
