@@ -61,12 +61,12 @@ def levels(name: str) -> dict[str, str]:
     return found
 
 
-def pins_file(name: str, but: Collection[str] = ()) -> str:
-    """The wires for the virtual board; kinds in `but` are left open."""
+def pins_file(name: str, but: Collection[str] = (), unit: str = board.UNIT) -> str:
+    """The wires for the virtual board with the image of a unit; kinds in `but` are left open."""
     level = {
         f"BOARD_{virtual_board.LEVELS.get(kind, kind)}_LEVEL": f"{one == 'high':d}U"
         for kind, one in levels(name).items()
     }
     (usart,) = {match[1] for wire in wires(name) if (match := USART.search(wire.note))}
     connected = [Pin(w.signal, w.pin, "") for w in wires(name) if w.kind not in but]
-    return virtual_board.pins(Board(connected, {}, level | {"BOARD_USART": usart}))
+    return virtual_board.pins(Board(connected, {}, level | {"BOARD_USART": usart}), unit)

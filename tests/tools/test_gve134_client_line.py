@@ -283,6 +283,25 @@ def test_nothing_that_was_asked_for_on_a_dead_line_is_sent_when_it_lives_again(
     assert unit.taken == []
 
 
+def test_a_late_answer_that_looks_like_the_index_is_not_taken_for_it(
+    link: Link, unit: FakeGve, port: Ends
+) -> None:
+    """The answer to the packet comes in front of that to the first @, and tells the number that
+    says that nothing was executed."""
+    unit.faults.append(lost)
+    vectors = [f"C{number},0,0,0" for number in range(1, unit.index + 1)]
+    asked = iter([True])
+
+    def delay(data: bytes) -> None:
+        if data.startswith(b"!0@") and next(asked, False):
+            port.say(answer_of(f"0,{len(vectors)}"), 0.0)
+
+    port.before = delay
+    assert link.send_packet(vectors).numbers == (len(vectors),)
+    assert len(vectors) > 1
+    assert len(unit.taken) == len(vectors)
+
+
 def test_commands_of_somebody_else_are_noticed(link: Link, unit: FakeGve) -> None:
     unit.index = 77
     unit.faults.append(lost)

@@ -33,9 +33,8 @@ def test_a_planted_bug_still_fits_the_sources(bug: planted.Bug) -> None:
 def test_a_planted_bug_names_a_test_that_there_is(bug: planted.Bug) -> None:
     if bug.runner == "ctest":
         library, _, module = bug.test.partition(".")
-        folder = library.replace("_", "/")
-        folders = [ROOT / "tests" / "unit" / folder, ROOT / "tests" / "system" / folder]
-        assert any((folder / f"test_{module}.c").exists() for folder in folders)
+        sources = (ROOT / "tests").glob(f"*/**/test_{module}.c")
+        assert any(mutation.group_of(source.parent) == library for source in sources)
     else:
         file, _, function = bug.test.partition("::")
         name = function.partition("[")[0]

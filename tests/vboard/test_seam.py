@@ -187,6 +187,17 @@ def test_the_pwm_is_on_for_so_many_thousandths_of_each_millisecond(run: Run) -> 
     assert high_us(0, begin - 0.001) == 0
 
 
+def test_the_pwm_changes_between_its_periods(run: Run) -> None:
+    values = [500, 0, 1000, 0, 1000, 0]
+    seen = run(pwm=words(*values, *[0] * (ACTS - len(values))))
+    period = [ms for ms, level in seen.edges("pwm") if level][1]
+    whole = [ms for ms, _ in seen.edges("pwm") if ms > period + ACT_MS]
+    apart = [(ms - period) % 1 for ms in whole]
+
+    assert len(whole) == 4
+    assert [min(each, 1 - each) for each in apart] == pytest.approx([0] * 4, abs=0.002)
+
+
 def test_the_pwm_is_0_in_a_fault(run: Run) -> None:
     seen = run(pwm=words(*[1000] * ACTS), fails=words(3), ms=60.0)
     edges = seen.edges("pwm")

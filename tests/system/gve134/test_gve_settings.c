@@ -207,6 +207,17 @@ void test_each_coupling_makes_a_follow_its_axis(void)
     rig_position[0] = 9;
 }
 
+void test_a_parameter_of_a_coupled_axis_is_wrong_before_the_state_refuses_it(void)
+{
+    rig_expect("0EW0C,01", "0");
+    rig_expect("0L1000", "0");
+    rig_expect("0L0,0,0,5", "5");
+    rig_expect("0NA5", "5");
+    rig_expect("0WA5,100,100,100", "5");
+    rig_expect("0WY5,100,100,100", "7");
+    rig_run_ms(2000);
+}
+
 void test_a_that_is_not_coupled_is_independent(void)
 {
     static const char *const bytes[] = {"0EW0C,00", "0EW0C,04", "0EW0C,FF"};

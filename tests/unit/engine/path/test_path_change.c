@@ -93,6 +93,18 @@ void test_a_border_is_the_beginning_of_the_next_vector(void)
     TEST_ASSERT_EQUAL_UINT64(UINT64_C(2560000) * 2560000, place.entry.speed2);
 }
 
+/* X goes at 10 000 steps/s in terms of its own; (3000, 4000) counts a way of 5000, on which that is 8000 of Y. */
+void test_a_border_has_the_speed_as_the_next_vector_counts_it(void)
+{
+    struct path_vector vector = rig_vector(3000, 4000, 10000, 1000000);
+    vector.extent2 = UINT64_C(25000000);
+    TEST_ASSERT_TRUE(path_add(&rig.path, &vector));
+    start();
+    TEST_ASSERT_TRUE(find(1000 + 840000 + 8400 * 950, UINT64_MAX / 2U));
+    assert_found(1, 0);
+    TEST_ASSERT_EQUAL_UINT64(UINT64_C(2048000) * 2048000, place.entry.speed2);
+}
+
 void test_a_cruise_whose_next_step_is_far_is_changed_between_steps(void)
 {
     start();

@@ -226,6 +226,9 @@ void test_the_spindle_leaves_the_other_bits(void)
     gve_outputs_spindle(&outputs, 0);
     poll();
     TEST_ASSERT_EQUAL_HEX8(OUT_1 | OUT_2 | OUT_3, machine.outputs);
+    gve_outputs_spindle(&outputs, 9);
+    poll();
+    TEST_ASSERT_EQUAL_HEX8(OUT_0 | OUT_1 | OUT_2 | OUT_3, machine.outputs);
     gve_outputs_write(&outputs, 0xFF);
     gve_outputs_spindle(&outputs, 9);
     poll();
