@@ -242,7 +242,7 @@ def test_an_input_out_of_its_range_is_refused_and_disturbs_nothing(inputs, plc) 
 )  # fmt: skip
 def test_an_input_at_its_limit_is_taken(inputs, plc) -> None:
     move = plc.start("MC_MoveRelative", **{"Distance": 1.0, **GO, **inputs})
-    assert feed(plc.axes[0]) > 0
+    plc.until(lambda: feed(plc.axes[0]) > 0, cycles=5)
     plc.run(10)
     assert not move["Error"]
     assert plc.unit.axes[0].executed == [INIT, MODE]
@@ -418,6 +418,7 @@ def test_the_position_is_read_with_its_sign(plc) -> None:
 
 
 def test_another_block_that_takes_the_axis_first_is_told_to_a_pos_block(plc) -> None:
+    plc.run(5)
     first = plc.add("POS_INIT", Execute=True)
     mode = plc.add("POS_MODE", Execute=True, Way=1000, Accel=500)
     halt = plc.start("MC_Halt")
