@@ -29,7 +29,14 @@ def test_a_job_on_the_unit_is_as_the_table_has_it(job: Job, tmp_path: Path) -> N
     row = rows()[JOBS.index(job)]
     played = good(job.gcode(), read_mill(MACHINE), tolerance=ARC_MM)
     (tmp_path / "job.gve").write_text("\n".join([*played.lines, ""]))
-    play = ["sim", tmp_path / "job.gve", "--baud", str(BAUD), "--steps", tmp_path / "steps.csv"]
+    play: list[str | Path] = [
+        "sim",
+        tmp_path / "job.gve",
+        "--baud",
+        str(BAUD),
+        "--steps",
+        tmp_path / "steps.csv",
+    ]
     subprocess.run([host.program_path(), *play], check=True, capture_output=True)
 
     result = measure(
