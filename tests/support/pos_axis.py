@@ -6,13 +6,15 @@ import math
 from dataclasses import replace
 
 from pos_bits import Bits
+from pos_change import CHANGE
 from pos_curve import Order
 from pos_homing import Homing
-from pos_motion import CHANGE, Motion, Train
+from pos_motion import Motion, Train
 from pos_session import Act
 from pos_target import Goal, Origin, Seat, absolute, relative
 from pos_words import (
     HERE_METHOD,
+    MEASURES,
     MS,
     US,
     WAY_MAX,
@@ -74,7 +76,7 @@ class Axis:
         """Execute an instruction."""
         bits = self.bits
         near = self.motion.stand()[0] - MS if bits.jede else math.inf
-        if act.code != Code.POS_CAPTURE and (act.tick > near or act.tick < self.stood):
+        if (act.tick > near or act.tick < self.stood) and self._matters(act):
             raise Unsure("an instruction just when the axis comes to stand")
         if act.code == Code.POS_CONTROL:
             self._control(act)
@@ -91,6 +93,14 @@ class Axis:
             else:
                 self._measure(act)
         self.note(act.tick, act.tick + MS)
+
+    def _matters(self, act: Act) -> bool:
+        """Whether it makes a difference if the axis stands or is about to."""
+        if self.homing and self.homing.part:
+            return act.code != Code.POS_CAPTURE
+        if act.code in MEASURES:
+            return self.bits.prog
+        return act.code in (Code.POS_INIT, Code.POS_RESET) and self.goal is not None
 
     def _refusal(self, act: Act) -> Error:
         """The first of the reasons to refuse an instruction."""

@@ -196,6 +196,11 @@ class Curve:
         square2 = leg.square2_at(pulse) if leg else Fraction(0)
         return math.sqrt(square2 / 2) / SPEED_UNITS / TICK_HZ
 
+    def shifted(self, time: int) -> Curve:
+        """The same curve, later."""
+        legs = tuple(replace(leg, time=leg.time + time) for leg in self.legs)
+        return replace(self, legs=legs, rest_time=self.rest_time + time)
+
     def place_at(self, time: int) -> Fraction:
         """Where the axis is at a time."""
         for leg in self.legs:
@@ -236,5 +241,9 @@ def finished(legs: tuple[Leg, ...], x: Fraction, time: int, end: int, blur: floa
 
 def started(x: Place, time: int, order: Order, blur: float = 0.0) -> Curve:
     """The curve that leaves a stand at a time."""
-    place = Fraction(x)
-    return finished(tuple(lay(place, Fraction(0), time, order)), place, time, order.end, blur)
+    return moving(Fraction(x), Fraction(0), time, order, blur)
+
+
+def moving(x: Fraction, square2: Fraction, time: int, order: Order, blur: float = 0.0) -> Curve:
+    """The curve from a place and a speed, whose doubled square is given."""
+    return finished(tuple(lay(x, square2, time, order)), x, time, order.end, blur)

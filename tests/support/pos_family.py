@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from pos_curve import BITS, Curve, Order, Ticks, started
+from pos_curve import BITS, Curve, Ticks
 from reference import TICK_HZ
 
-TOLERANCE = 1.0 + 2**-10
-"""Ticks; the little is for floats."""
+TOLERANCE = 1.0 + 2**-6
+"""Ticks; the little is for floats, and for the ends of families."""
+
+CLOSE = 2**-7
+"""So well are these found."""
 
 SAME = 2**-10
 FEW = 6
@@ -66,8 +70,8 @@ class Family:
         blur = apart(self.curve(self.low), self.curve(self.high), tick << BITS) / gaps
         return [replace(c, blur=c.blur + blur) for c in map(self.curve, sorted(numbers))]
 
-    def seen(self, tick: int) -> list[Family]:
-        """What comes of it when the next pulse is seen at a tick."""
+    def seen(self, number: int, tick: int) -> list[Family]:
+        """What comes of it when the next pulse, of this number, is seen at a tick."""
         return [self]
 
     def narrow(self, first: int, ticks: Observed, until: int) -> float | None:
@@ -84,24 +88,22 @@ class Family:
         falls = 0 if lows[0] > 0 or (lows[1] <= 0 and highs[1] > 0) else 1
         if lows[falls] > 0 and highs[falls] > 0:
             return min(max(lows), max(highs))
+
+        def error(number: int, which: int) -> float:
+            return self._errors(number, first, ticks, until, keep=False)[which]
+
+        ends = self.low, self.high
         if lows[falls] > 0:
-            self.low = self._bisect(falls, first, ticks, until, rising=False)
+            self.low = crossing(lambda n: error(n, falls), ends, (lows[falls], highs[falls]))
         lows = self._errors(self.low, first, ticks, until)
         if max(lows) > 0:
             return max(lows)
-        if highs[1 - falls] > 0:
-            self.high = self._bisect(1 - falls, first, ticks, until, rising=True)
+        rises = 1 - falls
+        if highs[rises] > 0:
+            ends, errors = (-self.high, -self.low), (highs[rises], lows[rises])
+            self.high = -crossing(lambda n: error(-n, rises), ends, errors)
         self.kept = {i: self.curve(i) for i in (self.low, self.high)}
         return None
-
-    def _bisect(self, which: int, first: int, ticks: Observed, until: int, *, rising: bool) -> int:
-        """The first curve without an error (that falls), or the last one (of one that rises)."""
-        low, high = self.low, self.high
-        while high - low > 1:
-            mid = (low + high) // 2
-            bad = self._errors(mid, first, ticks, until, keep=False)[which] > 0
-            low, high = (mid, high) if bad != rising else (low, mid)
-        return low if rising else high
 
     def _errors(
         self, number: int, first: int, ticks: Observed, until: int, *, keep: bool = True
@@ -118,66 +120,29 @@ class Family:
         return float(np.max(late)), float(np.max(early, initial=-np.inf))
 
 
-class Rested(Family):
-    """Starts from a rest that is not known well: from which place the first two pulses tell."""
+def crossing(
+    value: Callable[[int], float], ends: tuple[int, int], values: tuple[float, float]
+) -> int:
+    """The first number for which a falling value is not over 0, or one for which it nearly is 0.
 
-    rests: Family
-    order: Order
-
-    def narrow(self, first: int, ticks: Observed, until: int) -> float | None:
-        """Without a pulse there is nothing to be told."""
-        return None
-
-    def seen(self, tick: int) -> list[Family]:
-        """The families of places from which the first pulse comes at a tick, or a little beside."""
-        found = []
-        for offset in (-1, 0, 1):
-            time = (tick << BITS) + offset * BESIDE
-            family = Family(self._from(time), self.rests.low, self.rests.high, error=1 / 3)
-            family.low = self._first(family, self.low - 2)
-            family.high = self._first(family, self.high + 2)
-            if family.low <= family.high:
-                found.append(family)
-        return found
-
-    def _from(self, time: int) -> Callable[[int], Curve]:
-        order, rests = self.order, self.rests
-
-        def make(number: int) -> Curve:
-            rest = rests.curve(number)
-            way = started(rest.rest, 0, order)
-            return started(rest.rest, time - way.time_of(way.first), order, rest.blur)
-
-        return make
-
-    def _first(self, family: Family, tick: int) -> int:
-        """The first place from which the start comes after a tick, or the last one."""
-        low, high = self.rests.low, self.rests.high
-        while low < high:
-            mid = (low + high) // 2
-            if family.make(mid).legs[0].time < tick << BITS:
-                low = mid + 1
-            else:
-                high = mid
-        return low
-
-
-BESIDE = (2 << BITS) // 3
-"""A first pulse may be a tick beside its time: three guesses, each a third of a tick off."""
-
-
-def rested(rests: Family, order: Order, low: int, high: int) -> Rested:
-    """Starts within a window from the places where a family rests."""
-    middle = rests.curve((rests.low + rests.high) // 2)
-    first = max(low, min(-(-curve.rest_time >> BITS) for curve in rests.both))
-    family = Rested(
-        lambda tick: started(middle.rest, tick << BITS, order, middle.blur),
-        first,
-        first + high - low,
-        starts=True,
-    )
-    family.rests, family.order = rests, order
-    return family
+    It is over 0 for the first number and not for the last one.
+    """
+    (low, high), (above, below) = ends, values
+    halve = False
+    while high - low > 1:
+        mid = (low + high) // 2
+        if not halve and math.isfinite(above - below):
+            mid = low + int((high - low) * (above / (above - below)))
+        mid = min(max(mid, low + 1), high - 1)
+        there = value(mid)
+        if -CLOSE <= there <= 0:
+            return mid
+        halve = not halve
+        if there > 0:
+            low, above = mid, there
+        else:
+            high, below = mid, there
+    return high
 
 
 def apart(curve: Curve, other: Curve, time: int) -> float:

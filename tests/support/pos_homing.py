@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pos_motion import CHANGE
+from pos_change import CHANGE
 from pos_session import Act
 from pos_words import FORWARD_METHOD, HERE_METHOD, MS, US, Error, Unsure
 

@@ -68,16 +68,15 @@ class Follower:
 
     def advance(self, tick: int) -> None:
         """Let the axis come to all stands up to a tick."""
-        axis = self.axis
-        while axis.bits.jede:
-            stands = math.ceil(axis.motion.stand()[1]) + NOTICED
-            if stands > tick:
-                break
-            axis.motion.verify(stands)
-            if math.ceil(axis.motion.stand()[1]) + NOTICED <= stands:
-                axis.stands()
-        if not (axis.bits.jede and self.train.growing and tick == self.end):
-            axis.motion.verify(tick - NOTICED if not axis.bits.jede else tick)
+        motion, bits = self.axis.motion, self.axis.bits
+        while bits.jede:
+            stands = math.ceil(motion.stand()[1]) + NOTICED
+            motion.verify(min(stands, tick))
+            if math.ceil(motion.stand()[1]) + NOTICED <= min(stands, tick):
+                self.axis.stands()
+            elif stands >= tick:
+                return
+        motion.verify(tick)
 
     def _edge(self, edge: Edge) -> None:
         axis, bits = self.axis, self.axis.bits

@@ -36,6 +36,8 @@ def states(axis: Axis, tick: int) -> list[Bits]:
 def expected(axis: Axis, tick: int) -> dict[str, set[int]]:
     """Of each register the values that it may have at a tick."""
     told: dict[str, set[int]] = {}
+    if axis.bits.jede and axis.motion.stand()[0] <= tick:
+        return told
     for bits in states(axis, tick):
         for name, value in bits.registers.items():
             told.setdefault(name, set()).add(value)

@@ -1,0 +1,109 @@
+"""Curves of which both the place and the time of a change are open, until a pulse is seen.
+
+So it is where an axis leaves a rest that lies somewhere between two pulses, or where a change comes
+before the first pulse after a start.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from pos_curve import BITS, Curve
+from pos_family import Family, Observed, crossing
+
+BESIDE = (2 << BITS) // 3
+"""A pulse may be a tick beside its time: three guesses, each right to a third of a tick."""
+
+ERROR = 1 / 3
+
+
+@dataclass
+class Loose(Family):
+    """The curves `shape(first)` to `shape(last)`, each from some tick on, `low` to `high`.
+
+    A shape begins at the time 0; the places where they begin rise with the number.
+    """
+
+    shape: Callable[[int], Curve] = field(kw_only=True)
+    first: int = 0
+    last: int = 0
+
+    @property
+    def both(self) -> tuple[Curve, ...]:
+        """The one that is furthest back, and the one that is furthest ahead."""
+        behind = self.shape(self.first).shifted(self.high << BITS)
+        return behind, self.shape(self.last).shifted(self.low << BITS)
+
+    def narrow(self, first: int, ticks: Observed, until: int) -> float | None:
+        """Without a pulse there is nothing to be told."""
+        return None
+
+    def seen(self, number: int, tick: int) -> list[Family]:
+        """The families of those places from which the pulse comes then, or a little beside."""
+        families: list[Family] = []
+        ends = self.first, self.last
+        if not self.shape(self.last).count >= number >= self.shape(self.last).first:
+            return families
+        if self.shape(self.first).count < number:
+            ends = crossing(lambda n: self._lacks(number, n), ends, (math.inf, 0)), self.last
+        for offset in (-1, 0, 1):
+            family = self._within(self._from(number, (tick << BITS) + offset * BESIDE), ends)
+            families += [family] if family else []
+        return families
+
+    def _lacks(self, number: int, n: int) -> float:
+        """Infinite while a curve stands before a pulse: so the first that does not is found."""
+        return math.inf if self.shape(n).count < number else -math.inf
+
+    def _within(self, make: Callable[[int], Curve], ends: tuple[int, int]) -> Family | None:
+        """Those that begin when they may."""
+        low = since(lambda n: self.low - 2 - _begin(make(n)), *ends)
+        high = since(lambda n: _begin(make(-n)) - self.high - 2, -ends[1], -ends[0])
+        if low is None or high is None or low > -high:
+            return None
+        return Family(make, low, -high, error=ERROR)
+
+    def _from(self, number: int, time: int) -> Callable[[int], Curve]:
+        def make(n: int) -> Curve:
+            curve = self.shape(n)
+            return curve.shifted(time - curve.time_of(number))
+
+        return make
+
+
+def _begin(curve: Curve) -> float:
+    return curve.legs[0].time / (1 << BITS)
+
+
+def since(value: Callable[[int], float], low: int, high: int) -> int | None:
+    """The first number for which a falling value is not over 0; None: there is none."""
+    above = value(low)
+    if above <= 0:
+        return low
+    below = value(high)
+    return None if below > 0 else crossing(value, (low, high), (above, below))
+
+
+def loose(shape: Callable[[int], Curve], places: tuple[int, int], ticks: tuple[int, int]) -> Loose:
+    """Curves from some places, at some ticks."""
+    first, last = places
+    middle = shape((first + last) // 2)
+    return Loose(
+        lambda tick: middle.shifted(tick << BITS),
+        *ticks,
+        starts=True,
+        shape=shape,
+        first=first,
+        last=last,
+    )
+
+
+def rested(family: Family, start: Callable[[Curve], Curve], ticks: tuple[int, int]) -> Loose:
+    """Starts from the rests of a family whose rest is not known."""
+    if isinstance(family, Loose):
+        old, places = family.shape, (family.first, family.last)
+    else:
+        old, places = family.curve, (family.low, family.high)
+    return loose(lambda n: start(old(n)), places, ticks)
