@@ -17,6 +17,7 @@ from typing import Any
 
 import pytest
 from noisy_line import NoisyLine
+from rkm04_tools.gve134.answers import encoded
 from rkm04_tools.gve134.link_errors import LineError
 from rkm04_tools.gve134.unit import open_unit
 
@@ -29,9 +30,10 @@ Start = Callable[..., "subprocess.Popen[str]"]
 class ServedGve:
     """A running `gve134 serve`."""
 
-    def __init__(self, tmp_path: Path) -> None:
+    def __init__(self, tmp_path: Path, *options: str) -> None:
+        command = [sys.executable, "-P", "-m", "rkm04_tools.gve134", "serve", "--tcp", "0"]
         self.process = subprocess.Popen(
-            [sys.executable, "-P", "-m", "rkm04_tools.gve134", "serve", "--tcp", "0", "--json"],
+            [*command, "--json", *options],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
             cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT / "tools")},
         )  # fmt: skip
@@ -56,6 +58,23 @@ class ServedGve:
     def end(self) -> None:
         self.process.send_signal(signal.SIGTERM)
         self.process.communicate(timeout=PATIENCE_S)
+
+
+Serve = Callable[..., ServedGve]
+
+
+@pytest.fixture
+def serve(tmp_path: Path) -> Iterator[Serve]:
+    """Start units."""
+    units = []
+
+    def start(*options: str) -> ServedGve:
+        units.append(ServedGve(tmp_path, *options))
+        return units[-1]
+
+    yield start
+    for unit in units:
+        unit.end()
 
 
 @pytest.fixture
@@ -205,6 +224,94 @@ def test_on_a_bad_line_a_job_arrives_once_or_is_given_up(
         x, y, z, _ = unit.positions()
     assert (y, z) == (2 * x, -x // 10)
     assert x <= 3000
+
+
+BAD_LINE = ("--noise", "300", "--loss", "300", "--seed")
+
+
+@pytest.mark.parametrize("seed", ["2", "3"])
+def test_a_job_over_the_bad_line_of_a_unit_is_executed_to_the_pulse(
+    gve: Tool, serve: Serve, tmp_path: Path, seed: str
+) -> None:
+    unit = serve(*BAD_LINE, seed)
+    job = "A2000\nV50000\nB50000\n" + "C10,20,-1\nC3,-7,0,2\n" * 300
+
+    answer = gve("send", file_of(tmp_path, job), "--json", "--port", unit.place).json
+
+    assert answer["positions"] == {"X": 3900, "Y": 3900, "Z": -300, "A": 600}
+    assert answer["executed"] == 600
+    assert answer["repairs"] > 0
+    assert unit.order("?")["travel"] == [3900, 3900, -300, 600]
+
+
+@pytest.mark.parametrize("seed", ["2", "3"])
+def test_ctrl_c_halts_a_job_over_a_bad_line_and_tells_where_the_axes_stand(
+    start_gve: Start, serve: Serve, tmp_path: Path, seed: str
+) -> None:
+    unit = serve(*BAD_LINE, seed)
+    path = file_of(tmp_path, "A50\nV1000\nB1000\n" + "C20,-10\n" * 2000)
+    process = start_gve("send", path, "--port", unit.place)
+    unit.until(lambda state: state["positions"][0] > 100)
+    process.send_signal(signal.SIGINT)
+    _, told = process.communicate(timeout=PATIENCE_S)
+
+    state = unit.order("?")
+    x, y, *_ = state["positions"]
+    assert process.returncode == 130
+    assert f"the axes stand at X {x}  Y {y}  Z 0  A 0; stopped, the rest of the vectors" in told
+    assert f"; {x // 20} of 2000 vectors were executed" in told
+    assert not any(state["moving"])
+
+
+def test_a_host_that_dies_in_a_packet_leaves_nothing_of_it_and_a_line_in_step(
+    gve: Tool, served: ServedGve, tmp_path: Path
+) -> None:
+    with open_unit(served.place) as unit:
+        unit.order("V5000")
+        packet = "*S", "C100,0,0,0", "C100,0,0,0"
+        unit.link.wire.write(b"".join(encoded(each, sums=True) for each in packet) + b"!0C10")
+
+    answer = gve("send", file_of(tmp_path, "C7,8\n"), "--json").json
+
+    assert answer["positions"] == {"X": 7, "Y": 8, "Z": 0, "A": 0}
+    assert served.order("?")["travel"] == [7, 8, 0, 0]
+
+
+def test_a_host_that_is_killed_leaves_whole_packets_only(
+    gve: Tool, start_gve: Start, served: ServedGve, tmp_path: Path
+) -> None:
+    path = file_of(tmp_path, "A2000\nV50000\nB50000\n" + "C10,20,-1\n" * 3000)
+    process = start_gve("send", path)
+    served.until(lambda state: state["positions"][0] > 500)
+    process.kill()
+    process.communicate(timeout=PATIENCE_S)
+    served.until(lambda state: not any(state["moving"]))
+
+    at = gve("position", "--json").json
+    assert (at["Y"], at["Z"]) == (2 * at["X"], -at["X"] // 10)
+    assert at["X"] % 10 == 0
+    assert gve("send", file_of(tmp_path, "C1\n")).status == 0
+
+
+def test_a_restart_in_the_middle_of_a_job_is_told_loudly_and_nothing_goes_on(
+    start_gve: Start, serve: Serve, tmp_path: Path
+) -> None:
+    before, after = serve(), serve()
+    noisy = NoisyLine(before.place.removeprefix("socket://"), 1, 0.0, echo=False)
+    try:
+        path = file_of(tmp_path, "A2000\nV50000\nB50000\n" + "C10,20,-1\n" * 3000)
+        process = start_gve("send", path, "--port", noisy.port)
+        before.until(lambda state: state["positions"][0] > 500)
+        noisy.restarted_as = after.place.removeprefix("socket://")
+        _, told = process.communicate(timeout=PATIENCE_S)
+    finally:
+        noisy.close()
+
+    assert process.returncode == 3
+    assert "HAS RESTARTED: its queue, positions and settings are gone" in told
+    assert after.order("?")["travel"] == [0, 0, 0, 0]
+    with open_unit(after.place) as unit:
+        assert not unit.flags().bits
 
 
 @pytest.mark.parametrize("seed", range(12))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from argparse import Namespace
+from collections.abc import Callable
 
 from rkm04_tools.bar import Bar
 from rkm04_tools.client_base import count_of, tell
@@ -22,9 +23,11 @@ from rkm04_tools.gve134.sending import Sender
 from rkm04_tools.gve134.source import read_source
 from rkm04_tools.gve134.state import AXES, positions_text
 from rkm04_tools.gve134.stopping import Stopper, guarded
+from rkm04_tools.gve134.unit import Halted
 from rkm04_tools.source import Source, named
 
 LEFT_AFTER_SECONDS = 2.0
+SHOWN_SECONDS = 0.25
 GCODE_SUFFIXES = (".nc", ".ngc", ".gcode", ".tap")
 
 
@@ -39,7 +42,7 @@ def run_send(options: Namespace) -> int:
         print(f"gve134: {job.source.name}: {command} is left out", file=sys.stderr)
     if job.pauses and not sys.stdin.isatty():
         raise Failure(f"{job.source.name}: waits for a person (;@pause); send it from a terminal")
-    with unit_of(options) as unit, Bar("sending") as bar:
+    with unit_of(options) as unit, Bar("executing") as bar:
         if _is_gcode(options):
             here = positions_text(unit.positions())
             print(
@@ -47,12 +50,14 @@ def run_send(options: Namespace) -> int:
                 " unless its G28 or G92 says otherwise",
                 file=sys.stderr,
             )
-        sender = Sender(unit, job, Progress(bar, job.vectors).show)
+        sender = Sender(unit, job)
+        sender.tell = Progress(bar, sender).show
         try:
             return guarded(
                 unit,
                 lambda stopper: _send(options, sender, bar, stopper),
                 lambda: f"interrupted after {sender.sent} of {count_of(job.vectors, 'vector')}; ",
+                after=lambda halted: _executed(sender, halted),
             )
         except (NotConfirmed, Restarted):
             raise
@@ -97,23 +102,38 @@ def is_good(source: Source) -> bool:
 
 
 class Progress:
-    """Vectors sent, and the time that the others will take if it goes on like this."""
+    """Vectors executed and sent, and the time that the others take if it goes on like this.
 
-    def __init__(self, bar: Bar, total: int) -> None:
+    The positions are asked for only where somebody looks.
+    """
+
+    def __init__(
+        self, bar: Bar, sender: Sender, clock: Callable[[], float] = time.monotonic
+    ) -> None:
         self._bar = bar
-        self._total = total
-        self._started = time.monotonic()
+        self._sender = sender
+        self._clock = clock
+        self._started = self._shown = clock()
 
     def show(self, sent: int) -> None:
-        """Show it; once all are sent the axes are waited for."""
-        passed = time.monotonic() - self._started
-        more = ""
-        if sent == self._total:
-            more = ", the axes move"
-        elif sent and passed > LEFT_AFTER_SECONDS:
-            left = passed * (self._total - sent) / sent
-            more = f", {int(left // 60)}:{int(left % 60):02d} left"
-        self._bar.show(sent, self._total, more)
+        """Show it, not too often."""
+        now = self._clock()
+        if now - self._shown < SHOWN_SECONDS or not sys.stderr.isatty():
+            return
+        self._shown = now
+        total, done = self._sender.job.vectors, self._sender.look()
+        more = ", how many are executed is not known" if done is None else f", {sent} sent"
+        counted = sent if done is None else done
+        passed = now - self._started
+        if counted and passed > LEFT_AFTER_SECONDS:
+            left = passed * (total - counted) / counted
+            more += f", {int(left // 60)}:{int(left % 60):02d} left"
+        self._bar.show(counted, total, more)
+
+
+def _executed(sender: Sender, halted: Halted) -> str:
+    """What to tell of the vectors once the axes stand; nothing of a unit that has restarted."""
+    return "" if halted.restarted else f"; {sender.executed_text(halted.positions)}"
 
 
 def _send(options: Namespace, sender: Sender, bar: Bar, stopper: Stopper) -> int:
@@ -132,6 +152,7 @@ def _send(options: Namespace, sender: Sender, bar: Bar, stopper: Stopper) -> int
         "file": job.source.name,
         "commands": sender.lines,
         "vectors": sender.sent,
+        "executed": sender.look(positions),
         "packets": sender.packets,
         "repairs": sender.unit.link.repairs,
         "state": flags.text,
@@ -139,5 +160,7 @@ def _send(options: Namespace, sender: Sender, bar: Bar, stopper: Stopper) -> int
     }
     where = "stand at" if flags.stands else "are at"
     bar.clear()
-    text = f"{job.source.name}: {count_of(sender.sent, 'vector')} sent; the unit is {flags.text}, "
+    executed = "" if flags.stands else f", {sender.executed_text(positions)}"
+    text = f"{job.source.name}: {count_of(sender.sent, 'vector')} sent{executed}; "
+    text += f"the unit is {flags.text}, "
     return tell(options, answer, f"{text}the axes {where} {positions_text(positions)}")

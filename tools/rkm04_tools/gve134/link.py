@@ -131,6 +131,12 @@ class Link:
         """Have a packet taken, or refused, once."""
         return self._settle(Request.packet(commands))
 
+    def try_packet(self, commands: Sequence[str]) -> Answer | None:
+        """Send a packet once; None: it came damaged, and nothing of it was taken."""
+        self._get_ready()
+        with self._forgetting():
+            return self._attempt(Request.packet(commands))
+
     def ask_long(self, command: str, seconds: float) -> Answer:
         """Have a command executed once that is answered when the axes stand.
 
@@ -208,13 +214,16 @@ class Link:
         self._get_ready()
         with self._forgetting():
             for _ in range(ATTEMPTS):
-                answer = self.wire.exchange(request)
-                if answer is not None and answer.code != answers.DAMAGED:
-                    return self._counted(request, answer)
-                answer = self._repair(request, self.wire.heard.bare)
-                if answer is not None:
+                if (answer := self._attempt(request)) is not None:
                     return answer
             raise self._unanswered(self.wire.heard)
+
+    def _attempt(self, request: Request) -> Answer | None:
+        """Send once; None: it was not executed."""
+        answer = self.wire.exchange(request)
+        if answer is not None and answer.code != answers.DAMAGED:
+            return self._counted(request, answer)
+        return self._repair(request, self.wire.heard.bare)
 
     def _counted(self, request: Request, answer: Answer) -> Answer:
         self._index = (self._index + request.counts) % INDEX_MODULUS

@@ -1,9 +1,9 @@
 """A vector file on its way to the unit: in order, in packets where it can be, with its room.
 
-Runs of C and B go in packets. A packet that finds no room costs its time on the line, so it is
-halved, and the next ones grow again: while the queue has little room they are small, and the unit
-does not run dry while a large one is sent in vain. None takes longer on the line than H may have
-to wait. A packet that the file itself has (*S to *E) is sent as it stands.
+Runs of C and B go in packets. A packet that finds no room, or comes damaged, costs its time on the
+line, so it is halved, and the next ones grow again: while the queue has little room they are small,
+and the unit does not run dry while a large one is sent in vain. None takes longer on the line than
+H may have to wait. A packet that the file itself has (*S to *E) is sent as it stands.
 
 What is refused ends the job, and so does an interrupt: INTA that no command of the file has
 brought about. What a line asks of the host (`gcode.directives`) is done when its turn comes.
@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.gve134 import answers
 from rkm04_tools.gve134.answers import Answer, encoded
+from rkm04_tools.gve134.executed import Executed
 from rkm04_tools.gve134.gcode.directives import Pause, Probe, Wait
 from rkm04_tools.gve134.job import Asked, Command, Job
 from rkm04_tools.gve134.link import MEMORY_SECONDS
@@ -64,6 +65,8 @@ class Sender:
     size: int = PACKET_COMMANDS_MAX
     inta: bool = False
     ask_person: Callable[[str], None] = lambda text: None
+    executed: Executed | None = None
+    _under_way: list[Command] = field(default_factory=list)
     _waits: int = 0
     _probes_from: Positions | None = None
     _commands: Iterator[Command] = field(default_factory=lambda: iter(()))
@@ -96,6 +99,9 @@ class Sender:
         """Refuse to add to what was interrupted, unless the file begins with what ends that."""
         flags = self.unit.flags()
         self.inta = flags.has(INTA)
+        self.executed = Executed(self.unit.positions())
+        if flags.bits & (INTA | RUN):
+            self.executed.done = None
         first = next(iter(self.job), None)
         if self.inta and first is not None and first.letter not in BEGINS_ANEW:
             raise Failure(f"the unit is {flags.text}; nothing was sent", NOT_SO)
@@ -118,7 +124,13 @@ class Sender:
 
     def _send_run(self, count: int) -> None:
         run = [self._pending[place] for place in range(count)]
-        answer = self._packet(run)
+        insists = count <= PACKET_COMMANDS_MIN
+        answer = self._packet(run) if insists else self._try_packet(run)
+        if answer is None:
+            self.size = max(PACKET_COMMANDS_MIN, count // 2)
+            return
+        if answer.code == answers.DONE:
+            self._taken(run)
         self._judge(run[0], answer)
         if answer.code == answers.NO_ROOM:
             if self.size == PACKET_COMMANDS_MIN:
@@ -126,13 +138,20 @@ class Sender:
             self.size = max(PACKET_COMMANDS_MIN, self.size // 2)
             return
         self.size = min(PACKET_COMMANDS_MAX, self.size + PACKET_GROWTH)
-        self._taken(run)
         for _ in run:
             self._pending.popleft()
 
+    def _try_packet(self, run: list[Command]) -> Answer | None:
+        """Send a packet; None: it came damaged, and is better sent in parts."""
+        return self.unit.link.try_packet(self._texts(run))
+
     def _packet(self, run: list[Command]) -> Answer:
+        return self.unit.link.send_packet(self._texts(run))
+
+    def _texts(self, run: list[Command]) -> list[str]:
         self.packets += 1
-        return self.unit.link.send_packet([command.text for command in run])
+        self._under_way = run
+        return [command.text for command in run]
 
     # ---- all else ----
 
@@ -150,6 +169,8 @@ class Sender:
             self._probes_from = self.unit.positions()
         while True:
             answer = self._packet(whole) if command.text == "*S" else self._ask(command)
+            if answer.code == answers.DONE:
+                self._taken(whole)
             self._judge(command, answer)
             if answer.code == answers.NO_ROOM:
                 self._wait_for_room(command)
@@ -157,7 +178,6 @@ class Sender:
                 self._wait_for_rest(command, answer)
             else:
                 break
-        self._taken(whole)
 
     def _packet_of_file(self) -> tuple[list[Command], Command | None]:
         """The commands after *S up to *E; or what ends the packet before that, H or J, twice."""
@@ -175,6 +195,7 @@ class Sender:
         return whole, None
 
     def _ask(self, command: Command) -> Answer:
+        self._under_way = [command]
         if command.letter == "W":
             return self.unit.link.ask_long(command.text, LONG_SECONDS)
         if command.text == "H":
@@ -221,11 +242,30 @@ class Sender:
         unit.order(f"L{','.join(map(str, way))}")
         if unit.wait_until_stands().has(INTA):
             raise self.interrupted(self._where(command))
+        if self.executed is not None:
+            self.executed.stood(unit.positions())
 
     def _taken(self, commands: list[Command]) -> None:
         self._waits = 0
         self.lines += len(commands)
         self.sent += sum(command.is_vector for command in commands)
+        self._under_way = []
+        if self.executed is not None:
+            self.executed.taken(commands)
+
+    # ---- what has been executed ----
+
+    def look(self, positions: Positions | None = None) -> int | None:
+        """How many vectors are over, by where the axes are; None: it is not known."""
+        if self.executed is None or self.executed.done is None:
+            return None
+        return self.executed.look(positions or self.unit.positions(), self._under_way)
+
+    def executed_text(self, positions: Positions) -> str:
+        """How many vectors are over, in words."""
+        done = self.look(positions)
+        how_many = "it is not known how many" if done is None else str(done)
+        return f"{how_many} of {self.job.vectors} vectors were executed"
 
     # ---- answers ----
 
@@ -261,6 +301,8 @@ class Sender:
         flags = self.unit.wait_until_stands(lambda: self.tell(self.sent))
         if flags.has(INTA) and not self.inta:
             raise self.interrupted(self.job.source.name)
+        if self.executed is not None and not flags.has(RUN | INTA):
+            self.executed.stood(self.unit.positions())
         return flags
 
     def interrupted(self, where: str) -> Failure:
@@ -270,8 +312,9 @@ class Sender:
         latched = self.unit.link.ask("PL").values if causes else ""
         at = f", positions at that moment {latched}" if latched else ""
         text = f"INTERRUPTED by {', '.join(causes) or 'what the unit does not tell'}{at}; the axes "
-        text += f"stand at {positions_text(self.unit.positions())}; {flags.text}; "
-        text += f"{self.sent} of {self.job.vectors} vectors were sent"
+        positions = self.unit.positions()
+        text += f"stand at {positions_text(positions)}; {flags.text}; "
+        text += f"{self.executed_text(positions)}, {self.sent} were sent"
         return Interrupted(f"{where}: {text}", causes)
 
     def _wait_for_room(self, command: Command) -> None:

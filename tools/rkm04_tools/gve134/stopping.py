@@ -98,22 +98,30 @@ def guarded(
     work: Callable[[Stopper], int],
     done: Callable[[], str] = lambda: "",
     then: str = "",
+    after: Callable[[Halted], str] = lambda _: "",
 ) -> int:
     """Do what moves axes; Ctrl-C halts them.
 
-    `done` says what is to be told of the work besides; `then` is a command for after the stop.
+    `done` says what is to be told of the work besides, `after` what more when the axes stand;
+    `then` is a command for after the stop.
     """
     with Stopper(unit) as stopper:
         try:
             return work(stopper)
         except KeyboardInterrupt:
-            return halt_at_signal(unit, stopper, done(), then)
+            return halt_at_signal(unit, stopper, done(), then, after)
         except NotConfirmed as error:
             shout(str(error))
             raise
 
 
-def halt_at_signal(unit: Unit, stopper: Stopper, text: str = "", then: str = "") -> int:
+def halt_at_signal(
+    unit: Unit,
+    stopper: Stopper,
+    text: str = "",
+    then: str = "",
+    after: Callable[[Halted], str] = lambda _: "",
+) -> int:
     """Halt the axes, and tell where they stand and what was done; the exit status."""
     print(f"\ngve134: {text}halting ...", file=sys.stderr, flush=True)
     try:
@@ -128,7 +136,7 @@ def halt_at_signal(unit: Unit, stopper: Stopper, text: str = "", then: str = "")
     except Failure as failure:
         print(f"gve134: {failure}", file=sys.stderr)
         return NO_CONNECTION
-    print(f"gve134: {halted_text(halted)}", file=sys.stderr)
+    print(f"gve134: {halted_text(halted)}{after(halted)}", file=sys.stderr)
     return INTERRUPTED
 
 
