@@ -7,6 +7,7 @@ are as the documents say, pulses are left out. Time goes on in passes of a milli
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from checks import plc, registers
@@ -21,10 +22,16 @@ IMAGES = {
     for axis in range(registers.AXES)
     for place, number in enumerate(image.numbers)
 }
+IMAGE_OUT, IMAGE_IN = (
+    image.first for image in registers.read_images(TEXT) if image.name.startswith("FULL")
+)
 FEED_UNIT = 3932160.0  # of the unit in 1 mm/s
 FAULTS = (7, 8, 10, 11)
 NO_DISP, IN_MOTION, TOO_FAR, NO_ACCEL, NO_METHOD, NO_SPACE, STANDS_FAULT = 3, 4, 5, 6, 13, 2, 15
 HOMING_MS = 40
+
+
+Tell = Callable[[list[int] | None, list[list[int]] | None], None]
 
 
 def signed(value: int) -> int:
@@ -256,6 +263,13 @@ class FakeUnit:
             axis, register = self.place(number)
             values.append(self.axes[axis].values()[register - plc.IN_FIRST])
         return values
+
+    def ask(self, out: list[int] | None, asks: bool, tell: Tell) -> None:
+        """A request of the full image, which writes, reads or both; `tell` gets the answer."""
+        if out is not None:
+            self.write(IMAGE_OUT, out)
+        captured = [self.read(100 * axis + 24, 2) for axis in range(1, len(self.axes) + 1)]
+        tell(self.read(IMAGE_IN, 8 * len(self.axes)) if asks else None, captured)
 
     def step(self) -> None:
         for axis in self.axes:

@@ -19,7 +19,6 @@ from st_program import Blocks, Instance
 AXES = 4
 TIMEOUT_MS = 60
 OFFLINE_MS = 400
-FULL_OUT, FULL_IN = 600, 640
 ENDS = ("Done", "CommandAborted", "Error")
 
 
@@ -55,7 +54,7 @@ class Plc:
         self.request_ends: int | None = None  # when the answer is no more waited for
         self.reads = False  # of a split master: what comes next
         self.answer: list[int] | None = None
-        self.captured: list[list[int]] = []
+        self.captured: list[list[int]] | None = None
         self.heard = -OFFLINE_MS
 
     def add(self, name: str, axis: int = 1, **inputs: Any) -> Instance:
@@ -121,7 +120,8 @@ class Plc:
             axis["Online"] = self.now - self.heard < OFFLINE_MS
             if self.answer is not None:
                 axis["In"][:8] = self.answer[8 * number : 8 * number + 8]
-                axis["In"][14:16] = self.captured[number]
+                if self.captured is not None:
+                    axis["In"][14:16] = self.captured[number]
         for block in self.called:
             block.run()
             self.judge(block)
@@ -158,16 +158,17 @@ class Plc:
         return self.line.delay + self.chance.randint(0, self.line.spread)
 
     def serve(self, out: list[int] | None, asks: bool) -> None:
-        """The unit takes a request and answers."""
-        if out is not None:
-            self.unit.write(FULL_OUT, out)
-        answer = self.unit.read(FULL_IN, 8 * AXES) if asks else None
-        captured = [self.unit.read(100 * axis + 24, 2) for axis in range(1, AXES + 1)]
-        if self.cut or self.chance.random() < self.line.lost_answers:
-            return
-        self.events.append((self.now + self.delay(), lambda: self.take(answer, captured)))
+        """The request begins to reach the unit; an answer may get lost on its way."""
+        is_lost = self.chance.random() < self.line.lost_answers
 
-    def take(self, answer: list[int] | None, captured: list[list[int]]) -> None:
+        def tell(answer: list[int] | None, captured: list[list[int]] | None) -> None:
+            if not self.cut and not is_lost:
+                event = (self.now + self.delay(), lambda: self.take(answer, captured))
+                self.events.append(event)
+
+        self.unit.ask(out, asks, tell)
+
+    def take(self, answer: list[int] | None, captured: list[list[int]] | None) -> None:
         self.request_ends = None
         self.heard = self.now
         if answer is not None:

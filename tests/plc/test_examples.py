@@ -1,0 +1,114 @@
+"""The two examples of the manual, as they stand in the library."""
+
+from __future__ import annotations
+
+import pytest
+from fake_positioning import CODES
+from plc_cycle import Plc
+
+INIT, MODE, RESET = CODES["POS_INIT"], CODES["POS_MODE"], CODES["POS_RESET"]
+FEED = 3000 << 16  # 50 mm/s
+
+
+@pytest.fixture(params=[False, True], ids=["FC 23", "FC 16 and FC 3"])
+def plc(request, make_plc) -> Plc:
+    made: Plc = make_plc(split=request.param, jitter=3)
+    made.until(lambda: made.axes[0]["Online"])
+    return made
+
+
+def begin_first(plc: Plc, draha: int) -> None:
+    program = plc.add(
+        "EXAMPLE_1", AXIS_4=plc.axes[3], POV_I=True,
+        zelana_draha=draha, zelana_strmost=500, zelana_rychlost=FEED,
+    )  # fmt: skip
+    program["POSUN"] = True
+    plc.run(1)
+
+
+@pytest.mark.parametrize("draha", [10000, -2500, 0])
+def test_the_first_example_moves_axis_4_and_clears_posun(draha, plc) -> None:
+    begin_first(plc, draha)
+    program, axis = plc.called[0], plc.unit.axes[3]
+    plc.until(lambda: not program["POSUN"])
+    assert axis.position == draha
+    assert axis.executed == [INIT, MODE, RESET]
+    assert not axis.has("DISP")
+    plc.run(5)
+    program["POSUN"] = True
+    plc.run(1)
+    plc.until(lambda: not program["POSUN"])
+    assert axis.position == 2 * draha
+    assert axis.executed == [INIT, MODE, RESET] * 2
+
+
+def test_the_first_example_is_held_while_pov_i_is_false(plc) -> None:
+    begin_first(plc, 50000)
+    program, axis = plc.called[0], plc.unit.axes[3]
+    plc.until(lambda: axis.position > 10000)
+    program["POV_I"] = False
+    plc.run(60)
+    held = axis.position
+    plc.run(60)
+    assert axis.position == held < 50000
+    assert program["POSUN"]
+    program["POV_I"] = True
+    plc.until(lambda: not program["POSUN"])
+    assert axis.position == 50000
+
+
+def test_the_first_example_changes_its_speed_under_way(plc) -> None:
+    begin_first(plc, 50000)
+    program, axis = plc.called[0], plc.unit.axes[3]
+    plc.until(lambda: axis.speed > 49.9)
+    program["zelana_rychlost"] = FEED // 5
+    plc.until(lambda: axis.speed < 10.1)
+    plc.until(lambda: not program["POSUN"])
+    assert axis.position == 50000
+
+
+def begin_second(plc: Plc) -> None:
+    program = plc.add(
+        "EXAMPLE_2", AXIS_X=plc.axes[0], ZRYCH_X=500, aktualni_rychlost=FEED,
+    )  # fmt: skip
+    program["LIMIT_C"] = True
+    plc.run(1)
+
+
+def test_the_second_example_goes_as_long_as_the_button_is_held(plc) -> None:
+    begin_second(plc)
+    program, axis = plc.called[0], plc.unit.axes[0]
+    plc.until(lambda: axis.position > 20000)
+    program["LIMIT_C"] = False
+    plc.until(lambda: not program["MECH_POHYB_X"])
+    assert not axis.has("JEDE")
+    assert not axis.has("DISP")
+    assert axis.executed == [INIT, MODE, RESET]
+    stood = axis.position
+    plc.run(50)
+    assert axis.position == stood
+    assert 20000 < stood < 30000
+    program["LIMIT_C"] = True
+    plc.until(lambda: axis.position > stood + 1000)
+
+
+def test_the_second_example_ends_at_60_m(plc) -> None:
+    begin_second(plc)
+    program, axis = plc.called[0], plc.unit.axes[0]
+    plc.until(lambda: axis.position > 1000)
+    axis.position = 59990000.0
+    plc.until(lambda: not program["MECH_POHYB_X"])
+    assert axis.position == 60000000
+    plc.run(50)
+    assert axis.executed == [INIT, MODE, RESET]
+
+
+@pytest.mark.parametrize("cycles", [1, 2, 3, 4, 5, 6, 8])
+def test_a_button_that_is_let_go_at_once_leaves_nothing_moving(cycles, plc) -> None:
+    begin_second(plc)
+    program, axis = plc.called[0], plc.unit.axes[0]
+    plc.run(cycles)
+    program["LIMIT_C"] = False
+    plc.until(lambda: not program["MECH_POHYB_X"])
+    assert not axis.has("JEDE")
+    assert axis.executed[-1] == RESET
