@@ -18,7 +18,6 @@ from st_program import Blocks, Instance
 
 AXES = 4
 TIMEOUT_MS = 60
-OFFLINE_MS = 400
 ENDS = ("Done", "CommandAborted", "Error")
 
 
@@ -33,6 +32,7 @@ class Line:
     lost_requests: float = 0.0
     lost_answers: float = 0.0
     split: bool = False
+    patience: int = 400  # without an answer, after which the unit is not Online
 
 
 class Plc:
@@ -55,7 +55,7 @@ class Plc:
         self.reads = False  # of a split master: what comes next
         self.answer: list[int] | None = None
         self.captured: list[list[int]] | None = None
-        self.heard = -OFFLINE_MS
+        self.heard = -self.line.patience
 
     def add(self, name: str, axis: int = 1, **inputs: Any) -> Instance:
         """A block or program that is called in each cycle from here on."""
@@ -85,7 +85,7 @@ class Plc:
         """The PLC starts again: its variables are forgotten, its program stays."""
         self.axes = [self.blocks.make("POS_AXIS") for _ in range(AXES)]
         self.called, self.executes, self.answer = [], {}, None
-        self.heard = -OFFLINE_MS
+        self.heard = -self.line.patience
 
     def run(self, cycles: int) -> None:
         last = self.cycles + cycles
@@ -117,7 +117,7 @@ class Plc:
     def cycle(self) -> None:
         self.cycles += 1
         for number, axis in enumerate(self.axes):
-            axis["Online"] = self.now - self.heard < OFFLINE_MS
+            axis["Online"] = self.now - self.heard < self.line.patience
             if self.answer is not None:
                 axis["In"][:8] = self.answer[8 * number : 8 * number + 8]
                 if self.captured is not None:

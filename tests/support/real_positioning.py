@@ -1,4 +1,4 @@
-"""The positioning unit itself, in virtual time, behind the frames of its line (positioning_probe.c)."""
+"""The positioning unit in virtual time, behind the frames of its line: positioning_probe.c."""
 
 from __future__ import annotations
 
@@ -37,6 +37,7 @@ class RealUnit:
         self.heard = b""
         self.positions = [0] * 4
         self.pulses = 0
+        self.run(10)
         for register, value in [(RATE, RATE_115200), (STORE, 1)]:
             self.write(register, value)
         self.restart()
@@ -61,7 +62,7 @@ class RealUnit:
             if answer is not None:
                 tell, self.tell, self.heard = self.tell, None, b""
                 assert not answer.isError(), answer
-                tell(answer.registers if answer.function_code in (3, 23) else None, None)
+                tell(list(answer.registers) if answer.function_code in (3, 23) else None, None)
 
     def step(self) -> None:
         self.run(1)
@@ -73,6 +74,7 @@ class RealUnit:
 
     def write(self, register: int, value: int) -> None:
         """Writes one register, and waits until that has been answered."""
+        self.tell = None
         self.send(WriteSingleRegisterRequest(address=register, registers=[value]))
         self.run(200)
         assert self.heard[1] == 6, self.heard
@@ -85,9 +87,11 @@ class RealUnit:
         elif asks:
             self.send(
                 ReadWriteMultipleRegistersRequest(
-                    read_address=FULL_IN, read_count=FULL_COUNT,
-                    write_address=FULL_OUT, write_registers=out,
-                )  # fmt: skip
+                    read_address=FULL_IN,
+                    read_count=FULL_COUNT,
+                    write_address=FULL_OUT,
+                    write_registers=out,
+                )
             )
         else:
             self.send(WriteMultipleRegistersRequest(address=FULL_OUT, registers=out))
