@@ -1,7 +1,7 @@
 #include "stm32_line_private.h"
 
 enum {
-    STALL_MS = 10, /* twenty characters */
+    STALL_MS = 10, /* eight characters at 9600 Bd */
 
     /* The transmitter stays on, as its start would send an idle character first (RM0090 30.3.2). */
     LISTENING = USART_CR1_UE | USART_CR1_TE | USART_CR1_RE | USART_CR1_RXNEIE,
@@ -12,32 +12,34 @@ enum {
 static struct {
     volatile bool driving;
     uint8_t stall_ms;
+    uint32_t format;   /* bits of CR1 */
+    uint32_t clock_hz; /* of the USART */
 } bus;
 
 static void receive(uint32_t status)
 {
     uint8_t value = (uint8_t)USART_DR(STM32_LINE_BASE); /* also ends the errors, RM0090 30.6.1 */
-    stm32_line_keep(TIM2_CNT, value, (status & (USART_SR_FE | USART_SR_NF | USART_SR_ORE)) != 0);
+    stm32_line_keep(TIM2_CNT, value, (status & (USART_SR_PE | USART_SR_FE | USART_SR_NF | USART_SR_ORE)) != 0);
 }
 
 static void let_go(void)
 {
     stm32_pin_write(STM32_PIN_LINE_DE, false);
     bus.driving = false;
-    USART_CR1(STM32_LINE_BASE) = LISTENING;
+    USART_CR1(STM32_LINE_BASE) = bus.format | LISTENING;
 }
 
 /* Gives the transmitter its next byte; after the last one it waits for the end of the stop bit. */
 static void send_next(void)
 {
     if (stm32_line.sending_out == stm32_line.sending_in) {
-        USART_CR1(STM32_LINE_BASE) = LETTING_GO;
+        USART_CR1(STM32_LINE_BASE) = bus.format | LETTING_GO;
         return;
     }
     bus.stall_ms = 0;
     USART_DR(STM32_LINE_BASE) = stm32_line.sending[stm32_line.sending_out % SENDING_MAX];
     stm32_line.sending_out++;
-    USART_CR1(STM32_LINE_BASE) = DRIVING;
+    USART_CR1(STM32_LINE_BASE) = bus.format | DRIVING;
 }
 
 /* The receiver is off while the unit sends: it does not hear itself. */
@@ -83,7 +85,7 @@ bool hal_line_write(uint8_t byte)
         bus.driving = true;
         bus.stall_ms = 0;
         stm32_pin_write(STM32_PIN_LINE_DE, true);
-        USART_CR1(STM32_LINE_BASE) = DRIVING;
+        USART_CR1(STM32_LINE_BASE) = bus.format | DRIVING;
     }
     serve();
     stm32_unmask(mask);
@@ -118,6 +120,26 @@ uint32_t stm32_line_look_ticks(void)
 void stm32_line_start(const struct stm32_clock *clock)
 {
     STM32_LINE_CLOCK_ENABLE();
-    USART_BRR(STM32_LINE_BASE) = STM32_LINE_DIVIDER(STM32_LINE_CLOCK_HZ(clock), IMAGE_LINE_BD);
-    USART_CR1(STM32_LINE_BASE) = LISTENING;
+    bus.clock_hz = STM32_LINE_CLOCK_HZ(clock);
+    USART_BRR(STM32_LINE_BASE) = STM32_LINE_DIVIDER(bus.clock_hz, IMAGE_LINE_BD);
+    USART_CR1(STM32_LINE_BASE) = bus.format | LISTENING;
+}
+
+/* The parity is the ninth bit (RM0090 30.3.6, table 145). The USART is off meanwhile, and sends an idle character as it
+ * comes back, with the driver of the bus off. */
+void hal_line_set(uint32_t rate_bd, enum hal_line_format format)
+{
+    static const uint16_t formats[] = {
+        [HAL_LINE_8E1] = USART_CR1_M | USART_CR1_PCE,
+        [HAL_LINE_8O1] = USART_CR1_M | USART_CR1_PCE | USART_CR1_PS,
+        [HAL_LINE_8N1] = 0,
+        [HAL_LINE_8N2] = 0,
+    };
+    uint32_t mask = stm32_mask();
+    USART_CR1(STM32_LINE_BASE) = 0;
+    bus.format = formats[format];
+    USART_BRR(STM32_LINE_BASE) = STM32_LINE_DIVIDER(bus.clock_hz, rate_bd);
+    USART_CR2(STM32_LINE_BASE) = format == HAL_LINE_8N2 ? USART_CR2_STOP_2 : 0;
+    USART_CR1(STM32_LINE_BASE) = bus.format | LISTENING;
+    stm32_unmask(mask);
 }

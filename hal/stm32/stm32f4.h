@@ -208,7 +208,9 @@
 #define USART_DR(base) STM32_REGISTER((base) + 0x04U)  /* 30.6.2 */
 #define USART_BRR(base) STM32_REGISTER((base) + 0x08U) /* 30.6.3 */
 #define USART_CR1(base) STM32_REGISTER((base) + 0x0CU) /* 30.6.4 */
+#define USART_CR2(base) STM32_REGISTER((base) + 0x10U) /* 30.6.5 */
 #define USART_CR3(base) STM32_REGISTER((base) + 0x14U) /* 30.6.6 */
+#define USART_SR_PE (1U << 0)
 #define USART_SR_FE (1U << 1)
 #define USART_SR_NF (1U << 2)
 #define USART_SR_ORE (1U << 3)
@@ -220,7 +222,11 @@
 #define USART_CR1_RXNEIE (1U << 5)
 #define USART_CR1_TCIE (1U << 6)
 #define USART_CR1_TXEIE (1U << 7)
+#define USART_CR1_PS (1U << 9)
+#define USART_CR1_PCE (1U << 10)
+#define USART_CR1_M (1U << 12)
 #define USART_CR1_UE (1U << 13)
+#define USART_CR2_STOP_2 (2U << 12)
 #define USART_CR3_EIE (1U << 0)
 #define USART_CR3_DMAR (1U << 6)
 

@@ -30,6 +30,7 @@ UNIT_ENTRIES = {
     "rkm04": ["rkm04_lay_isr", "rkm04_tick_isr", "rkm04_plan_isr"],
     # Its flash is written only while the axes stand, and then nothing is planned.
     "gve134": ["gve134_lay_isr", "gve134_tick_isr"],
+    "positioning": ["positioning_lay_isr", "positioning_tick_isr"],
 }
 
 RELOCATION = re.compile(r"([0-9a-f]{8})\s+[0-9a-f]+\s+(R_ARM_\w+)\s+([0-9a-f]{8})\s+(\S+)")

@@ -128,7 +128,8 @@ static void wire_surroundings(struct board *board)
                                                   .pins = &board->pins,
                                                   .usart = &board->usart[board->pins.usart],
                                                   .listener = {.model = &board->tty, .hear = tty_send},
-                                                  .baud = options->baud});
+                                                  .baud = options->baud,
+                                                  .format = options->format});
     board->recorder.wires = (struct recorder_wires){.clock = clock,
                                                     .report = &board->report,
                                                     .pins = &board->pins,

@@ -221,6 +221,21 @@ static bool read_step_timer(void *target, const char *text)
     return true;
 }
 
+static bool read_format(void *target, const char *text)
+{
+    static const char *const names[] = {
+        [USART_8E1] = "8E1", [USART_8O1] = "8O1", [USART_8N1] = "8N1", [USART_8N2] = "8N2"};
+    struct options *options = target;
+    for (unsigned i = 0; i < sizeof names / sizeof names[0]; i++) {
+        if (strcmp(text, names[i]) == 0) {
+            options->format = (enum usart_format)i;
+            return true;
+        }
+    }
+    complain("--format %s: no format; write 8E1, 8O1, 8N1 or 8N2", text);
+    return false;
+}
+
 static bool read_node(void *target, const char *text)
 {
     struct options *options = target;
@@ -320,6 +335,7 @@ static const struct argument rows[] = {
     OTHER("--thresholds", read_thresholds),
     OTHER("--option-bytes", read_option_bytes),
     OTHER("--node", read_node),
+    OTHER("--format", read_format),
     OTHER("--refill", read_refill),
     OTHER("--wait-states", read_wait_states),
     OTHER("--apb-wait", read_apb_wait),
@@ -341,6 +357,7 @@ enum exit_status options_read(struct options *options, int count, char *const ar
                                 .crystal_stops_ps = VTIME_NEVER,
                                 .lsi_hz = 32000,
                                 .baud = 19200,
+                                .format = USART_8N1,
                                 .node = 1,
                                 .thresholds = SUPPLY_TYPICAL,
                                 .flash_settings = {.option_bytes = FLASH_OPTIONS_DELIVERED, .kb = 1024},

@@ -13,6 +13,7 @@
 #include "gpio.h"
 #include "supply.h"
 #include "timer_counter.h"
+#include "usart.h"
 
 enum {
     OPTIONS_WATCHES_MAX = 32,
@@ -53,6 +54,7 @@ struct options {
     uint64_t crystal_stops_ps; /* NEVER */
     uint64_t lsi_hz;
     uint64_t baud;
+    enum usart_format format;
     struct flash_settings flash_settings;
     struct timer_settings timer_settings;
     const char *fault[FAULTS_MAX];

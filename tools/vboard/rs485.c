@@ -8,8 +8,6 @@
 #include "line.h"
 
 enum {
-    FRAME_BITS = 10,
-    HALF_BITS_TO_STOP = 19, /* half bits from the start to the middle of the stop bit */
     LOG_BYTES_MAX = 64,
     PS_DECIMALS = 9, /* of milliseconds */
     LOG_DECIMALS = 6,
@@ -21,6 +19,13 @@ enum {
 static uint64_t half_bits_ps(const struct rs485 *line, uint64_t half_bits)
 {
     return vtime_scale(half_bits, VTIME_PS_PER_SECOND / 2U, line->wires.baud);
+}
+
+/* From the start to the middle of the first stop bit. */
+static uint64_t half_bits_to_stop(const struct rs485 *line)
+{
+    bool parity = line->wires.format == USART_8E1 || line->wires.format == USART_8O1;
+    return parity ? 21 : 19;
 }
 
 static bool append(struct rs485 *line, struct rs485_byte byte)
@@ -54,8 +59,10 @@ static bool is_blank(char character)
 static uint8_t read_damage(const char **at, const char *end)
 {
     uint8_t damage = 0;
-    for (; *at != end && (**at == '*' || **at == '~'); (*at)++) {
-        damage |= **at == '*' ? USART_FRAMING : USART_NOISE;
+    for (; *at != end && (**at == '*' || **at == '~' || **at == '!'); (*at)++) {
+        damage |= **at == '*' ? USART_FRAMING : 0;
+        damage |= **at == '~' ? USART_NOISE : 0;
+        damage |= **at == '!' ? USART_PARITY : 0;
     }
     return damage;
 }
@@ -178,17 +185,17 @@ static void on_rs485_event(void *model, uint64_t cycle)
     if (!line->arriving) {
         line->arriving = true;
         line->disturbed = driver_is_on(line);
-        clock_set_ps(line->wires.clock, EVENT_LINE, line->arrival_ps + half_bits_ps(line, HALF_BITS_TO_STOP));
+        clock_set_ps(line->wires.clock, EVENT_LINE, line->arrival_ps + half_bits_ps(line, half_bits_to_stop(line)));
         return;
     }
     if (line->disturbed) {
         line->collisions++;
     } else {
         line->heard++;
-        usart_receive(line->wires.usart, byte->value, byte->damage, line->wires.baud, cycle);
+        usart_receive(line->wires.usart, byte->value, byte->damage, line->wires.baud, line->wires.format, cycle);
     }
     line->arriving = false;
-    line->free_ps = line->arrival_ps + half_bits_ps(line, UINT64_C(2) * FRAME_BITS);
+    line->free_ps = line->arrival_ps + half_bits_ps(line, UINT64_C(2) * usart_bits(line->wires.format));
     line->next++;
     plan(line);
 }
@@ -228,7 +235,8 @@ static void log_byte(struct rs485 *line, uint8_t value, bool good, uint64_t begi
 static void on_end(void *model, struct usart_sent sent)
 {
     struct rs485 *line = model;
-    bool good = sent.connected && line->driven_throughout && rate_fits(line);
+    bool good = sent.connected && line->driven_throughout && rate_fits(line) &&
+                usart_format(line->wires.usart) == line->wires.format;
     line->sending = false;
     line->sent_end_cycle = sent.end;
     line->sent += good ? 1U : 0U;

@@ -4,7 +4,8 @@
  * unit drives the bus it hears nothing.
  *
  * A script has lines `ms bytes`: the time at which the first start bit begins, and bytes in hexadecimal, back to back,
- * blanks between them or not. After a byte, `*` makes its stop bit wrong (framing error) and `~` makes it noisy.
+ * blanks between them or not. After a byte, `*` makes its stop bit wrong (framing error), `!` its parity, and `~`
+ * makes it noisy.
  */
 #ifndef RS485_H
 #define RS485_H
@@ -36,6 +37,7 @@ struct rs485_wires {
     struct usart *usart; /* of the line */
     struct rs485_listener listener;
     uint64_t baud;
+    enum usart_format format;
 };
 
 struct rs485 {

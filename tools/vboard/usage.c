@@ -17,6 +17,7 @@ const char options_usage[] =
     "  --line-script FILE    bytes on the line: lines `ms hexbytes`; * after a byte: framing error, ~: noise\n"
     "  --line-log FILE       bytes the unit sends: lines `ms hexbyte`; * after it: nobody could read it\n"
     "  --baud RATE           of the line (19200)\n"
+    "  --format FORMAT       of the line: 8E1, 8O1, 8N1 or 8N2 (8N1)\n"
     "  --pty PATH, --tcp PORT  a client on the line, in real time\n"
     "  --steps, --vcd FILE   write pulses and waveforms\n"
     "  --ticks reset|timer   the steps' ticks count from power-on or from the start of their timer (reset)\n"

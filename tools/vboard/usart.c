@@ -26,14 +26,20 @@ enum {
     CR1_RXNEIE = 1 << 5,
     CR1_TCIE = 1 << 6,
     CR1_TXEIE = 1 << 7,
+    CR1_PEIE = 1 << 8,
+    CR1_PS = 1 << 9,
+    CR1_PCE = 1 << 10,
+    CR1_M = 1 << 12,
     CR1_UE = 1 << 13,
     CR1_OVER8 = 1 << 15,
-    CR1_MODELLED = 0xA1FC, /* no parity, 9 bits, mute mode or break; PEIE does nothing then */
+    CR1_MODELLED = 0xB7FC, /* no mute mode or break */
+    CR2_STOP = 3 << 12,
+    CR2_STOP_2 = 2 << 12,
     CR3_EIE = 1 << 0,
     CR3_DMAR = 1 << 6,
-    CR3_MODELLED = 0x801, /* error interrupt, one sample a bit; DMAR of USART1 besides */
-    FRAME_BITS = 10,
-    TOLERANCE_PERCENT = 3, /* table 141: 3.33 % for 8 bits with a fraction in BRR */
+    CR3_MODELLED = 0x801,  /* error interrupt, one sample a bit; DMAR of USART1 besides */
+    PARITY_BIT = 8,        /* of DR with M */
+    TOLERANCE_PERCENT = 3, /* table 141: 3.33 % for 8 bits with a fraction in BRR; 3.03 % for 9 */
 };
 
 static const enum nvic_irq irqs[USARTS] = {NVIC_IRQ_USART1, NVIC_IRQ_USART2, NVIC_IRQ_USART3};
@@ -83,6 +89,19 @@ uint64_t usart_baud(const struct usart *usart)
     return cycles == 0 ? 0 : (usart->wires.clock->time.hclk_hz + cycles / 2U) / cycles;
 }
 
+enum usart_format usart_format(const struct usart *usart)
+{
+    if ((usart->cr1 & CR1_PCE) != 0) {
+        return (usart->cr1 & CR1_PS) != 0 ? USART_8O1 : USART_8E1;
+    }
+    return (usart->cr2 & CR2_STOP) == CR2_STOP_2 ? USART_8N2 : USART_8N1;
+}
+
+static uint64_t frame_bits(const struct usart *usart)
+{
+    return usart_bits(usart_format(usart));
+}
+
 /* Section 30.3.13: RXNE asks for a transfer. */
 static void update_request(struct usart *usart)
 {
@@ -99,17 +118,26 @@ static void update_request(struct usart *usart)
     usart->asks = asks;
 }
 
-/* Section 30.4: with EIE, errors call an interrupt only while DMAR is set. */
+/* Section 30.4: what calls the interrupt. With EIE, errors do so only while DMAR is set. */
+static const struct cause {
+    uint32_t enable; /* bits of CR1, */
+    uint32_t errors; /* or all of these bits of CR3 */
+    uint32_t flags;  /* any of SR */
+} causes[] = {
+    {CR1_RXNEIE, 0, SR_RXNE | SR_ORE}, {CR1_TXEIE, 0, SR_TXE}, {CR1_TCIE, 0, SR_TC},
+    {CR1_IDLEIE, 0, SR_IDLE},          {CR1_PEIE, 0, SR_PE},   {0, CR3_EIE | CR3_DMAR, SR_FE | SR_NF | SR_ORE},
+};
+
 static void update_interrupt(struct usart *usart)
 {
-    uint32_t sr = usart->sr;
-    uint32_t cr1 = usart->cr1;
-    bool errors_call = (usart->cr3 & (CR3_EIE | CR3_DMAR)) == (CR3_EIE | CR3_DMAR);
+    bool wanted = false;
     update_request(usart);
-    bool wanted = ((cr1 & CR1_RXNEIE) != 0 && (sr & (SR_RXNE | SR_ORE)) != 0) ||
-                  ((cr1 & CR1_TXEIE) != 0 && (sr & SR_TXE) != 0) || ((cr1 & CR1_TCIE) != 0 && (sr & SR_TC) != 0) ||
-                  ((cr1 & CR1_IDLEIE) != 0 && (sr & SR_IDLE) != 0) ||
-                  (errors_call && (sr & (SR_FE | SR_NF | SR_ORE)) != 0);
+    for (unsigned i = 0; i < sizeof causes / sizeof causes[0]; i++) {
+        const struct cause *cause = &causes[i];
+        bool enabled =
+            cause->errors != 0 ? (usart->cr3 & cause->errors) == cause->errors : (usart->cr1 & cause->enable) != 0;
+        wanted = wanted || (enabled && (usart->sr & cause->flags) != 0);
+    }
     nvic_set_line(usart->wires.nvic, irqs[usart->wires.number], wanted);
 }
 
@@ -134,7 +162,7 @@ static void shift_out(struct usart *usart, bool idle_frame, uint64_t cycle)
     usart->shifting = true;
     usart->idle_frame = idle_frame;
     usart->shift_begin = cycle;
-    usart->shift_due = cycle + FRAME_BITS * cycles;
+    usart->shift_due = cycle + frame_bits(usart) * cycles;
     if (!idle_frame) {
         usart->shifted = usart->to_send;
         usart->sr |= SR_TXE;
@@ -186,9 +214,40 @@ static bool rates_fit(uint64_t baud, uint64_t line_baud)
     return difference * 100U <= line_baud * TOLERANCE_PERCENT;
 }
 
+static bool is_odd(uint8_t value)
+{
+    bool odd = false;
+    for (unsigned bits = value; bits != 0; bits &= bits - 1U) {
+        odd = !odd;
+    }
+    return odd;
+}
+
+/* The level of the first bit after the eight in a format: parity, or a stop bit. */
+static bool ninth_of(enum usart_format format, uint8_t value)
+{
+    if (format == USART_8E1 || format == USART_8O1) {
+        return is_odd(value) == (format == USART_8E1);
+    }
+    return true;
+}
+
+/* What a byte in another format is taken for: its ninth bit for the parity or the stop bit that is awaited. Where the
+ * parity is awaited and there is none, the next start bit may come where the stop bit should be. */
+static unsigned misread(enum usart_format own, enum usart_format format, uint8_t value)
+{
+    bool ninth = ninth_of(format, value);
+    if (own == USART_8E1 || own == USART_8O1) {
+        unsigned damage = ninth != ninth_of(own, value) ? USART_PARITY : 0U;
+        return format == USART_8N1 ? damage | USART_FRAMING : damage;
+    }
+    return ninth ? 0U : USART_FRAMING;
+}
+
 /* Section 30.3.3: an overrun keeps what is in RDR and loses the new byte, and all that come until ORE has been ended.
  */
-void usart_receive(struct usart *usart, uint8_t value, unsigned damage, uint64_t baud, uint64_t cycle)
+void usart_receive(struct usart *usart, uint8_t value, unsigned damage, uint64_t baud, enum usart_format format,
+                   uint64_t cycle)
 {
     if ((usart->cr1 & (CR1_UE | CR1_RE)) != (CR1_UE | CR1_RE) ||
         !is_connected(usart, receive_pins[usart->wires.number])) {
@@ -199,7 +258,11 @@ void usart_receive(struct usart *usart, uint8_t value, unsigned damage, uint64_t
         damage |= USART_FRAMING;
         value = (uint8_t)~value;
     }
-    usart->idle_due = cycle + (FRAME_BITS + 1U) * bit_cycles(usart);
+    damage |= misread(usart_format(usart), format, value);
+    if ((usart->cr1 & CR1_PCE) == 0) {
+        damage &= ~(unsigned)USART_PARITY;
+    }
+    usart->idle_due = cycle + (frame_bits(usart) + 1U) * bit_cycles(usart);
     if ((usart->sr & (SR_RXNE | SR_ORE)) != 0) {
         usart->sr |= SR_ORE;
         usart->overruns++;
@@ -233,7 +296,8 @@ static uint32_t read_data(struct usart *usart)
     usart->sr &= ~(usart->status_read & (SR_PE | SR_FE | SR_NF | SR_ORE | SR_IDLE));
     usart->sr &= ~(uint32_t)SR_RXNE;
     usart->status_read &= SR_TC;
-    return usart->received;
+    bool parity = (usart->cr1 & CR1_M) != 0 && ninth_of(usart_format(usart), usart->received);
+    return usart->received | (uint32_t)parity << PARITY_BIT;
 }
 
 bool usart_read(void *model, uint32_t offset, uint32_t *value)
@@ -309,6 +373,10 @@ static void write_cr1(struct usart *usart, uint32_t value)
         report_fail(usart->wires.report, "USART%u: CR1 %04x asks for what is not modelled", usart->wires.number + 1U,
                     value);
     }
+    if (((value & CR1_PCE) != 0) != ((value & CR1_M) != 0)) {
+        report_fail(usart->wires.report, "USART%u: CR1 %04x: 7 or 9 bits of data are not modelled",
+                    usart->wires.number + 1U, value);
+    }
     bool could = can_send(usart);
     if (usart->shifting && !usart->idle_frame && (value & (CR1_UE | CR1_TE)) != (CR1_UE | CR1_TE)) {
         report_fail(usart->wires.report, "USART%u: the transmitter is switched off in a character (RM0090 30.3.2)",
@@ -336,9 +404,9 @@ static bool write_register(void *model, uint32_t offset, uint32_t value)
     case USART_CR1:
         write_cr1(usart, value);
         return true;
-    case USART_CR2: /* the length of the stop bit is all that is asked of it, and only one bit is modelled */
+    case USART_CR2: /* the length of the stop bit is all that is asked of it */
         usart->cr2 = value;
-        return (value & 0x7F60U) == 0;
+        return (value & 0x5F60U) == 0;
     case USART_CR3:
         usart->cr3 = value;
         return (value & ~(uint32_t)(CR3_MODELLED | (usart->wires.requests != NULL ? CR3_DMAR : 0))) == 0;

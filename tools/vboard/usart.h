@@ -1,6 +1,7 @@
 /*
- * USART1 to USART3 as asynchronous receivers and transmitters of 8 bits without parity (RM0090 chapter 30). Times of
- * bytes follow from BRR and the clock of the bus. USART1 asks DMA2 for what it has received to be fetched (DMAR).
+ * USART1 to USART3 as asynchronous receivers and transmitters of 8 bits, with or without parity, with one or two stop
+ * bits (RM0090 chapter 30). Times of bytes follow from BRR and the clock of the bus. USART1 asks DMA2 for what it has
+ * received to be fetched (DMAR).
  */
 #ifndef USART_H
 #define USART_H
@@ -20,9 +21,24 @@ enum {
 };
 
 enum usart_damage {
+    USART_PARITY = 1 << 0,
     USART_FRAMING = 1 << 1, /* bits of SR */
     USART_NOISE = 1 << 2,
 };
+
+/* Parity and stop bits. */
+enum usart_format {
+    USART_8E1,
+    USART_8O1,
+    USART_8N1,
+    USART_8N2,
+};
+
+/* Bits of a byte with its start and stop bits. */
+static inline unsigned usart_bits(enum usart_format format)
+{
+    return format == USART_8N1 ? 10U : 11U;
+}
 
 /* A byte that was sent. */
 struct usart_sent {
@@ -78,10 +94,15 @@ void usart_reset(struct usart *usart);
 bool usart_read(void *model, uint32_t offset, uint32_t *value);
 bool usart_write(void *model, uint32_t offset, uint32_t value, uint32_t mask);
 
-/* The middle of the stop bit of a byte that came with this rate. `damage` is a set of enum usart_damage. */
-void usart_receive(struct usart *usart, uint8_t value, unsigned damage, uint64_t baud, uint64_t cycle);
+/* The middle of the first stop bit of a byte that came with this rate and format. `damage` is a set of enum
+ * usart_damage. */
+void usart_receive(struct usart *usart, uint8_t value, unsigned damage, uint64_t baud, enum usart_format format,
+                   uint64_t cycle);
 
 /* The rate in Bd that BRR gives, 0 if it is not set. */
 uint64_t usart_baud(const struct usart *usart);
+
+/* The format that CR1 and CR2 give. */
+enum usart_format usart_format(const struct usart *usart);
 
 #endif

@@ -27,8 +27,8 @@
 
 /* Speeds of the sections that wait or move. */
 struct group_speeds {
-    uint32_t (*of)(void *context, uint32_t section); /* 1/256 step/s, 1 to PATH_SPEED_MAX; counts as path_init has it */
-    void *context;
+    uint32_t (*of)(const void *context, uint32_t section); /* 1/256 step/s, 1 to PATH_SPEED_MAX; as path_init counts */
+    const void *context;
 };
 
 /* How a group moves. */

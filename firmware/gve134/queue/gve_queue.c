@@ -121,10 +121,10 @@ void gve_queue_begin(struct gve_queue *queue, uint8_t inputs)
     }
 }
 
-static uint32_t speed_of(void *context, uint32_t section)
+static uint32_t speed_of(const void *context, uint32_t section)
 {
-    struct gve_queue *queue = context;
-    const struct gve_chain *chain = gve_queue_chain(queue);
+    const struct gve_queue *queue = context;
+    const struct gve_chain *chain = gve_queue_chain_of(queue);
     return gve_speeds_limit(&chain->vectors[section & (chain->size - 1U)], queue->factor, queue->taken_limit);
 }
 

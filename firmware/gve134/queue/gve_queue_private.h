@@ -13,9 +13,14 @@ static inline struct gve_chain *gve_queue_chain(struct gve_queue *queue)
     return &queue->chain[atomic_load_explicit(&queue->used, memory_order_relaxed)];
 }
 
+static inline const struct gve_chain *gve_queue_chain_of(const struct gve_queue *queue)
+{
+    return &queue->chain[atomic_load_explicit(&queue->used, memory_order_relaxed)];
+}
+
 static inline const struct group *gve_queue_group(const struct gve_queue *queue)
 {
-    return &queue->chain[atomic_load_explicit(&queue->used, memory_order_relaxed)].group;
+    return &gve_queue_chain_of(queue)->group;
 }
 
 /* Adds a vector to the path in use; `speed` and `border_speed` as struct path_vector has them. */

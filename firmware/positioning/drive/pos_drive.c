@@ -25,7 +25,7 @@ void pos_drive_init(struct pos_drive *drive, unsigned motor)
     group_connect(&drive->group, motor, &drive->channel, AXIS);
 }
 
-static uint32_t speed_of(void *context, uint32_t section)
+static uint32_t speed_of(const void *context, uint32_t section)
 {
     const struct pos_drive *drive = context;
     (void)section;

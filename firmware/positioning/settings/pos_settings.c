@@ -18,7 +18,7 @@ static_assert((uint32_t)POS_SETTINGS_SLOT < (uint32_t)STORE_SLOTS, "there is suc
 static const uint8_t mark[MARK_BYTES] = {'P', 'O', 'S', 1};
 
 /* Bytes that are being written or read, one value after the other. */
-struct text {
+struct settings_text {
     uint8_t bytes[TEXT_BYTES_MAX];
     uint32_t length;
 };
@@ -29,14 +29,14 @@ static bool is_setting(unsigned axis, unsigned index)
     return pos_row(&place)->use == (uint8_t)POS_USE_SETTING;
 }
 
-static void put(struct text *text, uint32_t value)
+static void put(struct settings_text *text, uint32_t value)
 {
     for (unsigned i = VALUE_BYTES; i-- > 0U;) {
         text->bytes[text->length++] = (uint8_t)((value >> (i * (unsigned)BYTE_BITS)) & 0xFFU);
     }
 }
 
-static uint32_t take(struct text *text)
+static uint32_t take(struct settings_text *text)
 {
     uint32_t value = 0;
     for (unsigned i = 0; i < (unsigned)VALUE_BYTES; i++) {
@@ -46,7 +46,7 @@ static uint32_t take(struct text *text)
 }
 
 /* All settings, in the order of the table. */
-static void write(struct text *text, const struct pos_registers *registers)
+static void write(struct settings_text *text, const struct pos_registers *registers)
 {
     memcpy(text->bytes, mark, MARK_BYTES);
     text->length = MARK_BYTES;
@@ -64,7 +64,7 @@ static void write(struct text *text, const struct pos_registers *registers)
     }
 }
 
-static void read(struct text *text, struct pos_registers *registers)
+static void read(struct settings_text *text, struct pos_registers *registers)
 {
     text->length = MARK_BYTES;
     for (unsigned i = 0; i < (unsigned)POS_UNIT_REGISTERS; i++) {
@@ -82,7 +82,7 @@ static void read(struct text *text, struct pos_registers *registers)
 }
 
 /* The text that is stored, of the length that `text` has. False: it is another one. */
-static bool load(const struct store *store, struct text *text)
+static bool load(const struct store *store, struct settings_text *text)
 {
     if (store_length(store, POS_SETTINGS_SLOT) != text->length) {
         return false;
@@ -93,7 +93,7 @@ static bool load(const struct store *store, struct text *text)
 
 void pos_settings_init(struct pos_settings *settings, struct pos_registers *registers)
 {
-    struct text text;
+    struct settings_text text;
     *settings = (struct pos_settings){.damaged = false};
     store_init(&settings->store);
     pos_registers_deliver(registers);
@@ -109,7 +109,7 @@ void pos_settings_init(struct pos_settings *settings, struct pos_registers *regi
 
 bool pos_settings_store(struct pos_settings *settings, const struct pos_registers *registers)
 {
-    struct text text;
+    struct settings_text text;
     write(&text, registers);
     if (store_save(&settings->store, POS_SETTINGS_SLOT, text.bytes, text.length) != STORE_OK) {
         return false;
@@ -121,8 +121,8 @@ bool pos_settings_store(struct pos_settings *settings, const struct pos_register
 
 void pos_settings_compare(struct pos_settings *settings, const struct pos_registers *registers)
 {
-    struct text text;
-    struct text stored;
+    struct settings_text text;
+    struct settings_text stored;
     write(&text, registers);
     stored.length = text.length;
     if (!settings->damaged && !load(&settings->store, &stored)) {

@@ -143,7 +143,7 @@ static void add_vectors(void)
     longest(&path_bench_report.add_ticks, begin);
 }
 
-static uint32_t act_speed(void *context, uint32_t section)
+static uint32_t act_speed(const void *context, uint32_t section)
 {
     (void)context;
     (void)section;

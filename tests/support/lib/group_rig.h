@@ -173,7 +173,7 @@ static inline void add_zigzag(void)
     add(0, 7, 0, 800, 40000);
 }
 
-static inline uint32_t slow(void *context, uint32_t section)
+static inline uint32_t slow(const void *context, uint32_t section)
 {
     (void)section;
     return *(const uint32_t *)context * PATH_SPEED_UNITS;
