@@ -183,7 +183,7 @@ def test_send_shows_progress_on_a_terminal_only(
     shown = gve("send", write(tmp_path, "C1\n" * 300)).err
 
     assert "executing [" in shown
-    assert ", 300 sent" in shown
+    assert "/300, " in shown
 
 
 def test_send_turns_g_code(gve: Tool, unit: FakeGve, tmp_path: Path) -> None:

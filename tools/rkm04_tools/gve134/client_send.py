@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import time
 from argparse import Namespace
@@ -113,7 +114,8 @@ class Progress:
         self._bar = bar
         self._sender = sender
         self._clock = clock
-        self._started = self._shown = clock()
+        self._started = clock()
+        self._shown = -math.inf
 
     def show(self, sent: int) -> None:
         """Show it, not too often."""
