@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from blark.parse import parse_source_code
 from checks import plc, registers
 from st_program import Blocks
 from st_values import Unsuitable
@@ -95,6 +96,11 @@ def test_an_axis_is_as_long_as_its_registers(plc_blocks) -> None:
 
 def test_the_constants_and_requests_are_those_of_the_firmware() -> None:
     assert plc.main([]) == 0
+
+
+def test_the_program_for_openplc_is_parsed() -> None:
+    program = plc.OPENPLC.read_text(encoding="utf-8").partition("\nCONFIGURATION ")[0]
+    assert parse_source_code(program).exception is None
 
 
 def test_a_register_that_has_moved_is_seen(monkeypatch, capsys, tmp_path) -> None:

@@ -196,11 +196,10 @@ def settle(plc: Plc, blocks: list[Instance]) -> None:
     """All commands come to an end, and then nothing moves, nothing is held and a move is made."""
     for block in blocks:
         block["Execute"] = False
-    for _ in range(400):
+    late = plc.now + 10000
+    while any(block["Busy"] for block in blocks) and plc.now < late:
         plc.run(1)
         plc.unit.axes[0].capture()
-        if not any(block["Busy"] for block in blocks):
-            break
     assert not any(block["Busy"] for block in blocks)
     plc.until(lambda: not plc.unit.axes[0].has("JEDE"))
     told = plc.now + 1000

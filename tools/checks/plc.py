@@ -1,4 +1,4 @@
-"""The constants of tools/plc/positioning.st and the requests in its README.md, from registers.def.
+"""The numbers of registers in tools/plc: positioning.st, openplc.st, README.md; from registers.def.
 
     PYTHONPATH=tools build/venv/bin/python -m checks.plc            compare
     PYTHONPATH=tools build/venv/bin/python -m checks.plc --update   write them anew
@@ -14,6 +14,8 @@ import sys
 
 from checks import registers
 
+OPENPLC = registers.ROOT / "tools/plc/openplc.st"
+OPENPLC_FIRST = 100  # %IW and %QW of the first register of slave devices
 LIBRARY = registers.ROOT / "tools/plc/positioning.st"
 DOCUMENT = registers.ROOT / "tools/plc/README.md"
 IN_FIRST = 10  # the number, in an axis, of In[0]
@@ -56,18 +58,44 @@ def constants(text: str) -> dict[str, dict[str, str]]:
     }
 
 
+def openplc_lines(text: str) -> dict[str, list[str]]:
+    """What OpenPLC needs to see the full image: its words have no arrays, but a variable each."""
+    images = {image.name: image for image in registers.read_images(text)}
+    lines: dict[str, list[str]] = {"declarations": [], "read": [], "write": []}
+    reads = ["Uptime_High", "Uptime_Low"]
+    for area, name, array in [("%IW", "FULL_IN", "In"), ("%QW", "FULL_OUT", "Out")]:
+        count = len(images[name].numbers)
+        cells = [(a, w) for a in range(1, registers.AXES + 1) for w in range(count)]
+        names = [f"{array}_{axis}_{word}" for axis, word in cells]
+        for place, variable in enumerate(reads + names, OPENPLC_FIRST):
+            lines["declarations"].append(f"{variable} AT {area}{place} : WORD")
+        for (axis, word), variable in zip(cells, names, strict=True):
+            element = f"AXIS_{axis}.{array}[{word}]"
+            if array == "In":
+                lines["read"].append(f"{element} := {variable}")
+            else:
+                lines["write"].append(f"{variable} := {element}")
+        reads = []
+    return lines
+
+
 def renewed_library(library: str, text: str) -> str:
     """The library with its constants as registers.def has them."""
     groups = constants(text)
+    image = openplc_lines(text)
 
     def part(match: re.Match[str]) -> str:
         indent, group, names = match.groups()
         try:
-            lines = [f"{indent}{groups[group][name]};\n" for name in names.split(", ")]
+            if group == "openplc":
+                made = image[names]
+            else:
+                made = [groups[group][name] for name in names.split(", ")]
         except KeyError as missing:
             raise SystemExit(f"{LIBRARY.name}: registers.def has no {group} {missing}") from None
         heading = f"{indent}(* made: {group} {names} *)\n"
-        return heading + "".join(lines) + f"{indent}(* end *)\n"
+        lines = "".join(f"{indent}{line};\n" for line in made)
+        return f"{heading}{lines}{indent}(* end *)\n"
 
     return PART.sub(part, library)
 
@@ -116,7 +144,9 @@ def renewed_document(document: str, text: str) -> str:
 def main(arguments: list[str]) -> int:
     text = registers.TABLE.read_text(encoding="utf-8")
     stale = []
-    for path, renewed in [(LIBRARY, renewed_library), (DOCUMENT, renewed_document)]:
+    for path, renewed in [
+        (LIBRARY, renewed_library), (OPENPLC, renewed_library), (DOCUMENT, renewed_document)
+    ]:  # fmt: skip
         before = path.read_text(encoding="utf-8")
         after = renewed(before, text)
         if arguments == ["--update"]:
