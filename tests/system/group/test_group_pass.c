@@ -78,7 +78,7 @@ void test_main_is_woken_for_half_of_a_queue(void)
 /* Planning takes its time: the speeds are asked for in it. */
 static uint64_t planning_ticks;
 
-static uint32_t slow_planning(void *context, uint32_t section)
+static uint32_t slow_planning(const void *context, uint32_t section)
 {
     machine.now += section == group_first(&group) ? planning_ticks : 0;
     return slow(context, section);

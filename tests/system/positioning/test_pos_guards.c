@@ -1,0 +1,213 @@
+/* Limits, capture, backlash and the watchdog of the bus. */
+#include "pos_rig.h"
+
+#define FEED(mm_per_min) ((uint32_t)(mm_per_min) << 16U)
+
+enum {
+    ACCEL = 500,
+    LIMIT_MINUS = 146,
+    LIMIT_PLUS = 147,
+    CAPTURE = 149,
+    BACKLASH = 141,
+    ERROR_ACCEL = 140,
+    SOFT_MIN = 142,
+    SOFT_MAX = 144,
+    WATCHDOG = 30,
+};
+
+static void set(uint32_t number, int64_t value, bool wide)
+{
+    const uint16_t words[] = {(uint16_t)((uint64_t)value >> 16U & 0xFFFFU), (uint16_t)((uint64_t)value & 0xFFFFU)};
+    TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE,
+                          positioning_write(&unit, number, wide ? 2 : 1, wide ? words : &words[1]));
+}
+
+void setUp(void)
+{
+    rig_set_up();
+    rig_run_ms(10);
+}
+
+void tearDown(void)
+{
+}
+
+static void mode(int32_t len_um)
+{
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_mode(&unit, NULL, len_um, ACCEL, 1));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, FEED(1000), 1, 1));
+}
+
+static void take(void)
+{
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+}
+
+static void move(int32_t len_um)
+{
+    mode(len_um);
+    rig_run_ms(2);
+    rig_run_until_rest(1, 100000);
+}
+
+/* From 1666.7 steps/s with 50 000 steps/s^2: 27.8 steps. */
+void test_a_limit_input_stops_the_motion_in_its_direction(void)
+{
+    set(LIMIT_PLUS, 1, false);
+    set(LIMIT_MINUS, -2, false);
+    take();
+    mode(10000);
+    rig_run_ms(200);
+    host_machine_set_input(&machine, 1, true);
+    int64_t before = rig_position[0];
+    rig_run_ms(2);
+    TEST_ASSERT_EQUAL_HEX(0x0105, rig_status(1));
+    rig_run_ms(100);
+    TEST_ASSERT_EQUAL_HEX(0x0005, rig_status(1));
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_LIMIT, rig_values(1).error);
+    TEST_ASSERT_INT64_WITHIN(2, before + 28, rig_position[0]);
+    TEST_ASSERT_EQUAL_INT(POS_ERROR_FAULT, pos_mode(&unit, NULL, -10, ACCEL, 1));
+}
+
+void test_no_pulse_comes_towards_a_limit_that_is_active(void)
+{
+    set(LIMIT_PLUS, 1, false);
+    host_machine_set_input(&machine, 1, true);
+    rig_run_ms(2);
+    take();
+    mode(10000);
+    rig_run_ms(20);
+    TEST_ASSERT_EQUAL_UINT(0, rig_pulses[0]);
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_LIMIT, rig_values(1).error);
+    take();
+    move(-1000);
+    TEST_ASSERT_EQUAL_INT64(-100, rig_position[0]);
+}
+
+void test_a_fault_brakes_with_its_own_acceleration(void)
+{
+    set(LIMIT_PLUS, 1, false);
+    set(ERROR_ACCEL, 5000, false);
+    take();
+    mode(10000);
+    rig_run_ms(200);
+    host_machine_set_input(&machine, 1, true);
+    int64_t before = rig_position[0];
+    rig_run_ms(100);
+    TEST_ASSERT_INT64_WITHIN(2, before + 3, rig_position[0]);
+}
+
+void test_a_limit_counts_also_while_the_axis_is_being_held(void)
+{
+    set(LIMIT_PLUS, 1, false);
+    set(ERROR_ACCEL, 50000, false);
+    take();
+    mode(10000);
+    rig_run_ms(200);
+    (void)pos_control(&unit, NULL, FEED(1000), 0, 1);
+    rig_run_ms(3);
+    host_machine_set_input(&machine, 1, true);
+    int64_t before = rig_position[0];
+    rig_run_ms(100);
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_LIMIT, rig_values(1).error);
+    TEST_ASSERT_INT64_WITHIN(2, before + 1, rig_position[0]);
+}
+
+void test_a_measure_is_cut_at_a_software_limit(void)
+{
+    set(SOFT_MIN, -500, true);
+    set(SOFT_MAX, 1234, true);
+    take();
+    move(2000);
+    TEST_ASSERT_EQUAL_HEX(0x0803, rig_status(1));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_home(&unit, NULL, 37, 0, 0, 1));
+    rig_run_ms(2);
+    move(2000);
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_SOFT, rig_values(1).error);
+    TEST_ASSERT_EQUAL_INT32(1230, rig_values(1).position_um);
+    take();
+    mode(10);
+    rig_run_ms(3);
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_SOFT, rig_values(1).error);
+    TEST_ASSERT_EQUAL_INT32(1230, rig_values(1).position_um);
+    take();
+    move(-5000);
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_SOFT, rig_values(1).error);
+    TEST_ASSERT_EQUAL_INT32(-500, rig_values(1).position_um);
+}
+
+void test_a_capture_keeps_the_position_at_the_edge(void)
+{
+    TEST_ASSERT_EQUAL_INT(POS_ERROR_NO_INPUT, pos_capture(&unit, 1));
+    take();
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));
+    rig_run_ms(2);
+    set(CAPTURE, 5, false);
+    take();
+    mode(10000);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_capture(&unit, 1));
+    TEST_ASSERT_EQUAL_HEX(POS_FLAG_ARMED, rig_values(1).flags);
+    rig_run_ms(300);
+    host_machine_set_input(&machine, 5, true);
+    int64_t at = rig_position[0];
+    rig_run_ms(50);
+    host_machine_set_input(&machine, 5, false);
+    rig_run_ms(5);
+    host_machine_set_input(&machine, 5, true);
+    rig_run_ms(1000);
+    struct pos_values values = rig_values(1);
+    TEST_ASSERT_EQUAL_HEX(POS_FLAG_CAPTURE, values.flags);
+    TEST_ASSERT_EQUAL_UINT16(1, values.captures);
+    TEST_ASSERT_EQUAL_INT32((int32_t)at, values.captured_steps);
+    TEST_ASSERT_EQUAL_INT32(10 * (int32_t)at, values.captured_um);
+}
+
+void test_backlash_is_taken_up_where_the_direction_changes(void)
+{
+    set(BACKLASH, 50, false);
+    take();
+    move(1000);
+    TEST_ASSERT_EQUAL_INT64(100, rig_position[0]);
+    move(-1000);
+    TEST_ASSERT_EQUAL_INT64(-5, rig_position[0]);
+    TEST_ASSERT_EQUAL_INT32(0, rig_values(1).position_steps);
+    move(10);
+    TEST_ASSERT_EQUAL_INT64(1, rig_position[0]);
+    TEST_ASSERT_EQUAL_INT32(1, rig_values(1).position_steps);
+    move(0);
+    TEST_ASSERT_EQUAL_INT64(1, rig_position[0]);
+    TEST_ASSERT_EQUAL_HEX(0x0803, rig_status(1));
+}
+
+void test_a_silent_bus_is_a_fault_of_every_axis_that_is_taken(void)
+{
+    set(WATCHDOG, 200, false);
+    rig_expect("01 06 00 64 01 01 08 45", "01 06 00 64 01 01 08 45");
+    rig_expect("01 10 00 64 00 08 10 02 02 00 00 00 00 27 10 01 F4 00 01 03 E8 00 00 D6 42", "01 10 00 64 00 08 80 10");
+    rig_run_ms(100);
+    TEST_ASSERT_EQUAL_HEX(0x0103, rig_status(1));
+    rig_run_ms(100);
+    TEST_ASSERT_EQUAL_HEX(0x0105, rig_status(1));
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_SILENT, rig_values(1).error);
+    rig_run_ms(200);
+    TEST_ASSERT_EQUAL_HEX(0x0005, rig_status(1));
+    TEST_ASSERT_EQUAL_HEX(0, rig_status(2));
+    TEST_ASSERT_EQUAL_UINT32(1, unit.silences);
+}
+
+void test_leds_show_pulses_and_errors(void)
+{
+    take();
+    mode(10000);
+    rig_run_ms(50);
+    TEST_ASSERT_EQUAL_HEX(1, rig_leds);
+    rig_run_ms(1000);
+    TEST_ASSERT_EQUAL_HEX(0, rig_leds);
+    TEST_ASSERT_EQUAL_INT(POS_ERROR_ACCEL, pos_mode(&unit, NULL, 1, 0, 1));
+    unsigned lit = 0;
+    for (unsigned i = 0; i < 20; i++) {
+        rig_run_ms(100);
+        lit += rig_leds & 1U;
+    }
+    TEST_ASSERT_EQUAL_UINT(10, lit);
+}

@@ -1,0 +1,218 @@
+/* Homing: to the switch, off it, and back to where it was left; by which measures then count. The switch is input 3. */
+#include "pos_rig.h"
+
+#define FEED(mm_per_min) ((uint32_t)(mm_per_min) << 16U)
+
+enum {
+    SWITCH = 3,
+    ACCEL = 500,
+};
+
+static int64_t switch_from; /* steps between which the switch is active; the motor is watched at its pins */
+static int64_t switch_to;
+
+static uint64_t poll(void *context)
+{
+    bool active = rig_position[0] >= switch_from && rig_position[0] <= switch_to;
+    host_machine_set_input(&machine, SWITCH, active);
+    return rig_poll(context);
+}
+
+/* The switch follows the motor within 10 us. */
+static void run_ms(uint64_t ms)
+{
+    for (uint64_t i = 0; i < ms * 100U; i++) {
+        host_machine_run(&machine, machine.now + TICKS_PER_MS / 100U, poll, NULL, NULL);
+    }
+}
+
+static void set(uint32_t number, uint32_t value, bool wide)
+{
+    const uint16_t words[] = {(uint16_t)(value >> 16U), (uint16_t)value};
+    TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE,
+                          positioning_write(&unit, number, wide ? 2 : 1, wide ? words : &words[1]));
+}
+
+void setUp(void)
+{
+    rig_set_up();
+    rig_run_ms(10);
+    set(148, SWITCH, false);
+    set(154, 20000, true);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+    switch_from = 300;
+    switch_to = 100000;
+}
+
+void tearDown(void)
+{
+}
+
+static void home(unsigned method, int32_t position_um)
+{
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_home(&unit, NULL, method, position_um, ACCEL, 1));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, FEED(1000), 1, 1));
+}
+
+static void assert_home(int32_t position_um)
+{
+    struct pos_values values = rig_values(1);
+    TEST_ASSERT_EQUAL_HEX(0x0803, rig_status(1) & 0xFDFFU);
+    TEST_ASSERT_EQUAL_INT32(position_um, values.position_um);
+    TEST_ASSERT_EQUAL_HEX(POS_FLAG_REFERENCED, values.flags & (POS_FLAG_REFERENCED | POS_FLAG_HOMING));
+    TEST_ASSERT_EQUAL_INT32(0, values.way_left_um);
+}
+
+void test_an_axis_stands_where_the_switch_was_left(void)
+{
+    home(19, 5000);
+    run_ms(100);
+    TEST_ASSERT_EQUAL_HEX(0x0103, rig_status(1));
+    TEST_ASSERT_EQUAL_HEX(POS_FLAG_HOMING, rig_values(1).flags & (POS_FLAG_REFERENCED | POS_FLAG_HOMING));
+    run_ms(3000);
+    assert_home(5000);
+    TEST_ASSERT_EQUAL_INT64(299, rig_position[0]);
+    TEST_ASSERT_EQUAL_INT32(299, rig_values(1).position_steps);
+}
+
+void test_an_axis_on_the_switch_leaves_it_at_once(void)
+{
+    switch_from = -50;
+    home(19, -5000);
+    run_ms(3000);
+    assert_home(-5000);
+    TEST_ASSERT_EQUAL_INT64(-51, rig_position[0]);
+}
+
+void test_the_negative_method_goes_the_other_way(void)
+{
+    switch_from = -100000;
+    switch_to = -200;
+    home(21, 0);
+    run_ms(5000);
+    assert_home(0);
+    TEST_ASSERT_EQUAL_INT64(-199, rig_position[0]);
+}
+
+void test_a_short_switch_that_is_passed_is_found_again_on_the_way_back(void)
+{
+    switch_to = 303;
+    home(19, 0);
+    run_ms(5000);
+    assert_home(0);
+    TEST_ASSERT_EQUAL_INT64(299, rig_position[0]);
+}
+
+void test_the_present_place_can_be_the_reference(void)
+{
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_home(&unit, NULL, 37, 123456, 0, 1));
+    rig_run_ms(2);
+    assert_home(123456);
+    TEST_ASSERT_EQUAL_UINT(0, rig_pulses[0]);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_mode_abs(&unit, NULL, 122456, ACCEL, 1));
+    (void)pos_control(&unit, NULL, FEED(1000), 1, 1);
+    rig_run_ms(1000);
+    TEST_ASSERT_EQUAL_INT64(-100, rig_position[0]);
+    TEST_ASSERT_EQUAL_INT32(122456, rig_values(1).position_um);
+}
+
+void test_a_switch_that_is_not_found_is_a_fault(void)
+{
+    switch_from = 100000;
+    home(19, 0);
+    run_ms(4000);
+    TEST_ASSERT_EQUAL_HEX(0x0005, rig_status(1));
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_HOME, rig_values(1).error);
+    TEST_ASSERT_EQUAL_INT64(2000, rig_position[0]);
+    TEST_ASSERT_EQUAL_HEX(0, rig_values(1).flags & POS_FLAG_REFERENCED);
+}
+
+void test_a_switch_that_is_never_left_is_a_fault(void)
+{
+    switch_from = -100000;
+    home(19, 0);
+    run_ms(25000);
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_HOME, rig_values(1).error);
+    TEST_ASSERT_EQUAL_INT64(-2000, rig_position[0]);
+}
+
+void test_homing_is_held_and_goes_on_in_each_of_its_parts(void)
+{
+    home(19, 0);
+    for (unsigned i = 0; i < 200 && (rig_status(1) & 0x0800U) == 0; i++) {
+        (void)pos_control(&unit, NULL, FEED(1000), 0, 1);
+        run_ms(10 + i % 7);
+        (void)pos_control(&unit, NULL, FEED(1000), 1, 1);
+        run_ms(20 + i % 13);
+    }
+    assert_home(0);
+    TEST_ASSERT_EQUAL_INT64(299, rig_position[0]);
+}
+
+void test_a_switch_that_becomes_active_while_homing_is_held_is_not_missed(void)
+{
+    home(19, 0);
+    run_ms(100);
+    (void)pos_control(&unit, NULL, FEED(1000), 0, 1);
+    run_ms(500);
+    int64_t stood = rig_position[0];
+    switch_from = stood - 3;
+    run_ms(10);
+    (void)pos_control(&unit, NULL, FEED(1000), 1, 1);
+    run_ms(3000);
+    assert_home(0);
+    TEST_ASSERT_EQUAL_INT64(stood - 4, rig_position[0]);
+}
+
+void test_a_homing_that_is_given_up_leaves_positions_as_they_were(void)
+{
+    home(19, 777);
+    run_ms(150);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+    run_ms(200);
+    TEST_ASSERT_EQUAL_HEX(0x0001, rig_status(1));
+    TEST_ASSERT_EQUAL_INT32(10 * (int32_t)rig_position[0], rig_values(1).position_um);
+    TEST_ASSERT_EQUAL_HEX(0, rig_values(1).flags & (POS_FLAG_REFERENCED | POS_FLAG_HOMING));
+}
+
+void test_homing_is_refused_without_its_input_or_with_another_method(void)
+{
+    TEST_ASSERT_EQUAL_INT(POS_ERROR_METHOD, pos_home(&unit, NULL, 20, 0, ACCEL, 1));
+    TEST_ASSERT_EQUAL_INT(POS_ERROR_ACCEL, pos_home(&unit, NULL, 21, 0, 0, 1));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));
+    rig_run_ms(2);
+    set(148, 0, false);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+    TEST_ASSERT_EQUAL_INT(POS_ERROR_NO_INPUT, pos_home(&unit, NULL, 21, 0, ACCEL, 1));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_home(&unit, NULL, 37, 0, 0, 1));
+}
+
+void test_the_limit_input_may_be_the_switch(void)
+{
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));
+    rig_run_ms(2);
+    set(147, SWITCH, false);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+    home(19, 0);
+    run_ms(3000);
+    assert_home(0);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_mode(&unit, NULL, 1000, ACCEL, 1));
+    (void)pos_control(&unit, NULL, FEED(1000), 1, 1);
+    run_ms(100);
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_LIMIT, rig_values(1).error);
+}
+
+void test_another_limit_input_ends_homing(void)
+{
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));
+    rig_run_ms(2);
+    set(147, (uint32_t)-4, false);
+    host_machine_set_input(&machine, 4, true);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+    home(19, 0);
+    run_ms(100);
+    host_machine_set_input(&machine, 4, false);
+    run_ms(100);
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_LIMIT, rig_values(1).error);
+    TEST_ASSERT_EQUAL_HEX(0x0005, rig_status(1));
+}
