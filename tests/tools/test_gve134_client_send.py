@@ -265,6 +265,19 @@ def test_a_unit_that_restarts_ends_the_job() -> None:
     assert len(unit.taken) < 300
 
 
+@pytest.mark.parametrize("by_fault", [False, True])
+def test_a_unit_that_restarts_when_all_is_sent_is_told(by_fault: bool) -> None:
+    unit = FakeGve(vector_s=1.0)
+    sending = sender(unit, chain(50))
+    sending.send()
+    unit.restart(by_fault)
+
+    with pytest.raises(Restarted, match=r"HAS RESTARTED: .* nothing was sent after it"):
+        sending.finish()
+    assert len(unit.taken) == 50
+    assert not unit.queue
+
+
 def test_a_unit_without_motion_after_a_fault_is_told() -> None:
     unit = FakeGve()
     unit.restart(by_fault=True)
