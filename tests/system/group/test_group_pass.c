@@ -274,6 +274,26 @@ void test_a_slow_stop_is_over_with_its_last_pulse(void)
     assert_arrived();
 }
 
+static void expect_steady_steps(void)
+{
+    made[0] = 0;
+    add(20, 0, 0, 0, 1000);
+    start();
+    run_to_the_end();
+    assert_arrived();
+    for (unsigned i = 1; i < 20; i++) {
+        TEST_ASSERT_UINT64_WITHIN(1, made_tick[0][i - 1U] + TICKS_PER_MS, made_tick[0][i]);
+    }
+}
+
+void test_a_start_speed_stays_when_all_is_forgotten(void)
+{
+    group_set_manner(&group, &(struct group_manner){.start_speed = 1000 * PATH_SPEED_UNITS});
+    expect_steady_steps();
+    group_forget(&group);
+    expect_steady_steps();
+}
+
 void test_a_motor_that_is_connected_again_follows_its_axis_alone(void)
 {
     group_connect(&group, 3, &channels[3], 0);

@@ -134,6 +134,34 @@ void test_at_a_slow_speed_the_next_step_is_waited_for(void)
     assert_arrived();
 }
 
+/* Asks for other speeds so many ticks before the next step at 100 steps/s, after which a change may come between steps.
+ * Tells how much sooner than the step it takes effect. */
+static int64_t ask_before_step(uint64_t ticks)
+{
+    uint32_t speed = 200;
+    const struct group_speeds speeds = {.of = slow, .context = &speed};
+    begin(AHEAD_TICKS);
+    group_set_manner(&group, &(struct group_manner){.between_steps = true});
+    add(300, 0, 0, 0, 100);
+    start();
+    run_us(1003000);
+    uint64_t step = made_tick[0][made[0] - 1U] + 2 * 10 * TICKS_PER_MS;
+    host_machine_run(&machine, step - ticks, poll, NULL, NULL);
+    group_set_speeds(&group, &speeds);
+    int64_t sooner = (int64_t)(step - (place_tick() - machine.epoch));
+    run_to_the_end();
+    assert_arrived();
+    return sooner;
+}
+
+void test_between_steps_a_step_is_waited_for_if_it_comes_half_a_millisecond_later(void)
+{
+    const uint64_t lead = LEAD_TICKS + 2 * LOOK_TICKS;
+    const uint64_t patience = 500 * TICKS_PER_US;
+    TEST_ASSERT_INT64_WITHIN(1, 0, ask_before_step(lead + patience - 2U));
+    TEST_ASSERT_INT64_WITHIN(2, patience + 3, ask_before_step(lead + patience + 3U));
+}
+
 /* What is due within `keep_us` cannot be taken back; whether the stop has been planned at once. */
 static bool is_planned_though_kept(uint32_t keep_us)
 {
@@ -173,6 +201,29 @@ void test_what_is_due_before_a_place_is_handed_over_at_once(void)
         (void)poll(NULL);
         busy_until = TICK_NEVER - machine.epoch;
         host_machine_run(&machine, machine.now + 20 * TICKS_PER_MS - 31U * phase - 1U, poll, NULL, NULL);
+        TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
+        TEST_ASSERT_EQUAL_UINT(AXIS_STOPPING, atomic_load(&group.state));
+        busy_until = 0;
+        run_to_the_end();
+        start();
+        run_to_the_end();
+        assert_arrived();
+    }
+}
+
+/* Each vector of a step is handed over by itself. */
+void test_a_step_at_a_place_is_handed_over_at_once(void)
+{
+    for (uint64_t phase = 0; phase < 71; phase++) {
+        begin_ring(AHEAD_TICKS, LONG_RING);
+        for (unsigned i = 0; i < LONG_RING; i++) {
+            add(1, 0, 0, 0, 1200);
+        }
+        start();
+        run_us(2000);
+        (void)poll(NULL);
+        busy_until = TICK_NEVER - machine.epoch;
+        host_machine_run(&machine, machine.now + 20 * TICKS_PER_MS - 997U * phase - 1U, poll, NULL, NULL);
         TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
         TEST_ASSERT_EQUAL_UINT(AXIS_STOPPING, atomic_load(&group.state));
         busy_until = 0;
