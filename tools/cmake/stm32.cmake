@@ -3,6 +3,7 @@ find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
 
 set(image ${FIRMWARE_UNIT}-${FIRMWARE_BOARD})
 set(script ${PROJECT_SOURCE_DIR}/hal/stm32/stm32f405.ld)
+set(unit_script ${PROJECT_SOURCE_DIR}/firmware/${FIRMWARE_UNIT}/image/image_ram.ld)
 set(elf $<TARGET_FILE:unit_image>)
 set(output ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${image})
 
@@ -19,14 +20,29 @@ set(image_header ${PROJECT_SOURCE_DIR}/firmware/${FIRMWARE_UNIT}/image/image.h)
 file(STRINGS ${image_header} stack REGEX "^#define IMAGE_STACK_BYTES ")
 string(REGEX REPLACE "^#define IMAGE_STACK_BYTES " "" stack_bytes "${stack}")
 
+# And whether it is to be small rather than fast; the step interrupt is fast in any case.
+file(STRINGS ${image_header} small REGEX "^#define IMAGE_SMALL 1$")
+if(small)
+    foreach(stage IN LISTS FIRMWARE_STAGES)
+        string(REPLACE / _ library ${stage})
+        if(NOT library STREQUAL engine_step)
+            target_compile_options(${library} PRIVATE -Os)
+        endif()
+    endforeach()
+    target_compile_options(hal_stm32 PRIVATE -Os)
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/hal/stm32/stm32_step.c
+        DIRECTORY ${PROJECT_SOURCE_DIR}/hal/stm32 PROPERTIES COMPILE_OPTIONS -O2)
+endif()
+
 # firmware_add_image(<target> <name> <library> <source>...): a main and the library that it needs, for the board.
 function(firmware_add_image target name library)
     add_executable(${target} ${ARGN})
-    set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} SUFFIX .elf LINK_DEPENDS ${script})
+    set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} SUFFIX .elf LINK_DEPENDS "${script};${unit_script}")
     target_link_libraries(${target} PRIVATE ${library} hal hal_stm32 warnings)
     # Relocations stay in the image (-q): they tell the checks what refers to what.
     target_link_options(${target} PRIVATE -nostartfiles --specs=nano.specs
         -Wl,--defsym=stm32_loader_bytes=${loader_bytes} -Wl,--defsym=stm32_stack_bytes=${stack_bytes} -T ${script}
+        -L ${PROJECT_SOURCE_DIR}/firmware/${FIRMWARE_UNIT}/image
         -Wl,--gc-sections -Wl,-q -Wl,--fatal-warnings -Wl,-Map=${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name}.map)
 endfunction()
 firmware_add_image(unit_image ${image} ${FIRMWARE_UNIT} firmware/${FIRMWARE_UNIT}/main.c)

@@ -4,9 +4,12 @@
 #ifndef IMAGE_H
 #define IMAGE_H
 
-/* The line: its rate, and whether it hears while it sends (hal_line.h). */
+/* The line: its rate until the settings are known, and whether it hears while it sends (hal_line.h). */
 #define IMAGE_LINE_BD 19200U
 #define IMAGE_LINE_FULL_DUPLEX 0
+
+/* Small rather than fast, but for the steps. */
+#define IMAGE_SMALL 1
 
 /* The width of a pulse at STEP; 0: that of the board. */
 #define IMAGE_STEP_HIGH_NS 0U
