@@ -35,8 +35,9 @@ INITIATOR = 2 * MS
 class Axis:
     """The state of an axis."""
 
-    def __init__(self, train: Train) -> None:
-        """Switch the unit on."""
+    def __init__(self, train: Train, late: int = CHANGE) -> None:
+        """Switch the unit on; changes take effect within so many ticks, or at the next pulse."""
+        self.late = late
         self.settings = Settings()
         self.bits = Bits()
         self.history: list[tuple[float, float, Bits]] = [(0, 0, Bits())]
@@ -51,6 +52,8 @@ class Axis:
         self.homing: Homing | None = None
         self.captured: set[int] = set()
         """What CAPTURED_STEPS may be; empty: nothing was captured."""
+        self.initiated = 0
+        """By then the initiator has done its work."""
         self.stood = -math.inf
         """Until then the unit may not have noticed that the axis stands."""
         self.crystal = True
@@ -149,7 +152,7 @@ class Axis:
         bits.error, bits.feed = Error.NONE, 0
         self._give_up(tick)
 
-    def _give_up(self, tick: int, accel: int = 0, late: int = CHANGE) -> None:
+    def _give_up(self, tick: int, accel: int = 0, late: int = 0) -> None:
         """Forget the measure; brake, with an acceleration of its own if it is not 0."""
         self.goal, self.programmed, self.homing, self.cut = None, None, None, False
         self.bits.homing = False
@@ -175,6 +178,7 @@ class Axis:
         if not bits.jede:
             self.note(act.tick, act.tick + MS)
             self.settle()
+            self.initiated = act.tick + MS
             self.initiate(act, act.tick, act.tick + CHANGE)
 
     def initiate(self, act: Act, low: float, high: float) -> None:
@@ -235,7 +239,7 @@ class Axis:
             bits.mp = bool(mp)
         if bits.prog:
             bits.feed = feed
-            self.go(act.tick, act.tick + CHANGE)
+            self.go(act.tick, max(act.tick, self.initiated) + CHANGE)
 
     def go(self, low: float, high: float) -> None:
         """Start, change or hold, if what is wanted says so."""
@@ -267,13 +271,13 @@ class Axis:
             return False
         return self.active(name)
 
-    def want(self, tick: int, order: Order, late: int = CHANGE) -> None:
+    def want(self, tick: int, order: Order, late: int = 0) -> None:
         """Want something else of an axis that moves."""
         if order != self.order:
             self.order = order
-            self.motion.change(tick, order, late)
+            self.motion.change(tick, order, late or self.late)
 
-    def fault(self, error: Error, low: int, high: float, late: int = CHANGE) -> None:
+    def fault(self, error: Error, low: int, high: float, late: int = 0) -> None:
         """A fault ends the measure."""
         bits = self.bits
         bits.err = True

@@ -98,7 +98,7 @@ def changed(
         for curve in sources:
             found += _of_curve(curve, seen, tick, order, late)
     if blind:
-        found.append(_blindly(blind, seen, tick, order))
+        found.append(_blindly(blind, seen, (tick, late), order))
     return found
 
 
@@ -140,7 +140,7 @@ def _of_wide(family: Family, seen: int, tick: int, order: Order, late: int) -> I
         yield family
     elif not any(curve.reaches for curve in both):
         stands = [max(tick, ceil_tick(curve.rest_time)) for curve in both]
-        ticks = (min(stands), max(stands) + 2 * CHANGE)
+        ticks = (min(stands), max(stands) + 2 * late)
         yield rested(family, lambda old: started(old.rest, 0, order, old.blur), ticks)
     else:
         raise Unsure("a change when the axis may have reached its measure or not")
@@ -157,7 +157,9 @@ def _composed(family: Family, order: Order, number: int) -> Family:
     )
 
 
-def _blindly(options: Sequence[tuple[Curve, Places]], seen: int, tick: int, order: Order) -> Family:
+def _blindly(
+    options: Sequence[tuple[Curve, Places]], seen: int, window: tuple[int, int], order: Order
+) -> Family:
     """A change at constant speed, when where the axis is then is known only about."""
     per_steps = {places[0] for _, places in options}
     squares = {_at(curve, places).square2 for curve, places in options}
@@ -166,12 +168,13 @@ def _blindly(options: Sequence[tuple[Curve, Places]], seen: int, tick: int, orde
     square2, per_step = squares.pop(), per_steps.pop()
     low = max(min(places[1] for _, places in options), seen * per_step)
     high = min(max(places[2] for _, places in options), (seen + 1) * per_step - 1)
-    window = SLOW_CHANGE if square2 < 2 * SPEED_UNITS**2 else CHANGE
+    tick, late = window
+    late = max(late, SLOW_CHANGE) if square2 < 2 * SPEED_UNITS**2 else late
     blur = max(curve.blur for curve, _ in options)
     return loose(
         lambda n: moving(Fraction(n, per_step), square2, 0, order, blur),
         (low, max(low, high)),
-        (tick, tick + window),
+        (tick, tick + late),
     )
 
 
@@ -201,7 +204,7 @@ def _of_curve(curve: Curve, seen: int, tick: int, order: Order, late: int) -> It
         yield alone(curve)
     else:
         first = max(tick, rests)
-        yield _start(curve.rest, order, first, first + 2 * CHANGE, curve.blur, before=curve)
+        yield _start(curve.rest, order, first, first + 2 * late, curve.blur, before=curve)
 
 
 def _family(curve: Curve, order: Order, per_step: int, low: int, high: int) -> Family:
@@ -235,7 +238,7 @@ def _between(curve: Curve, tick: int, late: int, due: int) -> Iterator[tuple[int
     """Places between pulses where a change may take effect at constant speed."""
     for leg in curve.legs:
         slow = leg.square2 < 2 * SPEED_UNITS**2
-        window = SLOW_CHANGE if slow and late == CHANGE else late
+        window = max(SLOW_CHANGE, late) if slow and late >= CHANGE else late
         low = max(tick << BITS, leg.time)
         high = min(min(due, tick + window) << BITS, leg.end_time)
         if leg.sign or low >= high:

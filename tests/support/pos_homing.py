@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pos_change import CHANGE
 from pos_session import Act
 from pos_words import FORWARD_METHOD, HERE_METHOD, MS, US, Error, Unsure
 
@@ -81,7 +80,7 @@ class Homing:
             low, *_, high = (axis.seat_at(at).step for at in ticks)
             self.steps = set(range(min(low, high), max(low, high) + 1))
         if axis.bits.jede:
-            axis.want(tick, replace(axis.order, speed=0), CHANGE)
+            axis.want(tick, replace(axis.order, speed=0))
         else:
             self._next_part(tick, tick + MS)
 

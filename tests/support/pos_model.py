@@ -12,11 +12,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from pos_axis import EDGE_LATE, Axis
+from pos_change import CHANGE
 from pos_motion import Train
 from pos_read import check_sample, read
 from pos_session import Act, Edge, Event, Sample, Session, Setting
 from pos_target import Origin, Seat
-from pos_words import AXES, MOVES_ORIGIN, MS, REGISTER, US, Error, Mismatch, Settings, Unsure
+from pos_words import AXES, MOVES_ORIGIN, MS, REGISTER, US, Code, Error, Mismatch, Settings, Unsure
 
 NOTICED = 4
 """Ticks after a stand, by when its last pulse has come for sure."""
@@ -28,18 +29,25 @@ class Done:
 
     trains: list[Train] = field(default_factory=lambda: [Train() for _ in AXES])
     samples: list[Sample] = field(default_factory=list)
+    results: dict[int, int] = field(default_factory=dict)
+    """Of instructions, by their index in the script, the error or 0."""
 
 
 class Follower:
     """Leads one axis through a session."""
 
-    def __init__(self, session: Session, done: Done, number: int) -> None:
+    def __init__(self, session: Session, done: Done, number: int, late: int = CHANGE) -> None:
         """Switch the unit on."""
         self.number = number
         self.train = done.trains[number - 1]
-        self.axis = Axis(self.train)
+        self.axis = Axis(self.train, late)
         self.end = session.end
         self.edge_tick = -math.inf
+        self.results = {
+            id(act): done.results[index]
+            for index, act in enumerate(session.script)
+            if isinstance(act, Act) and index in done.results
+        }
         self.events = sorted(self._events(session, done), key=lambda event: event.tick)
 
     def _events(self, session: Session, done: Done) -> Iterator[Event]:
@@ -57,7 +65,7 @@ class Follower:
             if isinstance(event, Edge):
                 self._edge(event)
             elif isinstance(event, Act):
-                self.axis.take(event)
+                self._take(event)
             elif isinstance(event, Setting):
                 self._set(event)
             elif self.train.growing:
@@ -77,6 +85,13 @@ class Follower:
             elif stands >= tick:
                 return
         motion.verify(tick)
+
+    def _take(self, act: Act) -> None:
+        self.axis.take(act)
+        told = self.results.get(id(act))
+        result = 0 if act.code == Code.POS_CONTROL else self.axis.bits.result
+        if told not in (None, result):
+            raise Mismatch(act.tick, f"{act.code.name} has the result {told}, not {result}")
 
     def _edge(self, edge: Edge) -> None:
         axis, bits = self.axis, self.axis.bits
@@ -110,10 +125,10 @@ class Follower:
         axis.note(event.tick, event.tick + MS)
 
 
-def compare(session: Session, done: Done) -> None:
-    """Hold what a unit did against the contract."""
+def compare(session: Session, done: Done, late: int = CHANGE) -> None:
+    """Hold what a unit did against the contract; changes may take effect so late."""
     for number in AXES:
-        for _ in Follower(session, done, number).go():
+        for _ in Follower(session, done, number, late).go():
             raise AssertionError("a unit that has been watched tells nothing more")
 
 

@@ -72,9 +72,14 @@ class Session:
     """Tick and axis of each reading of registers."""
 
     @property
+    def lines(self) -> tuple[Act | Setting | tuple[int, int], ...]:
+        """The script with its readings, in the order of time."""
+        return tuple(sorted((*self.script, *self.reads), key=_tick))
+
+    @property
     def csv(self) -> str:
         """The script as `positioning sim` reads it."""
-        return "".join(f"{_row(each)}\n" for each in self.script)
+        return "".join(f"{_row(each)}\n" for each in self.lines)
 
     @property
     def inputs_csv(self) -> str:
@@ -93,7 +98,13 @@ def _ms(tick: int) -> str:
     return f"{tick / MS:.6f}".rstrip("0").rstrip(".")
 
 
-def _row(each: Act | Setting) -> str:
+def _tick(each: Act | Setting | tuple[int, int]) -> int:
+    return each[0] if isinstance(each, tuple) else each.tick
+
+
+def _row(each: Act | Setting | tuple[int, int]) -> str:
+    if isinstance(each, tuple):
+        return f"{_ms(each[0])},{each[1]},READ"
     if isinstance(each, Setting):
         return f"{_ms(each.tick)},0,SETTING,{each.register},{each.value}"
     values = [str(v) for v in each.values]

@@ -127,7 +127,7 @@ class Writer:
         """Change the feed again and again, hold, and let it go on."""
         rng = self.rng
         for _ in range(rng.choice((1, 2, 4, 8))):
-            feed = rng.choice((self.feed, self.feeds(), self.feeds(5, 500), 0, self.feed + 1))
+            feed = rng.choice((self.feed, self.feeds(), self.feeds(5, 500), 0, self.feed ^ 1))
             self.tell(Code.POS_CONTROL, feed, rng.choice((1, 1, 1, 0)))
         if rng.random() < 0.8:
             self.tell(Code.POS_CONTROL, self.feeds(300, 60_000), 1)
