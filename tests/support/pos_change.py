@@ -214,16 +214,19 @@ def _family(curve: Curve, order: Order, per_step: int, low: int, high: int) -> F
 
 
 def _places(curve: Curve, seen: int, tick: int, late: int) -> Iterator[Places]:
-    """Where a change may take effect."""
+    """Where a change may take effect; more than `CHANGE` late: wherever it is not later."""
     first = seen + 1
     due = last = NEVER
+    lenient = late > CHANGE
     if curve.rest_time > tick << BITS and first <= curve.count:
         due, last = ceil_tick(curve.time_of(first)), first
-        while last < curve.count and curve.time_of(last + 1) <= tick + late << BITS:
+        while last < curve.count and curve.time_of(last + (not lenient)) <= tick + late << BITS:
             last += 1
-    between = list(_between(curve, tick, late, due)) if due > tick + late else []
+    between: list[Places] = []
+    if late >= CHANGE and (lenient or due > tick + late):
+        between = list(_between(curve, tick, late, NEVER if lenient else due))
     cruises = between and _leg_during(curve, tick).sign == 0
-    if due < NEVER and (not cruises or due <= tick + 2 * late):
+    if due < NEVER and (lenient or not cruises or due <= tick + 2 * late):
         yield 1, first, last
     yield from between
 
@@ -238,7 +241,7 @@ def _between(curve: Curve, tick: int, late: int, due: int) -> Iterator[tuple[int
     """Places between pulses where a change may take effect at constant speed."""
     for leg in curve.legs:
         slow = leg.square2 < 2 * SPEED_UNITS**2
-        window = max(SLOW_CHANGE, late) if slow and late >= CHANGE else late
+        window = max(SLOW_CHANGE, late) if slow else late
         low = max(tick << BITS, leg.time)
         high = min(min(due, tick + window) << BITS, leg.end_time)
         if leg.sign or low >= high:

@@ -6,10 +6,12 @@ or as it will be; the pulses of the last microseconds may be counted or not.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from pos_axis import Axis
 from pos_bits import Bits
 from pos_session import Sample
-from pos_words import US, Mismatch, signed32
+from pos_words import MS, US, Mismatch, signed32
 
 COUNTED = 50 * US
 """So old may a position be."""
@@ -30,6 +32,11 @@ def states(axis: Axis, tick: int) -> list[Bits]:
             found.append(bits)
         if high <= tick:
             break
+    if tick <= axis.initiated:
+        found += [replace(bits, pol=False, inic=True, cont=False) for bits in found if bits.prog]
+    leaves = any(f.starts and tick <= f.high + MS for f in axis.motion.families)
+    if leaves and axis.bits.jede:
+        found += [replace(bits, jede=False) for bits in found]
     return found
 
 
