@@ -98,6 +98,8 @@ def changed(
         for curve in sources:
             found += _of_curve(curve, seen, tick, order, late)
     if blind:
+        if late > CHANGE and any(c.ticks(seen + 1, seen + 1, tick)[0] < late for c, _ in blind):
+            raise Unsure("a late change before a start has shown itself")
         found.append(_blindly(blind, seen, (tick, late), order))
     return found
 
@@ -179,7 +181,7 @@ def _blindly(
 
 
 def _at(curve: Curve, places: Places) -> Leg:
-    leg = curve.leg_at(Fraction(places[2], places[0]))
+    leg = curve.leg_at(Fraction(places[1], places[0]))
     assert leg is not None
     return leg
 
@@ -226,7 +228,7 @@ def _places(curve: Curve, seen: int, tick: int, late: int) -> Iterator[Places]:
     if late >= CHANGE and (lenient or due > tick + late):
         between = list(_between(curve, tick, late, NEVER if lenient else due))
     cruises = between and _leg_during(curve, tick).sign == 0
-    if due < NEVER and (lenient or not cruises or due <= tick + 2 * late):
+    if due < NEVER and (not cruises or due <= tick + 2 * late):
         yield 1, first, last
     yield from between
 

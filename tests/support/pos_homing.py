@@ -52,7 +52,9 @@ class Homing:
 
     def _way(self, sign: int) -> int:
         axis = self.axis
-        steps = max(1, axis.settings.way_steps(axis.settings.home_way))
+        steps = axis.settings.way_steps(axis.settings.home_way)
+        if steps == 0:
+            raise Unsure("a homing without a way")
         return axis.seat.pulses_to(axis.seat.step + sign * steps)
 
     def begins(self) -> None:

@@ -102,7 +102,7 @@ class Writer:
                 self.setting(name, rng.choice((1, 1, -1)) * number if at > 1 else number)
         self.setting("home_feed", self.feeds(100, 5000))
         self.setting("home_slow", self.feeds(50, 1000))
-        self.setting("home_way", abs(self.way()) + 1)
+        self.setting("home_way", abs(self.way()) + math.ceil(2 / self.settings.ratio))
         if rng.random() < 0.3:
             low, high = sorted((self.way(), self.way()))
             self.setting("soft_min", low)
