@@ -10,14 +10,13 @@ from pos_change import CHANGE
 from pos_curve import Order
 from pos_homing import Homing
 from pos_motion import Motion, Train
+from pos_refusal import refusal
 from pos_session import Act
 from pos_target import Goal, Origin, Seat, absolute, relative
 from pos_words import (
-    HERE_METHOD,
     MEASURES,
     MS,
     US,
-    WAY_MAX,
     Code,
     Error,
     Settings,
@@ -84,7 +83,7 @@ class Axis:
         if act.code == Code.POS_CONTROL:
             self._control(act)
         else:
-            bits.result = self._refusal(act)
+            bits.result = refusal(self, act)
             if bits.result:
                 bits.err, bits.error = True, bits.error or bits.result
             elif act.code == Code.POS_INIT:
@@ -105,43 +104,8 @@ class Axis:
             return self.bits.prog
         return act.code in (Code.POS_INIT, Code.POS_RESET) and self.goal is not None
 
-    def _refusal(self, act: Act) -> Error:
-        """The first of the reasons to refuse an instruction."""
-        bits, code, values = self.bits, act.code, act.values
-        if code == Code.POS_INIT:
-            return Error.SPACE if values and values[0] > 6 else Error.NONE
-        if code == Code.POS_CAPTURE:
-            return Error.NONE if self.settings.capture else Error.NO_INPUT
-        if code == Code.POS_RESET:
-            return Error.NONE
-        homing = code == Code.POS_HOME
-        here = homing and values[0] == HERE_METHOD
-        reasons = (
-            (not bits.disp, Error.NOT_TAKEN),
-            (bits.fault, Error.FAULT),
-            (bits.prog and bits.jede, Error.MOVES),
-            (homing and values[0] not in (19, 21, 37), Error.METHOD),
-            (self.damaged and not here, Error.DAMAGED),
-            (not self.crystal and not here, Error.NO_CRYSTAL),
-            (homing and not here and not self.settings.reference, Error.NO_INPUT),
-            (values[-1] == 0 and not here, Error.ACCEL),
-            (self._too_far(act), Error.WAY),
-        )
-        return next((error for holds, error in reasons if holds), Error.NONE)
-
-    def _too_far(self, act: Act) -> bool:
-        way = act.values[-2]
-        if way == -(2**31):
-            return True
-        if act.code == Code.POS_HOME:
-            return False
-        if act.code == Code.POS_MODE_ABS:
-            here = self.seat_at(act.tick).step
-            if abs(way - self.origin.position_of(self.settings, here)) > WAY_MAX:
-                return True
-        return not self._goal(act).possible
-
-    def _goal(self, act: Act) -> Goal:
+    def goal_of(self, act: Act) -> Goal:
+        """What a measure aims at."""
         make = absolute if act.code == Code.POS_MODE_ABS else relative
         return make(self.origin, self.settings, act.values[-2])
 
@@ -191,7 +155,7 @@ class Axis:
             self.homing = Homing(self, act, accel)
             self.homing.initiate()
         else:
-            self.goal = self._goal(act)
+            self.goal = self.goal_of(act)
             step = self._inside(self.goal.step)
             self.cut = step != self.goal.step
             self.lay_out(self.seat.pulses_to(step), accel)

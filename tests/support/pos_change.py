@@ -106,14 +106,15 @@ def changed(
 
 def _between_of(family: Family, seen: int, tick: int, late: int) -> Iterator[tuple[Curve, Places]]:
     """Places between pulses; for a curve that is nearer to its next pulse there may be others."""
+    curves = family.spread
     found = [
         (curve, places)
-        for curve in family.both
+        for curve in curves
         for places in _places(curve, seen, tick, late)
         if places[0] > 1
     ]
-    if len(found) == 1 and len(family.both) > 1:
-        curve, (per_step, low, _) = found[0]
+    if found and len({id(curve) for curve, _ in found}) < len(curves):
+        curve, (per_step, low, _) = min(found, key=lambda each: each[1][1])
         found = [(curve, (per_step, low, (seen + 1) * per_step - 1))]
     yield from found
 

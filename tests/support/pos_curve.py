@@ -167,9 +167,9 @@ class Curve:
         return math.floor(self.rest)
 
     @property
-    def first(self) -> int:
-        """Its first pulse."""
-        return self.legs[0].pulses.start
+    def next(self) -> int:
+        """Its first pulse, made or not."""
+        return math.floor(self.legs[0].x0 if self.legs else self.rest) + 1
 
     def leg_at(self, x: Place) -> Leg | None:
         """The leg that is over at a place or later; None: it begins there, or rests."""

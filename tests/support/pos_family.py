@@ -18,6 +18,7 @@ CLOSE = 2**-7
 """So well are these found."""
 
 SAME = 2**-10
+SPREAD = 8
 FEW = 6
 """So many curves of a family are followed each by itself."""
 
@@ -55,6 +56,13 @@ class Family:
         if self.low == self.high:
             return (self.curve(self.low),)
         return self.curve(self.low), self.curve(self.high)
+
+    @property
+    def spread(self) -> list[Curve]:
+        """Some of them, from the first to the last."""
+        count = min(SPREAD, self.high - self.low)
+        numbers = [self.low + (self.high - self.low) * i // max(1, count) for i in range(count + 1)]
+        return [self.make(number) for number in numbers]
 
     @property
     def wide(self) -> bool:

@@ -36,6 +36,12 @@ class Loose(Family):
         behind = self.shape(self.first).shifted(self.high << BITS)
         return behind, self.shape(self.last).shifted(self.low << BITS)
 
+    @property
+    def spread(self) -> list[Curve]:
+        """Some of them, from the one that is furthest back to the one that is furthest ahead."""
+        behind, ahead = self.both
+        return [behind, *super().spread, ahead]
+
     def narrow(self, first: int, ticks: Observed, until: int) -> float | None:
         """Without a pulse there is nothing to be told."""
         return None
@@ -43,19 +49,26 @@ class Loose(Family):
     def seen(self, number: int, tick: int) -> list[Family]:
         """The families of those places from which the pulse comes then, or a little beside."""
         families: list[Family] = []
-        ends = self.first, self.last
-        if not self.shape(self.last).count >= number >= self.shape(self.last).first:
+        ends = self._reaching(number)
+        if ends is None:
             return families
-        if self.shape(self.first).count < number:
-            ends = crossing(lambda n: self._lacks(number, n), ends, (math.inf, 0)), self.last
         for offset in (-1, 0, 1):
             family = self._within(self._from(number, (tick << BITS) + offset * BESIDE), ends)
             families += [family] if family else []
         return families
 
-    def _lacks(self, number: int, n: int) -> float:
-        """Infinite while a curve stands before a pulse: so the first that does not is found."""
-        return math.inf if self.shape(n).count < number else -math.inf
+    def _reaching(self, number: int) -> tuple[int, int] | None:
+        """The places from which a pulse is the first one."""
+
+        def lacks(n: int) -> float:
+            return math.inf if self.shape(n).count < number else -math.inf
+
+        def has_passed(n: int) -> float:
+            return math.inf if self.shape(-n).next > number else -math.inf
+
+        low = since(lacks, self.first, self.last)
+        high = since(has_passed, -self.last, -self.first)
+        return None if low is None or high is None or low > -high else (low, -high)
 
     def _within(self, make: Callable[[int], Curve], ends: tuple[int, int]) -> Family | None:
         """Those that begin when they may."""

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from pos_model import Done
-from pos_session import Act, Sample, Session
+from pos_session import Act, Sample, Session, Setting
 from pos_words import AXES, MS
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -78,7 +78,7 @@ def _read_told(done: Done, session: Session, told: list[dict[str, Any]]) -> Sess
             done.samples.append(Sample(each["tick"], each["axis"], values))
         else:
             results[each["line"] - 1, line.tick] = each["result"]
-    script = []
+    script: list[Act | Setting] = []
     for index, line in enumerate(lines):
         if isinstance(line, tuple):
             continue

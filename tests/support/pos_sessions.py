@@ -230,6 +230,9 @@ class Writer:
         if rng.random() < 0.8:
             self.prepare()
             self.ms += 2
+        if self.set.get("soft_max") is not None:
+            self.init()
+            self.refer()
         if rng.random() < 0.95:
             self.again()
         acts, weights = zip(*self.EPISODES, strict=True)

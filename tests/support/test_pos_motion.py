@@ -89,7 +89,7 @@ def test_an_axis_goes_on_from_where_it_stood(order: Order, data: st.DataObject) 
     assert place <= held.rest <= order.end
     again = started(held.rest, held.rest_time, order)
     assert again.reaches
-    assert not again.legs or again.first == held.count + 1
+    assert again.next == held.count + 1
 
 
 def test_an_axis_on_its_final_ramp_keeps_it() -> None:
