@@ -56,6 +56,8 @@ DEFAULTS = {
     ("POS_INIT", "Space"): 0, ("POS_CONTROL", "Mp"): True, ("POS_CONTROL", "Nil"): False,
     ("MC_Home", "HomingMethod"): 21, ("MC_SetOverride", "VelFactor"): 1.0,
 }  # fmt: skip
+BIT_OF_FIRMWARE = re.compile(r"^    POS_(?:STV|FLAG)_(\w+) = (\d+),", re.MULTILINE)
+FIRST_BYTE = ("JEDE", "SMER", "POL")
 TEXT = registers.TABLE.read_text(encoding="utf-8")
 
 
@@ -123,6 +125,20 @@ def test_the_document_has_the_codes_and_bits_of_the_table() -> None:
     for name, (register, bit) in plc.read_bits(TEXT).items():
         if register == "STATUS":
             assert f"| {1 << bit:04X}h | {name}: " in document
+
+
+def test_the_codes_and_bits_are_those_that_the_firmware_uses() -> None:
+    folder = registers.TABLE.parents[1]
+    line = (folder / "positioning_line.c").read_text(encoding="utf-8")
+    records = (folder / "axis/pos_records.h").read_text(encoding="utf-8")
+    codes = re.findall(r"^    CODE_(\w+),$", line, re.MULTILINE)
+    assert {f"POS_{name}": code for code, name in enumerate(codes) if code} == (
+        plc.read_instructions(TEXT)
+    )
+    firmware = {name: int(value) for name, value in BIT_OF_FIRMWARE.findall(records)}
+    for name, (register, bit) in plc.read_bits(TEXT).items():
+        value = firmware[name] << 8 if name in FIRST_BYTE else firmware[name]
+        assert value == 1 << bit, (register, name)
 
 
 def test_no_constant_of_the_library_goes_unused() -> None:
