@@ -3,11 +3,23 @@
 from __future__ import annotations
 
 import pytest
+from checks.plc import DOCUMENT, LIBRARY
 from fake_positioning import CODES
 from plc_cycle import Plc
+from st_program import Blocks
 
 INIT, MODE, RESET = CODES["POS_INIT"], CODES["POS_MODE"], CODES["POS_RESET"]
 FEED = 3000 << 16  # 50 mm/s
+DECLARATIONS = """
+VAR_EXTERNAL AXIS_1 : POS_AXIS; END_VAR
+VAR
+  Released, Button : BOOL;
+  Fault : UINT;
+  Power : MC_Power;
+  Motion : MC_MoveRelative;
+  Stop : MC_Stop;
+END_VAR
+"""
 
 
 @pytest.fixture(params=[False, True], ids=["FC 23", "FC 16 and FC 3"])
@@ -112,3 +124,25 @@ def test_a_button_that_is_let_go_at_once_leaves_nothing_moving(cycles, plc) -> N
     plc.until(lambda: not program["MECH_POHYB_X"])
     assert not axis.has("JEDE")
     assert axis.executed[-1] == RESET
+
+
+def test_the_program_of_the_document_moves_an_axis(make_plc) -> None:
+    document = DOCUMENT.read_text(encoding="utf-8")
+    body = document.partition("```iecst\n")[2].partition("```")[0]
+    program = f"PROGRAM DOCUMENTED {DECLARATIONS} {body} END_PROGRAM"
+    plc = make_plc()
+    plc.blocks = Blocks(LIBRARY.read_text(encoding="utf-8") + program)
+    plc.restart()
+    main = plc.add("DOCUMENTED", AXIS_1=plc.axes[0], Released=True)
+    plc.run(10)
+    main["Button"] = True
+    plc.until(lambda: main["Motion"]["Done"])
+    assert plc.unit.axes[0].position == 12500
+    main["Button"] = False
+    plc.run(5)
+    main["Button"] = True
+    plc.until(lambda: plc.unit.axes[0].position > 15000)
+    main["Released"] = False
+    plc.until(lambda: main["Stop"]["Done"])
+    assert plc.unit.axes[0].position < 25000
+    assert main["Motion"]["CommandAborted"] or not main["Motion"]["Busy"]
