@@ -226,6 +226,7 @@ void test_a_stop_that_is_taken_back_leaves_the_path_as_it_was(void)
         TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_PAUSE));
         run_us(us);
         bool resumes = group_resume(&group);
+        TEST_ASSERT_EQUAL(resumes, atomic_load(&group.state) == AXIS_MOVING);
         TEST_ASSERT_EQUAL_INT(resumes ? AXIS_CAUSE_NONE : AXIS_CAUSE_PAUSE, group_cause(&group));
         run_to_the_end();
         TEST_ASSERT_EQUAL(!resumes, group_has_rest(&group));

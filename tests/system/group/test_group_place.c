@@ -217,7 +217,7 @@ void test_a_step_at_a_place_is_handed_over_at_once(void)
     for (uint64_t phase = 0; phase < 71; phase++) {
         begin_ring(AHEAD_TICKS, LONG_RING);
         for (unsigned i = 0; i < LONG_RING; i++) {
-            add(1, 0, 0, 0, 1200);
+            add(1, 0, 0, 0, 1201);
         }
         start();
         run_us(2000);
@@ -232,6 +232,15 @@ void test_a_step_at_a_place_is_handed_over_at_once(void)
         run_to_the_end();
         assert_arrived();
     }
+}
+
+void test_the_speed_at_a_step_is_that_of_the_path(void)
+{
+    begin_fast(2000);
+    TEST_ASSERT_EQUAL_UINT32(200000 * PATH_SPEED_UNITS, group_speed_at(&group, 0, 30000));
+    TEST_ASSERT_UINT32_WITHIN(1, 100000 * PATH_SPEED_UNITS, group_speed_at(&group, 0, 5000));
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
+    run_to_the_end();
 }
 
 /* ---- without main ---------------------------------------------------------------------------------------------- */
