@@ -9,8 +9,9 @@ by 2^ROOT_BITS.
 from __future__ import annotations
 
 import math
+from array import array
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -57,8 +58,8 @@ class Train:
 
     def __init__(self) -> None:
         """No pulses yet."""
-        self.ticks: list[int] = []
-        self.places = [0]
+        self.ticks = array("q")
+        self.places = array("q", [0])
         """Where the motor is after so many pulses."""
 
     def add(self, tick: int, way: int) -> None:
@@ -79,7 +80,7 @@ class Train:
         """How many pulses have been made when those of a tick have."""
         return bisect_right(self.ticks, tick)
 
-    def between(self, low: int, high: int) -> list[int]:
+    def between(self, low: int, high: int) -> Sequence[int]:
         """The ticks of the pulses of a window."""
         return self.ticks[bisect_right(self.ticks, low) : bisect_right(self.ticks, high)]
 
