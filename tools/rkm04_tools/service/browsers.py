@@ -7,19 +7,12 @@ import itertools
 import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import replace
-from functools import partial
-from typing import Any, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
-from serial.tools import list_ports
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from rkm04_tools.failure import Failure
-from rkm04_tools.service import virtual
-from rkm04_tools.service.orders import Asked, ListPorts, Order, SetInput, Stop, read_order
-from rkm04_tools.service.trouble import BadRequest, Late, as_json
-from rkm04_tools.service.virtual import VirtualLine
-from rkm04_tools.service.worker import Worker
+from rkm04_tools.service.trouble import as_json
 
 WAITING_MAX = 1000
 """Messages for a browser that does not take them; then it is let go and may come again."""
@@ -33,6 +26,26 @@ LATE_SECONDS = 2.0
 in between, in a browser or a service that stood still, and nobody expects it any more."""
 
 Messages: TypeAlias = "asyncio.Queue[dict[str, Any] | None]"
+Tell: TypeAlias = Callable[[dict[str, Any]], None]
+IsLate: TypeAlias = Callable[[int | None], bool]
+Aside: TypeAlias = Callable[[], dict[str, Any] | None]
+"""Work that may take a moment, and what the browser that has asked for it is told then."""
+
+
+class Desk(Protocol):
+    """Where browsers bring what they ask for."""
+
+    def start(self) -> None:
+        """Begin to work."""
+
+    def close(self) -> None:
+        """End the work; may take a moment."""
+
+    def greetings(self) -> list[dict[str, Any]]:
+        """What a browser that comes is told."""
+
+    def take(self, text: str, client: int, is_late: IsLate) -> Aside | None:
+        """Take what a browser says; a Failure is for this one alone."""
 
 
 class Beats:
@@ -54,8 +67,10 @@ class Beats:
         """The youngest."""
         return self._times[-1][0]
 
-    def is_late(self, number: int) -> bool:
+    def is_late(self, number: int | None) -> bool:
         """Whether one is too long ago, or from another life of the service."""
+        if number is None:
+            return False
         times = dict(self._times)
         return number not in times or time.monotonic() - times[number] > LATE_SECONDS
 
@@ -63,27 +78,27 @@ class Beats:
 class Browsers:
     """Passes orders on and tells everybody what has happened. To be used inside the event loop."""
 
-    def __init__(self) -> None:
+    def __init__(self, desk_of: Callable[[Tell, Callable[[], bool]], Desk]) -> None:
+        """`desk_of` makes the desk: it tells all browsers by the first, and asks the second
+        whether any browser looks."""
         self._queues: dict[int, Messages] = {}
         self._numbers = itertools.count(1)
         self._loop: asyncio.AbstractEventLoop | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         self._beats = Beats()
-        self._units = VirtualLine()
-        self.worker = Worker(self.tell, self.is_watched, self._units)
+        self._desk = desk_of(self.tell, self.is_watched)
 
     def start(self) -> None:
         """Begin."""
         self._loop = asyncio.get_running_loop()
         self._keep(self._beat())
-        self.worker.start()
+        self._desk.start()
 
     async def close(self) -> None:
         """End line, virtual units and threads."""
         for task in self._tasks:
             task.cancel()
-        await asyncio.to_thread(self.worker.close)
-        await asyncio.to_thread(self._units.close)
+        await asyncio.to_thread(self._desk.close)
 
     def is_watched(self) -> bool:
         """Whether any browser looks."""
@@ -108,7 +123,8 @@ class Browsers:
                 "beat": self._beats.next(),
             }
         )
-        queue.put_nowait(self.worker.state_as_json())
+        for told in self._desk.greetings():
+            queue.put_nowait(told)
         self._queues[number] = queue
         sender = asyncio.create_task(_send_all(socket, queue))
         try:
@@ -140,27 +156,14 @@ class Browsers:
     def _take(self, text: str, client: int, queue: Messages) -> None:
         """Take what a browser says; only this one learns what is wrong with it."""
         try:
-            order, asked = read_order(text)
-            self._obey(order, replace(asked, client=client), queue)
+            work = self._desk.take(text, client, self._beats.is_late)
         except Failure as failure:
             _put_if_room(queue, {"type": "error", "error": as_json(failure)})
-
-    def _obey(self, order: Order, asked: Asked, queue: Messages) -> None:
-        late = asked.beat is not None and self._beats.is_late(asked.beat)
-        if isinstance(order, Stop):
-            self.worker.stop(asked, order.nodes)  # better late than never
-        elif isinstance(order, ListPorts):
-            self._aside(_ports, queue)
-        elif isinstance(order, SetInput):
-            if late:
-                raise Late
-            self._aside(partial(self._set_input, order), queue)
-        elif late:
-            self.worker.refuse(order, asked, Late())
         else:
-            self.worker.give(order, asked)
+            if work:
+                self._aside(work, queue)
 
-    def _aside(self, work: Callable[[], dict[str, Any] | None], queue: Messages) -> None:
+    def _aside(self, work: Aside, queue: Messages) -> None:
         """Do what may take a moment, so that a stop need not wait for it."""
 
         async def do() -> None:
@@ -179,15 +182,6 @@ class Browsers:
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
-    def _set_input(self, order: SetInput) -> None:
-        state = self.worker.state
-        if not (state.connected and state.virtual):
-            raise BadRequest(
-                f"only the port {virtual.NAME} has inputs that can be set here; "
-                "those of a unit are wires"
-            )
-        self._units.set_input(state.node, order.number, order.level)
-
 
 async def _send_all(socket: WebSocket, queue: Messages) -> None:
     """Send what is put into the queue; its end, None, ends the connection."""
@@ -202,14 +196,3 @@ async def _send_all(socket: WebSocket, queue: Messages) -> None:
 def _put_if_room(queue: Messages, told: dict[str, Any]) -> None:
     if not queue.full():
         queue.put_nowait(told)
-
-
-def _ports() -> dict[str, Any]:
-    """The ports of this machine, the virtual one first."""
-    found = sorted(list_ports.comports(), key=lambda port: port.device)
-    rows = [{"port": virtual.NAME, "label": "virtual unit"}]
-    for port in found:
-        named = port.description and port.description != "n/a"
-        label = f"{port.device} ({port.description})" if named else port.device
-        rows.append({"port": port.device, "label": label})
-    return {"type": "ports", "ports": rows}

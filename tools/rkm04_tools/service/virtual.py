@@ -1,10 +1,11 @@
-"""The line without hardware: `rkm04-host serve` with a unit at every address."""
+"""The line without hardware: `serve` of a host program, which ends with this one."""
 
 from __future__ import annotations
 
 import json
 import socket
 import subprocess
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from threading import Lock
@@ -17,12 +18,22 @@ from rkm04_tools.line_errors import PortLost
 
 NAME = "virtual"
 PATIENCE_SECONDS = 5.0
+AT_EVERY_ADDRESS = [word for node in NODES for word in ("--node", str(node))]
 
 
 class VirtualLine:
-    """Starts when it is first needed; what has been stored stays until it is closed for good."""
+    """Starts when it is first needed; what has been stored stays until it is closed for good.
 
-    def __init__(self) -> None:
+    It is that of `program`, started with `more` arguments.
+    """
+
+    def __init__(
+        self,
+        program: Callable[[], Path] = host.program_path,
+        more: Sequence[str] = AT_EVERY_ADDRESS,
+    ) -> None:
+        self._program = program
+        self._more = more
         self._lock = Lock()
         self._folder: TemporaryDirectory[str] | None = None
         self._process: subprocess.Popen[str] | None = None
@@ -38,10 +49,10 @@ class VirtualLine:
                 self._start()
             return self._place
 
-    def set_input(self, node: int, number: int, level: bool) -> None:
-        """Change an input of a unit."""
+    def set_input(self, name: str, level: bool) -> None:
+        """Change an input by its name in orders, 3 or, of one among several units, 2.3."""
         with self._lock:
-            self._say(f"{node}.{number}={int(level)}")
+            self._say(f"{name}={int(level)}")
             self._hear()
 
     def close(self) -> None:
@@ -57,11 +68,10 @@ class VirtualLine:
         # It ends with its standard input, and so with this process, whatever ends that.
         arguments = ["serve", "--json", "--until-eof", "--tcp", "0", "--control", "0"]
         arguments += ["--flash", str(Path(self._folder.name) / "flash")]
-        for node in NODES:
-            arguments += ["--node", str(node)]
+        arguments += self._more
         # Ctrl-C is for the service, which ends the units when nothing needs them any more.
         process = subprocess.Popen(
-            [str(host.program_path()), *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+            [str(self._program()), *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL, text=True, start_new_session=True,
         )  # fmt: skip
         self._process = process
@@ -69,7 +79,7 @@ class VirtualLine:
         line = process.stdout.readline()
         if not line:
             self._end()
-            raise Failure("the virtual unit does not start; try rkm04 serve, which says why")
+            raise Failure("the virtual unit does not start; try the command serve, which says why")
         ready = json.loads(line)
         self._place = ready["listening"]
         name, _, port = ready["control"].removeprefix("socket://").rpartition(":")
