@@ -74,14 +74,14 @@ static void note_peaks(struct planner *planner, const struct path_section *secti
     planner->peak_mm = larger(planner->peak_mm, speed * sqrt(way2));
 }
 
-static void put_place(struct planner *planner, double speed)
+static void put_place(struct planner *planner, double seconds)
 {
     double row[PLANE_AXES + 1];
     char *room = outfile_reserve(&planner->course, sizeof row);
     for (unsigned axis = 0; axis < (unsigned)PLANE_AXES; axis++) {
         row[axis] = planner->place[axis] / planner->scale[axis];
     }
-    row[PLANE_AXES] = speed;
+    row[PLANE_AXES] = seconds;
     memcpy(room, row, sizeof row);
     outfile_commit(&planner->course, room + sizeof row);
 }
@@ -92,14 +92,10 @@ static void note_course(struct planner *planner, const struct path_section *sect
         return;
     }
     struct wide ticks = wide_subtract(end, section->entered);
-    double seconds = ((double)ticks.high + ldexp((double)ticks.low, -64)) / TICK_HZ;
-    double way2 = 0;
     for (unsigned axis = 0; axis < (unsigned)PLANE_AXES; axis++) {
-        double way = section->vector.steps[axis];
-        planner->place[axis] += way;
-        way2 += way * way / (planner->scale[axis] * planner->scale[axis]);
+        planner->place[axis] += section->vector.steps[axis];
     }
-    put_place(planner, sqrt(way2) / seconds);
+    put_place(planner, ((double)ticks.high + ldexp((double)ticks.low, -64)) / TICK_HZ);
 }
 
 static void begin_chain(struct planner *planner)

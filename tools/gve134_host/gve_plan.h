@@ -14,7 +14,7 @@ enum {
  * vectors and what holds for them have no part in it; reference runs and lines ;@pause are counted.
  *
  * With a path a file gets the course of it: of each vector three doubles as the machine has them, X and Y at its end
- * in mm, and the mean speed of X and Y along it in mm/s; NaN is a place from which a chain begins. */
+ * in mm, and how long it takes in s; NaN is a place from which a chain begins. */
 enum exit_status gve_plan_input(char *const scales[GVE_PLAN_SCALES], const char *course_path);
 
 #endif

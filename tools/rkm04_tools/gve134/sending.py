@@ -7,6 +7,9 @@ H may have to wait. A packet that the file itself has (*S to *E) is sent as it s
 
 What is refused ends the job, and so does an interrupt: INTA that no command of the file has
 brought about. What a line asks of the host (`gcode.directives`) is done when its turn comes.
+
+`tell` is called between commands and while something is waited for. What it raises ends `send` or
+`finish`, and another call goes on where that one was. So it is with an interrupt.
 """
 
 from __future__ import annotations
@@ -24,7 +27,7 @@ from rkm04_tools.gve134.job import Asked, Command, Job
 from rkm04_tools.gve134.link import MEMORY_SECONDS
 from rkm04_tools.gve134.link_errors import Refused
 from rkm04_tools.gve134.state import INTA, INTCOM, RUN, Flags, Positions, named, positions_text
-from rkm04_tools.gve134.unit import Unit, is_memory_write
+from rkm04_tools.gve134.unit import POLL_SECONDS, Unit, is_memory_write
 from rkm04_tools.transport import BITS_PER_BYTE
 
 PACKET_COMMANDS_MAX = 64
@@ -69,19 +72,23 @@ class Sender:
     _under_way: list[Command] = field(default_factory=list)
     _waits: int = 0
     _probes_from: Positions | None = None
-    _commands: Iterator[Command] = field(default_factory=lambda: iter(()))
+    _commands: Iterator[Command] | None = None
     _pending: deque[Command] = field(default_factory=deque)
+    _begun: list[Command] = field(default_factory=list)
+    """Commands that are not pending any more, and not known to have been executed."""
 
     def send(self) -> None:
         """Send all of it; return when the unit has taken the last command."""
-        self._commands = iter(self.job)
-        self._begin()
+        if self._commands is None:
+            self._commands = self._begin()
+        self._pending.extendleft(reversed(self._begun))
+        self._begun.clear()
         while True:
             count = self._fill()
             if count > 1:
                 self._send_run(count)
             elif self._ahead(0):
-                self._send_single(self._pending.popleft())
+                self._send_single(self._take())
             else:
                 return
             self.tell(self.sent)
@@ -89,13 +96,19 @@ class Sender:
     def _ahead(self, place: int) -> Command | None:
         """The command so many places ahead of the next one; None: there are not so many."""
         while len(self._pending) <= place:
-            command = next(self._commands, None)
+            command = next(self._commands or iter(()), None)
             if command is None:
                 return None
             self._pending.append(command)
         return self._pending[place]
 
-    def _begin(self) -> None:
+    def _take(self) -> Command:
+        """The next command, which is begun."""
+        command = self._pending.popleft()
+        self._begun.append(command)
+        return command
+
+    def _begin(self) -> Iterator[Command]:
         """Refuse to add to what was interrupted, unless the file begins with what ends that."""
         flags = self.unit.flags()
         self.inta = flags.has(INTA)
@@ -105,6 +118,7 @@ class Sender:
         first = next(iter(self.job), None)
         if self.inta and first is not None and first.letter not in BEGINS_ANEW:
             raise Failure(f"the unit is {flags.text}; nothing was sent", NOT_SO)
+        return iter(self.job)
 
     # ---- runs of C and B ----
 
@@ -131,15 +145,18 @@ class Sender:
             return
         if answer.code == answers.DONE:
             self._taken(run)
-        self._judge(run[0], answer)
+        try:
+            self._judge(run[0], answer)
+        finally:
+            if answer.code == answers.DONE:
+                for _ in run:
+                    self._pending.popleft()
         if answer.code == answers.NO_ROOM:
             if self.size == PACKET_COMMANDS_MIN:
                 self._wait_for_room(run[0])
             self.size = max(PACKET_COMMANDS_MIN, self.size // 2)
             return
         self.size = min(PACKET_COMMANDS_MAX, self.size + PACKET_GROWTH)
-        for _ in run:
-            self._pending.popleft()
 
     def _try_packet(self, run: list[Command]) -> Answer | None:
         """Send a packet; None: it came damaged, and is better sent in parts."""
@@ -159,17 +176,19 @@ class Sender:
         whole = [command]
         if command.asked_of_host is not None:
             self._obey(command, command.asked_of_host)
+            self._begun.clear()
             return
         if command.text == "*S":
             whole, end = self._packet_of_file()
             command = end or command
         self._probes_from = None
         if command.letter == "L" and self._is_probe_next():
-            self.unit.wait_until_stands()
+            self._wait_until_stands()
             self._probes_from = self.unit.positions()
         while True:
             answer = self._packet(whole) if command.text == "*S" else self._ask(command)
-            if answer.code == answers.DONE:
+            is_cut_off = command.letter == "W" and answer.inta
+            if answer.code == answers.DONE and not is_cut_off:
                 self._taken(whole)
             self._judge(command, answer)
             if answer.code == answers.NO_ROOM:
@@ -183,7 +202,7 @@ class Sender:
         """The commands after *S up to *E; or what ends the packet before that, H or J, twice."""
         whole: list[Command] = []
         while self._ahead(0):
-            each = self._pending.popleft()
+            each = self._take()
             if each.text.startswith("*E"):
                 break
             if each.goes_in_packets:
@@ -212,17 +231,27 @@ class Sender:
     def _obey(self, command: Command, asked: Asked) -> None:
         """Do what a line asks of the host."""
         if isinstance(asked, Wait):
-            self.unit.link.pause(asked.seconds)
+            self._dwell(asked.seconds)
         elif isinstance(asked, Pause):
-            self.unit.wait_until_stands()
+            self._wait_until_stands()
             self.ask_person(asked.text)
         else:
             self._go_back(command)
 
+    def _dwell(self, seconds: float) -> None:
+        clock = self.unit.link.wire.clock
+        end = clock() + seconds
+        while (left := end - clock()) > 0:
+            self.unit.link.pause(min(left, POLL_SECONDS))
+            self.tell(self.sent)
+
+    def _wait_until_stands(self) -> Flags:
+        return self.unit.wait_until_stands(lambda: self.tell(self.sent))
+
     def _go_back(self, command: Command) -> None:
         """Bring the axes back to where the sensor was touched."""
         unit = self.unit
-        flags = unit.wait_until_stands()
+        flags = self._wait_until_stands()
         if not flags.has(INTA) or flags.has(INTCOM):
             raise Failure(f"{self._where(command)}: nothing was touched on the way", NOT_SO)
         touched, stand = unit.positions(latched=True), unit.positions()
@@ -246,6 +275,7 @@ class Sender:
             self.executed.stood(unit.positions())
 
     def _taken(self, commands: list[Command]) -> None:
+        self._begun.clear()
         self._waits = 0
         self.lines += len(commands)
         self.sent += sum(command.is_vector for command in commands)
@@ -298,7 +328,7 @@ class Sender:
 
     def finish(self) -> Flags:
         """Wait until the axes stand."""
-        flags = self.unit.wait_until_stands(lambda: self.tell(self.sent))
+        flags = self._wait_until_stands()
         if flags.has(INTA) and not self.inta:
             raise self.interrupted(self.job.source.name)
         if self.executed is not None and not flags.has(RUN | INTA):
@@ -332,7 +362,7 @@ class Sender:
 
     def _wait_for_rest(self, command: Command, answer: Answer) -> None:
         """Wait until nothing moves; what is refused then is refused for good."""
-        flags = self.unit.wait_until_stands(lambda: self.tell(self.sent))
+        flags = self._wait_until_stands()
         if flags.has(INTA):
             raise self.interrupted(self._where(command))
         self._waits += 1

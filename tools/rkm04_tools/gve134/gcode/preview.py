@@ -108,6 +108,7 @@ def draw_course(course: Path, title: str, picture: Path) -> None:
 
     from rkm04_tools.gve134 import xy
 
-    x, y, speed = np.fromfile(course).reshape(-1, 3).T
+    x, y, seconds = np.fromfile(course).reshape(-1, 3).T
+    speed = np.hypot(np.diff(x, prepend=0.0), np.diff(y, prepend=0.0)) / seconds
     units = xy.Units("mm", "mm/min", False)
     xy.draw(xy.Path2(x, y, 60 * speed), title, picture, units)
