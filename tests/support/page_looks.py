@@ -15,7 +15,8 @@ VIOLATIONS = """async () => {
 }"""
 
 OUTSIDE = """() => [...document.querySelectorAll("header *, main *")]
-    .filter((part) => !part.closest(".cm-editor, .uplot, .spoken") && part.checkVisibility())
+    .filter((part) => !part.closest(".cm-editor, .uplot, .spoken, #code-lines"))
+    .filter((part) => part.checkVisibility())
     .filter((part) => {
         const { left, right, width } = part.getBoundingClientRect();
         return width > 1 && (left < 0 || right > document.documentElement.clientWidth + 0.5);

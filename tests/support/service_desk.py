@@ -7,7 +7,8 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from rkm04_tools.service.orders import Asked, Connect, Node, Work
+from rkm04_tools.service.fields import Asked
+from rkm04_tools.service.orders import Connect, Node, Work
 from rkm04_tools.service.virtual import VirtualLine
 from rkm04_tools.service.worker import Worker
 

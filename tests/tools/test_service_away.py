@@ -9,7 +9,8 @@ import pytest
 import statuses
 from fake_unit import FakeLine, FakeUnit
 from rkm04_tools.service import browsers, live, worker
-from rkm04_tools.service.orders import Act, Asked, Connect, Disconnect, Request
+from rkm04_tools.service.fields import Asked
+from rkm04_tools.service.orders import Act, Connect, Disconnect, Request
 from service_desk import CLIENT, Desk
 
 READS = {1, 4, 200}

@@ -287,18 +287,23 @@ def _add_service(commands: Commands) -> None:
     command = _add(commands, "service", _service, title, f"{example}\n\n{SERVICE_NOTES}")
     command.add_argument("--port", metavar="PORT", help=f"connect there first; {PORT_HELP}")
     command.add_argument("--node", metavar="N", help=NODE_HELP)
-    command.add_argument(
-        "--listen", metavar="N", type=int,
-        help="the port of the page (default: 8404, or a free one if that is taken)",
-    )  # fmt: skip
-    command.add_argument(
-        "--no-browser", dest="browser", action="store_false", help="only print the address"
-    )
+    add_page_options(command, 8404)
     command.add_argument(
         "--static", metavar="DIR",
         help="write the page into a folder instead, as one file that checks and simulates programs "
         "by itself and has a virtual unit, but no line to real ones",
     )  # fmt: skip
+
+
+def add_page_options(command: argparse.ArgumentParser, port: int) -> None:
+    """The options of a service that concern its page."""
+    command.add_argument(
+        "--listen", metavar="N", type=int,
+        help=f"the port of the page (default: {port}, or a free one if that is taken)",
+    )  # fmt: skip
+    command.add_argument(
+        "--no-browser", dest="browser", action="store_false", help="only print the address"
+    )
 
 
 def _add_bench(commands: Commands) -> None:

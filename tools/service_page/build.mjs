@@ -1,5 +1,6 @@
 // Bundles the page into the directory $RKM04_SERVICE_OUT: index.html, page.js, page.css, engine.js (the
-// worker of a page without a service) and icon.svg, nothing else.
+// worker of a page without a service) of RKM04, gve134.html, gve134.js and gve134.css of the other
+// unit, and icon.svg, nothing else.
 import Ajv from "ajv/dist/2020.js";
 import standaloneCode from "ajv/dist/standalone/index.js";
 import { build } from "esbuild";
@@ -28,6 +29,8 @@ await build({
     entryPoints: [
         { in: "src/main.ts", out: "page" },
         { in: "style.css", out: "page" },
+        { in: "src/gve134/main.ts", out: "gve134" },
+        { in: "gve134.css", out: "gve134" },
     ],
     outdir: out,
     plugins: [rules],
@@ -48,6 +51,6 @@ await build({
     legalComments: "eof",
     logLevel: "warning",
 });
-for (const name of ["index.html", "icon.svg"]) {
+for (const name of ["index.html", "gve134.html", "icon.svg"]) {
     await copyFile(name, join(out, name));
 }

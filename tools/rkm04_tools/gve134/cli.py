@@ -7,9 +7,14 @@ import re
 from pathlib import Path
 
 from rkm04_tools import completion
-from rkm04_tools.cli import Commands, Parser, add_board, add_command
+from rkm04_tools.cli import Commands, Parser, add_board, add_command, add_page_options
 from rkm04_tools.gve134 import check, serve
-from rkm04_tools.gve134.client_options import add_client_commands
+from rkm04_tools.gve134.client_options import (
+    BAUD_DEFAULT,
+    BAUDS,
+    PORT_HELP,
+    add_client_commands,
+)  # fmt: skip
 from rkm04_tools.gve134.gcode import options as gcode_options
 
 CHECK_NOTES = """\
@@ -33,6 +38,11 @@ the start. Bytes take no time on the line, unless --baud says a rate.
 
 The simulation ends when all lines have been answered and the axes stand, or at the limit of time.
 Steps, trace and waveforms are those of rkm04 sim, with motors 1 to 4 for X, Y, Z, A.
+"""
+SERVICE_NOTES = """\
+Without --port and GVE134_PORT it connects to a virtual unit of its own. Connecting moves nothing.
+The page is for this machine only: its address has a token, and 127.0.0.1 is not to be reached from
+others. Ctrl-C ends it, and the virtual unit with it; a unit on a line is left as it is.
 """
 SIM_OPTIONS = [
     ("--inputs", "INPUTS", "what the inputs do over time; all are 1 (open) at the start"),
@@ -69,6 +79,7 @@ def make_parser() -> Parser:
     title = "a unit without hardware: it runs in real time and speaks the line"
     serve.add_arguments(add_command(commands, "serve", serve.run, title, serve.EXAMPLE))
     gcode_options.add_arguments(commands)
+    _add_service(commands)
     add_board(commands, "gve134")
     add_client_commands(commands, add_command)
     completion.add_command(commands, "gve134", add_command)
@@ -80,6 +91,30 @@ def _sim(options: argparse.Namespace) -> int:
     from rkm04_tools.gve134 import sim
 
     return sim.run(options)
+
+
+def _service(options: argparse.Namespace) -> int:
+    """Import the server only when it is needed: others have not even installed it."""
+    from rkm04_tools.gve134.service import command
+
+    return command.run(options)
+
+
+def _add_service(commands: Commands) -> None:
+    title = "a page in the browser: the path planned and made, start, halt, all that the unit tells"
+    example = "gve134 service\n  gve134 service --port COM5 --machine mill.rkm --no-browser"
+    command = add_command(
+        commands, "service", _service, title, f"{example}\n\n{SERVICE_NOTES.rstrip()}"
+    )
+    command.add_argument("--port", metavar="PORT", help=f"connect there first; {PORT_HELP}")
+    command.add_argument(
+        "--baud", metavar="N", type=int, choices=BAUDS, default=BAUD_DEFAULT,
+        help=f"the rate of the line (default: {BAUD_DEFAULT})",
+    )  # fmt: skip
+    command.add_argument(
+        "--machine", metavar="FILE.rkm", help="the machine (default: that of GVE134_MACHINE)"
+    )
+    add_page_options(command, 8405)
 
 
 def _add_check(commands: Commands) -> None:

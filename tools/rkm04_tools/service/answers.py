@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from rkm04_tools.failure import NOT_SO, Failure
-from rkm04_tools.service.orders import Asked
+from rkm04_tools.service.fields import Asked
 from rkm04_tools.service.trouble import as_json
 from rkm04_tools.service.wire import Exchange
 

@@ -9,7 +9,8 @@ from typing import Any
 
 from rkm04_tools.service import virtual
 from rkm04_tools.service.browsers import Aside, IsLate, Tell
-from rkm04_tools.service.orders import Asked, Connect, ListPorts, SetInput, Stop, read_order
+from rkm04_tools.service.fields import Asked
+from rkm04_tools.service.orders import Connect, ListPorts, SetInput, Stop, read_order
 from rkm04_tools.service.ports import ports
 from rkm04_tools.service.trouble import BadRequest, Late
 from rkm04_tools.service.virtual import VirtualLine

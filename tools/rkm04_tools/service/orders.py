@@ -19,7 +19,8 @@ from rkm04_tools.messages import (
     STORE_FLASH,
     VERSION,
 )
-from rkm04_tools.service.trouble import BadRequest, TooLarge
+from rkm04_tools.service.fields import Asked, flag_of, port_of, read_object, text_of, whole_of
+from rkm04_tools.service.trouble import BadRequest
 
 MESSAGES = {
     "version": VERSION,
@@ -33,24 +34,8 @@ MESSAGES = {
 SCAN, SEND_ALL = "scan", "send_all"
 TO_ALL_UNITS = ("send", "store")
 ACTS = ("resume", "reset", "speed")
-SCHEMES = ("socket", "rfc2217")
 TEXT_MAX = 200_000
 """Characters: more than 700 commands with comments; a stop must not wait for a longer check."""
-PORT_MAX = 1000
-ID_MAX = 1 << 53
-"""More than a browser can count exactly."""
-
-
-@dataclass(frozen=True)
-class Asked:
-    """By whom something was asked, and the number under which the answer is awaited.
-
-    `beat`: the last sign of life of the service that the page had when the user asked.
-    """
-
-    client: int | None = None
-    number: int | None = None
-    beat: int | None = None
 
 
 @dataclass(frozen=True)
@@ -125,17 +110,8 @@ Order: TypeAlias = Connect | Disconnect | Request | Act | Stop | SetInput | List
 
 def read_order(text: str) -> tuple[Order, Asked]:
     """Read a message of a browser."""
-    try:
-        told = json.loads(text)
-    except (ValueError, RecursionError):
-        raise BadRequest("this is not JSON; write an object with a type") from None
-    if not isinstance(told, dict):
-        raise BadRequest("this is no object; write one with a type")
-    number, beat = (
-        None if told.get(name) is None else _whole(told, name, range(ID_MAX))
-        for name in ("id", "beat")
-    )
-    return _order(told), Asked(None, number, beat)
+    told, asked = read_object(text)
+    return _order(told), asked
 
 
 def name_of(order: Work) -> str:
@@ -153,14 +129,16 @@ def motor_of(order: Work) -> int | None:
 def _order(told: Mapping[str, Any]) -> Order:
     kind = told.get("type")
     if kind == "connect":
-        return Connect(_port(told), _whole(told, "node", NODES))
+        return Connect(port_of(told), whole_of(told, "node", NODES))
     if kind == "request":
         return _request(told)
     if kind in ACTS:
-        value = _whole(told, "value", range(1, 16_001)) if kind == "speed" else 0
+        value = whole_of(told, "value", range(1, 16_001)) if kind == "speed" else 0
         return Act(str(kind), _motor(told, ALL_MOTORS), value)
     if kind == "input":
-        return SetInput(_whole(told, "input", range(1, 9)), _whole(told, "level", range(2)) == 1)
+        return SetInput(
+            whole_of(told, "input", range(1, 9)), whole_of(told, "level", range(2)) == 1
+        )
     if kind == "stop":
         return Stop(_nodes(told.get("nodes")))
     for name, order in (("disconnect", Disconnect()), ("ports", ListPorts())):
@@ -176,16 +154,16 @@ def _request(told: Mapping[str, Any]) -> Request:
     if name == SCAN:
         return Request(SCAN, ALL_MOTORS)
     if name == SEND_ALL:
-        together = _flag(told, "together")
+        together = flag_of(told, "together")
         return Request(SEND_ALL, ALL_MOTORS, texts=_texts(told), together=together)
     if not isinstance(name, str) or name not in MESSAGES:
         raise BadRequest(f"message is none of {', '.join(MESSAGES)}; name one of them")
     motor = _motor(told, ALL_MOTORS if name == "version" else None)
-    everywhere = _flag(told, "everywhere")
+    everywhere = flag_of(told, "everywhere")
     if everywhere and name not in TO_ALL_UNITS:
         raise BadRequest("node 0 means all units, and none of them answers; ask one of them")
     has_text = name == "send" or (name == "store" and told.get("text") is not None)
-    return Request(name, motor, _text(told, "text", TEXT_MAX) if has_text else "", everywhere)
+    return Request(name, motor, text_of(told, "text", TEXT_MAX) if has_text else "", everywhere)
 
 
 def _texts(told: Mapping[str, Any]) -> tuple[tuple[int, str], ...]:
@@ -193,23 +171,7 @@ def _texts(told: Mapping[str, Any]) -> tuple[tuple[int, str], ...]:
     texts = told.get("texts")
     if not isinstance(texts, dict) or not texts or not set(texts) <= set(map(str, MOTORS)):
         raise BadRequest('texts is not possible; write {"1": "F100 R"}')
-    return tuple((int(motor), _text(texts, motor, TEXT_MAX)) for motor in sorted(texts))
-
-
-def _flag(told: Mapping[str, Any], name: str) -> bool:
-    value = told.get(name, False)
-    if not isinstance(value, bool):
-        raise BadRequest(f"{name} is not possible; write true or false")
-    return value
-
-
-def _port(told: Mapping[str, Any]) -> str:
-    """A port without those that pyserial has for other purposes, as one that writes a file."""
-    port = _text(told, "port", PORT_MAX).strip()
-    scheme, colon, _ = port.partition("://")
-    if colon and scheme not in SCHEMES:
-        raise BadRequest(f"{scheme}:// is no port of a line; write a device, or socket://HOST:PORT")
-    return port
+    return tuple((int(motor), text_of(texts, motor, TEXT_MAX)) for motor in sorted(texts))
 
 
 def _nodes(told: Any) -> tuple[Node, ...]:
@@ -222,20 +184,4 @@ def _nodes(told: Any) -> tuple[Node, ...]:
 def _motor(told: Mapping[str, Any], default: int | None) -> int:
     if default is not None and told.get("motor") is None:
         return default
-    return _whole(told, "motor", range(ALL_MOTORS, MOTORS[-1] + 1))
-
-
-def _whole(told: Mapping[str, Any], name: str, allowed: range) -> int:
-    value = told.get(name)
-    if not isinstance(value, int) or isinstance(value, bool) or value not in allowed:
-        raise BadRequest(f"{name} is not possible; write {allowed[0]} to {allowed[-1]}")
-    return value
-
-
-def _text(told: Mapping[str, Any], name: str, longest: int) -> str:
-    value = told.get(name)
-    if not isinstance(value, str) or not value.strip():
-        raise BadRequest(f"{name} is missing; write a text")
-    if len(value) > longest:
-        raise TooLarge(f"{name} is too long; {longest} characters are the most")
-    return value
+    return whole_of(told, "motor", range(ALL_MOTORS, MOTORS[-1] + 1))

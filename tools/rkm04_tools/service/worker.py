@@ -20,11 +20,11 @@ from rkm04_tools.line_errors import LineError, PortError
 from rkm04_tools.messages import ALL_MOTORS, SET_COMMAND, VERSION
 from rkm04_tools.service import talking, virtual
 from rkm04_tools.service.answers import Answer, answer_of, whose
+from rkm04_tools.service.fields import Asked
 from rkm04_tools.service.live import LOOKING, View
 from rkm04_tools.service.orders import (
     MESSAGES,
     Act,
-    Asked,
     Connect,
     Disconnect,
     Node,

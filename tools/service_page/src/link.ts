@@ -7,8 +7,12 @@ const LAST_RETRY_MS = 3000;
 const SILENT_MS = 2000;
 const LOOK_MS = 250;
 
-type Kind = FromService["type"];
-type Of<K extends Kind> = Extract<FromService, { type: K }>;
+/** All that is said has a type; a greeting and signs of life have numbers. */
+interface Said {
+    type: string;
+    beat?: number;
+    client?: number;
+}
 
 /** What messages go over: a WebSocket to the service, or what takes its place. */
 export interface Line {
@@ -24,13 +28,13 @@ export interface Line {
  * The line to the service. It opens itself again when it is lost or falls silent; nothing is queued meanwhile,
  * and opening sends nothing, so that a page which comes back never acts on a unit.
  */
-export class Link {
+export class Link<From extends Said = FromService, To extends Said = ToService> {
     /** Whether the service is there, as far as it is known. */
     readonly isOpen = new Cell(false);
     /** The number that the service gave to this page; answers to its requests carry it. */
     client: number | null = null;
-    readonly #handlers = new Map<Kind, ((message: FromService) => void)[]>();
-    readonly #onRefused: ((message: ToService) => void)[] = [];
+    readonly #handlers = new Map<string, ((message: From) => void)[]>();
+    readonly #onRefused: ((message: To) => void)[] = [];
     readonly #connectTo: () => Line;
     #socket: Line | null = null;
     #heard_ms = 0;
@@ -43,14 +47,14 @@ export class Link {
         this.#connectTo = connectTo;
     }
 
-    on<K extends Kind>(kind: K, handler: (message: Of<K>) => void): void {
+    on<K extends From["type"]>(kind: K, handler: (message: Extract<From, { type: K }>) => void): void {
         const handlers = this.#handlers.get(kind) ?? [];
-        handlers.push(handler as (message: FromService) => void);
+        handlers.push(handler as (message: From) => void);
         this.#handlers.set(kind, handlers);
     }
 
     /** Calls the handler with what was not sent. */
-    onRefused(handler: (message: ToService) => void): void {
+    onRefused(handler: (message: To) => void): void {
         this.#onRefused.push(handler);
     }
 
@@ -60,7 +64,7 @@ export class Link {
     }
 
     /** Sends now or not at all; returns whether it was sent. */
-    send(message: ToService): boolean {
+    send(message: To): boolean {
         this.#watch();
         if (!this.isOpen.value || this.#socket?.isReady !== true) {
             this.#onRefused.forEach((handler) => handler(message));
@@ -80,7 +84,7 @@ export class Link {
         const socket = this.#connectTo();
         this.#socket = socket;
         this.#heard_ms = performance.now();
-        socket.onmessage = (event) => this.#receive(JSON.parse(String(event.data)) as FromService);
+        socket.onmessage = (event) => this.#receive(JSON.parse(String(event.data)) as From);
         socket.onclose = () => this.#lose();
     }
 
@@ -104,10 +108,10 @@ export class Link {
         this.#retry_ms = Math.min(2 * this.#retry_ms, LAST_RETRY_MS);
     }
 
-    #receive(message: FromService): void {
+    #receive(message: From): void {
         this.#heard_ms = performance.now();
         if (message.type === "hello" || message.type === "beat") {
-            this.#beat = message.beat;
+            this.#beat = message.beat ?? 0;
         }
         if (message.type === "hello") {
             this.client = message.client ?? null;

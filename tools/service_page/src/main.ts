@@ -41,7 +41,9 @@ new AllPrograms(
     () => log.say("send_all", { cause: t("all.empty"), next: "" }),
 );
 new Scan(link, commands);
-const presence = new Presence(link);
+const presence = new Presence(link.isOpen);
+link.on("state", (state) => presence.setState(state));
+link.on("live", ({ node }) => presence.look(node));
 const stop = new Stop(link);
 new Connection(link, presence);
 const live = new LiveView(link, presence);

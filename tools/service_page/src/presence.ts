@@ -1,9 +1,16 @@
-import type { Link } from "./link";
-import type { UnitState } from "./protocol";
 import { Cell } from "./signal";
 
 const FRESH_MS = 1000;
 const TICK_MS = 200;
+
+/** What it takes of a state; a unit without a node has none in its looks either. */
+interface Seen {
+    connected: boolean;
+    port: string | null;
+    node?: number;
+    /** Seconds since the unit answered last; null: it never has. */
+    seen_ago_s: number | null;
+}
 
 /** Whether what the page knows of the unit is true now; if not, how long ago the unit was seen. */
 export class Presence {
@@ -11,25 +18,27 @@ export class Presence {
     readonly isFresh = new Cell(false);
     /** Whole seconds since the unit answered last; null: it never has, or is not to be asked. */
     readonly seconds = new Cell<number | null>(null);
-    readonly #link: Link;
-    #state: UnitState | null = null;
+    readonly #isOpen: Cell<boolean>;
+    #state: Seen | null = null;
     #looked_ms = -Infinity;
     #seen_ms: number | null = null;
 
-    constructor(link: Link) {
-        this.#link = link;
-        link.on("state", (state) => this.#setState(state));
-        link.on("live", ({ node }) => {
-            if (this.#state?.connected && node === this.#state.node) {
-                this.#looked_ms = this.#seen_ms = performance.now();
-                this.#tick();
-            }
-        });
-        link.isOpen.onChange(() => this.#tick());
+    /** `isOpen`: whether the service is there. */
+    constructor(isOpen: Cell<boolean>) {
+        this.#isOpen = isOpen;
+        isOpen.onChange(() => this.#tick());
         window.setInterval(() => this.#tick(), TICK_MS);
     }
 
-    #setState(state: UnitState): void {
+    /** The unit was looked at. */
+    look(node?: number): void {
+        if (this.#state?.connected && node === this.#state.node) {
+            this.#looked_ms = this.#seen_ms = performance.now();
+            this.#tick();
+        }
+    }
+
+    setState(state: Seen): void {
         const before = this.#state;
         if (state.port !== before?.port || state.node !== before.node || !state.connected) {
             this.#looked_ms = -Infinity;
@@ -41,7 +50,7 @@ export class Presence {
 
     #tick(): void {
         const now_ms = performance.now();
-        const isFresh = this.#link.isOpen.value && now_ms - this.#looked_ms <= FRESH_MS;
+        const isFresh = this.#isOpen.value && now_ms - this.#looked_ms <= FRESH_MS;
         const seconds = this.#seen_ms === null ? null : Math.floor((now_ms - this.#seen_ms) / 1000);
         if (seconds !== this.seconds.value) {
             this.seconds.set(seconds);

@@ -2,11 +2,9 @@ import { byId } from "./dom";
 import { language, t } from "./i18n";
 import type { Link } from "./link";
 import type { Answer, Node, UnitState } from "./protocol";
+import { listenForStop } from "./stop_press";
 
-const PRESS_MS = 600;
 const DONE_MS = 4000;
-/** A touch or a mouse press stops at once; the click that follows it is not another stop. */
-const SAME_PRESS_MS = 1000;
 
 const VIRTUAL = "virtual";
 const keyOf = ({ port, node }: Node): string => `${node} ${port}`;
@@ -28,24 +26,13 @@ export class Stop {
     #isOver = true;
     #confirmed: Node[] = [];
     #forget = 0;
-    #pressed_ms = -Infinity;
 
     constructor(link: Link) {
         this.#link = link;
         link.on("state", (state) => this.#setState(state));
         link.on("answer", (answer) => this.#hear(answer));
         link.isOpen.onChange(() => this.#linkChanged());
-        this.#button.addEventListener("pointerdown", (event) => {
-            if (event.button === 0) {
-                this.press();
-            }
-        });
-        this.#button.addEventListener("click", () => {
-            if (performance.now() - this.#pressed_ms > SAME_PRESS_MS) {
-                this.press();
-            }
-        });
-        this.#listenToEscape();
+        listenForStop(this.#button, () => this.press());
         language.onChange(() => this.#show());
     }
 
@@ -56,9 +43,6 @@ export class Stop {
 
     /** Stops all motors: at once, whatever else is under way. */
     press(): void {
-        this.#pressed_ms = performance.now();
-        this.#button.dataset.pressed = "true";
-        window.setTimeout(() => delete this.#button.dataset.pressed, PRESS_MS);
         const before = (this.#state?.stop ?? []).map((node) => [keyOf(node), node] as const);
         this.#open = new Map([...(this.#open ?? []), ...before, ...this.#known]);
         this.#confirmed = [];
@@ -68,29 +52,6 @@ export class Stop {
         this.#isOver = !this.#link.send({ type: "stop", id: this.#link.nextId(), nodes });
         this.#show();
         this.#onPress.forEach((callback) => callback());
-    }
-
-    /**
-     * Escape means STOP wherever the focus is. An open list of a select element keeps the key for itself and lets
-     * only its release through, so a release without a press counts, too.
-     */
-    #listenToEscape(): void {
-        let isDown = false;
-        const listen = (kind: "keydown" | "keyup", action: (event: KeyboardEvent) => void): void =>
-            window.addEventListener(kind, (event) => event.key === "Escape" && action(event), { capture: true });
-        listen("keydown", (event) => {
-            if (!event.repeat || !isDown) {
-                this.press();
-            }
-            isDown = true;
-        });
-        listen("keyup", () => {
-            if (!isDown) {
-                this.press();
-            }
-            isDown = false;
-        });
-        window.addEventListener("blur", () => (isDown = false));
     }
 
     #setState(state: UnitState): void {

@@ -1,0 +1,25 @@
+"""`service`: serves the page until Ctrl-C."""
+
+from __future__ import annotations
+
+import os
+from argparse import Namespace
+from functools import partial
+
+from rkm04_tools.gve134.client_base import PORT_VARIABLE
+from rkm04_tools.gve134.gcode.axes import read_mill
+from rkm04_tools.gve134.gcode.command import MACHINE_VARIABLE
+from rkm04_tools.gve134.service.app import make_app
+from rkm04_tools.gve134.service.orders import Connect
+from rkm04_tools.service import virtual
+from rkm04_tools.service.hosting import Shown, serve_page
+
+PAGE = Shown("gve134", "gve134.html", 8405)
+
+
+def run(options: Namespace) -> int:
+    """Serve."""
+    first = Connect(options.port or os.environ.get(PORT_VARIABLE) or virtual.NAME)
+    name = options.machine or os.environ.get(MACHINE_VARIABLE)
+    mill = read_mill(name) if name else None
+    return serve_page(options, PAGE, partial(make_app, first=first, baud=options.baud, mill=mill))

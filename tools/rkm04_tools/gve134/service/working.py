@@ -1,0 +1,79 @@
+"""A file on its way: how far it is, and what the unit executes of it now."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rkm04_tools.failure import Failure
+from rkm04_tools.gve134.sending import Sender
+from rkm04_tools.gve134.service.course import Tracker
+from rkm04_tools.gve134.service.files import File
+from rkm04_tools.gve134.state import Flags, Positions
+from rkm04_tools.service.trouble import as_json
+
+SENDING, FINISHING, WAITS, HELD, DONE, FAILED = (
+    "sending", "finishing", "waits", "held", "done", "failed",
+)  # fmt: skip
+UNDER_WAY = (SENDING, FINISHING, WAITS)
+
+
+@dataclass
+class Work:
+    """A file that was started. `text` is what a person is asked, `trouble` what has stopped it."""
+
+    file: File
+    sender: Sender
+    tracker: Tracker
+    begin: Positions
+    phase: str = SENDING
+    text: str = ""
+    trouble: Failure | None = None
+
+    @property
+    def is_under_way(self) -> bool:
+        """Whether it is being sent, or its last vectors are executed."""
+        return self.phase in UNDER_WAY
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is, or may be gone on with."""
+        return self.is_under_way or self.phase == HELD
+
+    @property
+    def is_at_sync(self) -> bool:
+        """Whether positions may mean something else now than at the last look."""
+        course = self.file.course
+        return course is not None and self.sender.sent in course.syncs
+
+    def as_json(self) -> dict[str, Any]:
+        """What all browsers know of it."""
+        return {
+            "file": self.file.number,
+            "name": self.file.name,
+            "phase": self.phase,
+            "text": self.text,
+            "trouble": self.trouble and as_json(self.trouble),
+            "begin": self.begin,
+        }
+
+    def progress(self, flags: Flags, factor: float | None) -> dict[str, Any] | None:
+        """How far it is; None: nothing is known of that."""
+        file, tracker = self.file, self.tracker
+        if file.course is None or file.seconds is None or not len(file.course):
+            return None
+        taken = int(file.course.counts[self.sender.sent])
+        if not tracker.is_known:
+            return {"at": None, "line": None, "level": None, "sent": taken, "left_s": None}
+        at = tracker.number
+        left = float(np.sum(file.seconds[at:])) / (factor or 1.0)
+        line = int(file.course.lines[at]) if at < taken or not flags.stands else None
+        return {
+            "at": at,
+            "line": line,
+            "level": taken - at,
+            "sent": taken,
+            "left_s": round(left, 1) if factor is not None else None,
+        }

@@ -1,0 +1,30 @@
+import { setUpWords, translator } from "../language";
+import { cs } from "./cs";
+import { en } from "./en";
+import type { Trouble } from "./protocol";
+
+export { language, numberText } from "../language";
+
+export type Key = keyof typeof en;
+export type Dictionary = Record<Key, string>;
+
+/** The text of a key in the chosen language. */
+export const t = translator<Key>({ en, cs });
+
+/** Whether a text from outside is a key, for names that the service sends. */
+export const isKey = (name: string): name is Key => name in en;
+
+export const setUpLanguage = (chooser: HTMLSelectElement): void => setUpWords<Key>(chooser, t);
+
+/** Cause and next step, as the service says them. */
+export const troubleText = ({ cause, next }: Trouble): string => (next ? `${cause}; ${next}` : cause);
+
+const MINUTE = 60;
+
+/** Seconds as people tell them. */
+export function clockText(seconds: number): string {
+    const whole = Math.round(seconds);
+    const two = (value: number): string => String(value).padStart(2, "0");
+    const [hours, minutes] = [Math.floor(whole / MINUTE / MINUTE), Math.floor(whole / MINUTE) % MINUTE];
+    return hours > 0 ? `${hours}:${two(minutes)}:${two(whole % MINUTE)}` : `${minutes}:${two(whole % MINUTE)}`;
+}
