@@ -182,6 +182,20 @@ static void begin(unsigned motor, uint32_t ahead_ticks)
     }
 }
 
+/* The pulse that was the last has begun while more were laid, which takes longer than the first of them. When it has
+ * ended, the compare register has what the stream has loaded at its begin: that first one, or still the edge that is
+ * never, and then the pulses are missing. So are those that had to be moved on, as nobody knows which tick it loaded.
+ */
+BASE_APART static void check_loaded(const struct stm32_channel *channel, uint32_t last, bool moved)
+{
+    uint32_t fallen = last + (uint32_t)(HIGH_TICKS + SETTLE_TICKS);
+    while (is_before(TIM2_CNT, fallen)) {
+    }
+    if (moved || *channel->step.compare == last + NEVER_TICKS) {
+        stm32_fault_stop_output();
+    }
+}
+
 /* The stream loads what comes after a pulse when that begins. Where that is far from the interrupt's begin, `now`, it
  * is far. */
 static void append(unsigned motor, uint32_t now, uint32_t ahead_ticks)
@@ -205,13 +219,14 @@ static void append(unsigned motor, uint32_t now, uint32_t ahead_ticks)
     if (BASE_SELDOM(channel->turns)) {
         least = channel->turn_tick + (uint32_t)TURN_SETUP_TICKS;
     }
+    bool moved = is_before(slot(channel, channel->laid)->rise_tick, least);
     make_good(slot(channel, channel->laid), count, least);
     note_laid(channel, channel->laid + count);
     if (BASE_SELDOM(channel->turns)) {
         wait_for_turn(channel);
     }
-    if (!far && is_before(last, TIM2_CNT)) {
-        stm32_fault_stop_output();
+    if (BASE_SELDOM(!far && is_before(last, TIM2_CNT))) {
+        check_loaded(channel, last, moved);
     }
 }
 

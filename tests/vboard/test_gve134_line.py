@@ -126,3 +126,20 @@ def test_the_line_goes_on_after_its_stream_was_led_astray(ask: Ask) -> None:
     assert talk.answers[0] == f"0,{VERSION}"
     assert talk.answers[-1] == "0,0,0,0"
     assert len(talk.answers) >= 3
+
+
+def test_a_host_that_does_not_wait_for_answers_brings_no_step_to_a_fault(ask: Ask) -> None:
+    """More commands than can be executed are damage; the axes go on."""
+    vectors = "!0*S\r" + "!0C100,100,100,100\r" * 60 + "!0*E60\r"
+    talk = ask(
+        (START_MS, "!0A8000\r"), (START_MS + 2, "!0V200000\r"), (START_MS + 4, "!0$1\r"),
+        (START_MS + 6, vectors + "!0C100,100,100,100\r!0P4\r!0V200000\r!0P4\r" * 300),
+        (START_MS + 400, "!0P4\r"), ms=START_MS + 420, baud=921_600,
+    )  # fmt: skip
+
+    assert talk.summary["resets"] == {"power": 1, "software": 0, "watchdog": 0}
+    assert talk.summary["line"]["overruns"] == 0
+    assert {answer[0] for answer in talk.answers} <= {"0", "1", "2"}
+    assert talk.answers[-1].startswith("0,")
+    assert len(set(talk.answers[-1][2:].split(","))) == 1
+    assert int(talk.answers[-1].split(",")[1]) >= 6000
