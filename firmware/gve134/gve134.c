@@ -10,7 +10,9 @@
 #include "hal_time.h"
 
 enum {
-    HEARD_MAX = 64, /* bytes in one pass */
+    HEARD_MAX = 64,                   /* bytes in one pass, */
+    SERVED_MAX = 16,                  /* and requests, */
+    SERVE_TICKS = 100 * TICKS_PER_US, /* begun in so long */
     OWN_AXIS = 3,
     DIRECTION_BITS = 4, /* bits of the directions in the byte of polarities begin there */
 };
@@ -112,10 +114,10 @@ static bool waits_for(const struct gve134 *unit, enum gve134_waiting waiting)
     return unit->waiting == (uint8_t)waiting;
 }
 
-/* What comes after J is for the unit after the reset. */
+/* What comes after J is for the unit after the reset, so J is the last that is kept. */
 static bool may_hear(const struct gve134 *unit)
 {
-    return !waits_for(unit, GVE134_WAITS_FOR_RESET) && !gve_line_keeps(&unit->line, GVE_RESET);
+    return !waits_for(unit, GVE134_WAITS_FOR_RESET) && !gve_line_ends_with(&unit->line, GVE_RESET);
 }
 
 /* Returns when to call again at the latest. */
@@ -228,7 +230,7 @@ static void act_at_once(struct gve134 *unit)
     if (waits_for(unit, GVE134_WAITS_NOT)) {
         return;
     }
-    if (gve_line_keeps(&unit->line, GVE_RESET)) {
+    if (gve_line_ends_with(&unit->line, GVE_RESET)) {
         unit->waiting = (uint8_t)GVE134_WAITS_NOT;
         do {
             (void)gve_line_next(&unit->line, &request);
@@ -253,6 +255,17 @@ static bool serve_next(struct gve134 *unit)
     return served;
 }
 
+/* True: there may be more. */
+static bool serve_some(struct gve134 *unit)
+{
+    uint64_t until = hal_time_now() + SERVE_TICKS;
+    bool served = true;
+    for (unsigned count = 0; served && count < (unsigned)SERVED_MAX && hal_time_now() < until; count++) {
+        served = serve_next(unit);
+    }
+    return served;
+}
+
 /* ---- main ------------------------------------------------------------------------------------------------------ */
 
 static uint64_t earlier(uint64_t a, uint64_t b)
@@ -265,7 +278,7 @@ static uint64_t poll_queue(struct gve134 *unit)
     uint64_t wake = gve_queue_poll(&unit->queue, io_inputs(&unit->io));
     answer_late(unit);
     act_at_once(unit);
-    return serve_next(unit) ? hal_time_now() : wake;
+    return serve_some(unit) ? hal_time_now() : wake;
 }
 
 /* J: the answer goes out and the last pulses come to an end; then all is as after a reset. */

@@ -52,25 +52,25 @@ static uint32_t match_length(const struct gve_row *row, const struct parser *par
     return length;
 }
 
-static uint32_t find_name_length(const struct parser *parser)
-{
-    uint32_t longest = 0;
-    for (unsigned opcode = 0; opcode < (unsigned)GVE_OPCODES; opcode++) {
-        uint32_t length = match_length(gve_row(opcode), parser);
-        longest = length > longest ? length : longest;
-    }
-    return longest;
-}
-
-/* The command of a name: the row that takes what follows it, else any of that name at the address. The name is found
- * among all commands first, so that a longer one that the address does not know is not taken for a shorter one. */
-static unsigned find_opcode(const struct parser *parser, uint32_t name_length, enum gve_address address)
+/* The command of a name: the row that takes what follows it, else any of that name at the address. The name is the
+ * longest among all commands, so that one that the address does not know is not taken for a shorter one. The parser
+ * goes past it. */
+static unsigned find_opcode(struct parser *parser, enum gve_address address)
 {
     unsigned found = GVE_OPCODES;
-    for (unsigned opcode = 0; opcode < (unsigned)GVE_OPCODES && name_length != 0; opcode++) {
+    uint8_t first = parser->length != 0 ? upper(parser->text[0]) : 0;
+    for (unsigned opcode = 0; opcode < (unsigned)GVE_OPCODES; opcode++) {
         const struct gve_row *row = gve_row(opcode);
-        bool known = match_length(row, parser) == name_length && ((unsigned)row->address & (unsigned)address) != 0;
-        if (known && (found == (unsigned)GVE_OPCODES || (row->most != 0) == (parser->length > name_length))) {
+        uint32_t length = (uint8_t)row->text[0] == first ? match_length(row, parser) : 0;
+        if (length == 0 || length < parser->next) {
+            continue;
+        }
+        if (length > parser->next) {
+            parser->next = length;
+            found = GVE_OPCODES;
+        }
+        bool known = ((unsigned)row->address & (unsigned)address) != 0;
+        if (known && (found == (unsigned)GVE_OPCODES || (row->most != 0) == (parser->length > length))) {
             found = opcode;
         }
     }
@@ -235,8 +235,7 @@ struct gve_reading gve_command_read(const uint8_t *text, uint32_t length, enum g
     assert(length <= (uint32_t)GVE_TEXT_BYTES_MAX);
     struct gve_reading reading = {.fault = GVE_FAULT_NONE};
     struct parser parser = {.text = text, .length = length};
-    parser.next = find_name_length(&parser);
-    unsigned opcode = find_opcode(&parser, parser.next, address);
+    unsigned opcode = find_opcode(&parser, address);
     reading.command.opcode = (uint8_t)opcode;
     if (opcode == (unsigned)GVE_OPCODES) {
         reading_note(&reading, GVE_FAULT_UNKNOWN, 0, 0);

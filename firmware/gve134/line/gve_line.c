@@ -54,6 +54,11 @@ bool gve_line_keeps(const struct gve_line *line, enum gve_opcode opcode)
     return false;
 }
 
+bool gve_line_ends_with(const struct gve_line *line, enum gve_opcode opcode)
+{
+    return line->count != 0 && is_command(kept_at(line, line->count - 1U), opcode);
+}
+
 /* ---- what comes ------------------------------------------------------------------------------------------------ */
 
 /* A wrong parameter makes the end of a packet wrong, but it stays its end; H and J are others with parameters. */

@@ -65,6 +65,9 @@ bool gve_line_next(struct gve_line *line, struct gve_request *request);
 /* Whether one of the kept requests is this command, without a fault: of H and J a unit that waits wants to know. */
 bool gve_line_keeps(const struct gve_line *line, enum gve_opcode opcode);
 
+/* Whether the request that was kept last is this command, without a fault. */
+bool gve_line_ends_with(const struct gve_line *line, enum gve_opcode opcode);
+
 /* Answers the request taken last: a code, INTA as it is after the command, and values without the comma before them
  * (at most GVE_ANSWER_VALUES_MAX bytes; 0: none). */
 void gve_line_answer(struct gve_line *line, enum gve_code code, bool inta, const uint8_t *values, uint32_t length);
