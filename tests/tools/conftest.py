@@ -6,8 +6,9 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -57,7 +58,16 @@ def build_folder() -> Iterator[None]:
 @pytest.fixture
 def tool(capsys: pytest.CaptureFixture[str]) -> Tool:
     """Run a command inside this process."""
+    return _tool(main, capsys)
 
+
+@pytest.fixture
+def gve134(capsys: pytest.CaptureFixture[str]) -> Tool:
+    """The same of the tool for the GVE134."""
+    return _tool(partial(run_tool, make_gve134_parser()), capsys)
+
+
+def _tool(main: Callable[[Sequence[str]], int], capsys: pytest.CaptureFixture[str]) -> Tool:
     def run(*arguments: str | Path) -> Result:
         capsys.readouterr()
         try:

@@ -15,10 +15,11 @@ from rkm04_tools import (
     target_figures,
     target_paths,
     target_reactions,
+    target_rows,
     target_run,
     virtual_board,
 )
-from rkm04_tools.bench_target import Row
+from rkm04_tools.target_rows import Row
 from rkm04_tools.target_run import GATE, Move, Rig
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -48,7 +49,7 @@ def rig(tmp_path: Path) -> Rig:
 def test_the_image_keeps_its_budget_of_cycles(rig, figures, key, budget):
     measured = figures(rig)[key]
 
-    assert measured <= bench_target.budgets()[budget]
+    assert measured <= target_rows.budgets()[budget]
 
 
 @on_target
@@ -279,4 +280,4 @@ def test_the_command_tells_every_figure_with_both_models(tool, monkeypatch):
     assert [r["met"] for r in answer["reactions"]] == [False, False]
     assert answer["reactions"][0]["us_until_ramp"] == {"min": 99.0, "median": 99.75, "max": 100.5}
     assert all(row["figure"] in printed for row in answer["figures"])
-    assert bench_target.NOTE in printed
+    assert target_rows.NOTE in printed

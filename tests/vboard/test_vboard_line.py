@@ -7,6 +7,7 @@ import subprocess
 import time
 
 import pytest
+from rkm04_tools import virtual_board
 
 PINS = "line USART2\nde PA1\n"
 BYTE_MS = 10 / 19.2
@@ -117,3 +118,29 @@ def test_a_client_over_a_pseudo_terminal_talks_with_the_unit(program, build_imag
         process.communicate(timeout=10)
         assert process.returncode == 0
     assert not (tmp_path / "line").is_symlink()
+
+
+def test_a_client_in_virtual_time_says_when_and_hears_at_once(program, build_image, tmp_path):
+    (tmp_path / "pins").write_text(PINS)
+    arguments = ["--elf", build_image("serial"), "--pins", tmp_path / "pins", "--lockstep"]
+    with virtual_board.Talk(program, [*map(str, arguments), "--for", "1"]) as talk:
+        assert talk.until(5.0) == b""
+        assert talk.ms == 5.0
+        talk.say(b"\x30")
+        assert talk.until(20.0) == b"\x31"
+        assert 5.0 < talk.ms < 20.0
+        assert talk.until(20.0) == b""
+        summary = talk.end()
+
+    assert summary["ended"] == "time"
+    assert summary["microseconds"] == pytest.approx(20_000, abs=1)
+
+
+def test_an_order_in_virtual_time_that_makes_no_sense_ends_the_run(program, build_image, tmp_path):
+    command = [program, "--elf", build_image("serial"), "--lockstep"]
+    done = subprocess.run(
+        list(map(str, command)), input="until soon\n", capture_output=True, text=True, check=False
+    )
+
+    assert done.returncode == 1
+    assert "`until MS`" in done.stdout + done.stderr

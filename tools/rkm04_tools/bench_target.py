@@ -1,8 +1,4 @@
-"""`bench --target stm32`: the figures of the image beside their goals, modelled.
-
-Every figure is made twice on the virtual board: with three cycles to refill the pipeline (P = 3),
-which goals and budgets are held against, and with two, which is nearer to published figures.
-"""
+"""`bench --target stm32`: the figures of the image beside their goals, modelled."""
 
 from __future__ import annotations
 
@@ -11,7 +7,7 @@ import os
 from argparse import Namespace
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -29,11 +25,10 @@ from rkm04_tools.failure import DONE
 from rkm04_tools.table import rounded, table
 from rkm04_tools.target_figures import Figures
 from rkm04_tools.target_reactions import Reaction, spread
+from rkm04_tools.target_rows import NOTE, STACK, Goal, Row, merge, rows_of, rows_table, yes_no
 from rkm04_tools.target_run import BESIDE, GATE, Model, Rig
 
 WORKERS = 2
-NOTE = "modelled on the virtual board, flash with 5 wait states; nothing was measured on hardware"
-HEAD = ("figure", GATE.name, BESIDE.name, "goal", "unit", "met")
 REACTIONS_HEAD = ("from an edge at an input, us, P = 3", "min", "median", "max", "goal", "met")
 
 MEASURES: Mapping[str, Callable[[Rig], Figures]] = {
@@ -46,20 +41,6 @@ MEASURES: Mapping[str, Callable[[Rig], Figures]] = {
     "borders": target_paths.borders,
     "changes": target_paths.changes,
 }
-STACK = "stack_used"
-
-
-@dataclass(frozen=True)
-class Goal:
-    """A figure that is told: its key, what it is, and what it should be."""
-
-    key: str
-    title: str
-    unit: str
-    goal: float | None = None
-    at_most: bool = True
-    budget: str = ""
-    """Its name in hal/stm32/budgets.json; tools/test holds it there."""
 
 
 FIGURES = [
@@ -111,53 +92,6 @@ FIGURES = [
     Goal("start_full", "... four long ones", "ms", 100),
     Goal(STACK, "stack that was used in all runs", "bytes"),
 ]  # fmt: skip
-SIZES = [
-    Goal("stack", "stack that is proved to be enough", "bytes", budget="stack_bytes"),
-    Goal("flash", "flash", "bytes", budget="flash_bytes"),
-    Goal("ram", "RAM, the stack included", "bytes", budget="ram_bytes"),
-]
-
-
-@dataclass(frozen=True)
-class Row:
-    """A figure with both models; `beside` is None where the model plays no part."""
-
-    key: str
-    figure: str
-    unit: str
-    measured: float
-    beside: float | None
-    goal: float | None
-    at_most: bool
-    budget: float | None
-
-    @property
-    def met(self) -> bool | None:
-        """Whether goal and budget are met; None where there is neither."""
-        if self.goal is None and self.budget is None:
-            return None
-        limits = [limit for limit in (self.goal, self.budget) if limit is not None]
-        if self.at_most:
-            return all(self.measured <= limit for limit in limits)
-        return all(self.measured >= limit for limit in limits)
-
-    def cells(self) -> tuple[str, ...]:
-        """For the table."""
-        sign = "at most" if self.at_most else "at least"
-        limit = self.goal if self.goal is not None else self.budget
-        goal = "" if limit is None else f"{sign} {rounded(limit)}"
-        beside = "" if self.beside is None else rounded(self.beside)
-        return self.figure, rounded(self.measured), beside, goal, self.unit, _yes(self.met)
-
-
-def _yes(met: bool | None) -> str:
-    return "" if met is None else "yes" if met else "no"
-
-
-def budgets() -> dict[str, float]:
-    """The budgets of hal/stm32/budgets.json by their names."""
-    found = json.loads(board_size.BUDGETS.read_text())
-    return {name: float(value) for name, value in found.items() if not isinstance(value, dict)}
 
 
 def run(options: Namespace) -> int:
@@ -167,12 +101,11 @@ def run(options: Namespace) -> int:
         if options.profile:
             return _profile(rig, Path(options.profile), options.json)
         figures, reactions = measure(rig)
-        rows = rows_of(figures, asdict(board_size.measure(rig.elf, rig.image.folder)))
+        rows = rows_of(FIGURES, figures, asdict(board_size.measure(rig.elf, rig.image.folder)))
     if options.json:
         print(json.dumps(_as_json(rows, reactions), indent=2))
         return DONE
-    print(table([HEAD, *(row.cells() for row in rows)], "lrrrll"))
-    print(f"\n{reactions_table(reactions[GATE])}\n\n{NOTE}")
+    print(f"{rows_table(rows)}\n\n{reactions_table(reactions[GATE])}\n\n{NOTE}")
     return DONE
 
 
@@ -193,31 +126,12 @@ def measure(rig: Rig) -> tuple[dict[Model, Figures], dict[Model, list[Reaction]]
             bar.show(done + 1, len(tasks))
             model, name = tasks[task]
             if name:
-                _merge(figures[model], task.result())
+                merge(figures[model], task.result())
             else:
                 reactions[model] = task.result()
     for model, found in reactions.items():
-        _merge(figures[model], {STACK: max(reaction.stack_used for reaction in found)})
+        merge(figures[model], {STACK: max(reaction.stack_used for reaction in found)})
     return figures, reactions
-
-
-def _merge(figures: Figures, more: Figures) -> None:
-    deepest = max(figures.get(STACK, 0), more.get(STACK, 0))
-    figures.update(more)
-    figures[STACK] = deepest
-
-
-def rows_of(figures: Mapping[Model, Figures], sizes: Mapping[str, int]) -> list[Row]:
-    """All figures in the order of the table."""
-    limits = budgets()
-
-    def row(goal: Goal, measured: float, beside: float | None) -> Row:
-        budget = limits[goal.budget] if goal.budget else None
-        ends = (goal.goal, goal.at_most, budget)
-        return Row(goal.key, goal.title, goal.unit, measured, beside, *ends)
-
-    made = [row(goal, figures[GATE][goal.key], figures[BESIDE][goal.key]) for goal in FIGURES]
-    return made + [row(goal, sizes[goal.key], None) for goal in SIZES]
 
 
 def reactions_table(reactions: list[Reaction]) -> str:
@@ -226,7 +140,7 @@ def reactions_table(reactions: list[Reaction]) -> str:
     for reaction in reactions:
         times = spread(reaction.begins)
         goal = f"at most {rounded(reaction.goal)}"
-        ends = (*(rounded(time) for time in times.values()), goal, _yes(reaction.met))
+        ends = (*(rounded(time) for time in times.values()), goal, yes_no(reaction.met))
         rows.append((reaction.name, *ends))
         if changes := spread(reaction.changes):
             cells = tuple(rounded(time) for time in changes.values())

@@ -210,7 +210,8 @@ class Rig:
         self, texts: Mapping[str, str], steps: bool = False, profile: bool = False
     ) -> list[str]:
         arguments = []
-        for name, text in {**texts, "pins": virtual_board.board_pins(self.image.board)}.items():
+        pins = virtual_board.board_pins(self.image.board, self.image.unit)
+        for name, text in {**texts, "pins": pins}.items():
             if text:
                 path = self.folder / name
                 path.write_text(text)
@@ -218,10 +219,22 @@ class Rig:
         arguments += ["--steps", str(self.folder / "steps.csv")] if steps else []
         return arguments + (["--profile", str(self.folder / "profile.csv")] if profile else [])
 
-    def _run(self, elf: Path, seconds: float, arguments: Sequence[str]) -> Ran:
+    def talk(self, seconds: float, *options: str, steps: bool = False) -> virtual_board.Talk:
+        """Run the image of the board from power-on with a client in virtual time on its line."""
+        files = self._files({}, steps)
+        arguments = [*self._common(self.elf, seconds), *files, "--lockstep", *options]
+        return virtual_board.Talk(self.program, arguments)
+
+    def _common(self, elf: Path, seconds: float) -> list[str]:
         common = ["--elf", str(elf), "--for", f"{seconds:.9f}", *self.model.options]
-        common += ["--watch", LATE, "--stack-limit", STACK_BOTTOM]
-        ran = Ran(virtual_board.run(self.program, [*common, *arguments]), self.folder)
+        return [*common, "--watch", LATE, "--stack-limit", STACK_BOTTOM]
+
+    def _run(self, elf: Path, seconds: float, arguments: Sequence[str]) -> Ran:
+        return self.ran(virtual_board.run(self.program, [*self._common(elf, seconds), *arguments]))
+
+    def ran(self, summary: dict[str, Any]) -> Ran:
+        """What a run told; the image must have come through it."""
+        ran = Ran(summary, self.folder)
         if ran.summary["resets"]["power"] != 1 or ran.summary["resets"]["watchdog"]:
             raise Failure("the image was reset during a run of the bench", NOT_SO)
         return ran
@@ -234,7 +247,12 @@ def ended_well(ran: Ran, moves: Sequence[Move]) -> bool:
     return ended == len(moves) and places == wanted and ran.positions == wanted
 
 
-def rig(folder: Path, name: str = board.DEFAULT_BOARD) -> Rig:
+def rig(
+    folder: Path,
+    name: str = board.DEFAULT_BOARD,
+    unit: str = board.UNIT,
+    baud: int | None = None,
+) -> Rig:
     """The images of a board, built if need be."""
     program = virtual_board.program_path()
-    return Rig(program, board.build(name), folder)
+    return Rig(program, board.build(name, what=unit, baud=baud), folder)

@@ -7,9 +7,12 @@ there only where libunicorn and libcapstone are.
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
+from types import TracebackType
 from typing import Any
 
 from rkm04_tools import child, host
@@ -18,6 +21,8 @@ from rkm04_tools.board_header import Board, read_board
 from rkm04_tools.failure import NOT_SO, Failure
 
 PROGRAM = "rkm04-vboard"
+REPLY = re.compile(r"\d+\.\d+ [0-9A-F]*\n")
+SAY_BYTES = 4096
 MODEL = "modelled: P = 3, 5 wait states"
 
 # The names of a board header, and those of the virtual board.
@@ -80,10 +85,71 @@ def run(program: Path, arguments: Sequence[str]) -> dict[str, Any]:
         [str(program), *arguments],
         capture_output=True, text=True, errors="replace", env=child.bound(),
     )  # fmt: skip
-    if done.returncode != 0:
-        line = done.stderr.strip().rpartition("\n")[2].removeprefix(f"{PROGRAM}: ")
-        raise Failure(line or f"{PROGRAM} ended with status {done.returncode}", NOT_SO)
-    answer = json.loads(done.stdout)
+    return _summary(done.returncode, done.stdout, done.stderr)
+
+
+class Talk:
+    """An image that runs with a client on its line, in virtual time: `--lockstep`.
+
+    Time passes in `until` only.
+    """
+
+    def __init__(self, program: Path, arguments: Sequence[str]) -> None:
+        self.ms = 0.0
+        self._process = subprocess.Popen(
+            [str(program), *arguments],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            text=True, errors="replace", env=child.bound(),
+        )  # fmt: skip
+
+    def __enter__(self) -> Talk:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._process.kill()
+        self._process.communicate()
+
+    def say(self, data: bytes) -> None:
+        """Put bytes onto the line; it takes them one after the other."""
+        for first in range(0, len(data), SAY_BYTES):
+            self._order(f"say {data[first : first + SAY_BYTES].hex()}")
+
+    def until(self, ms: float) -> bytes:
+        """Let time go on until then, or until the unit has sent something, which is returned."""
+        self._order(f"until {max(ms, 0.0):.6f}")
+        assert self._process.stdout
+        reply = self._process.stdout.readline()
+        if not REPLY.fullmatch(reply):
+            _, complaint = self._process.communicate()
+            _summary(self._process.returncode, reply, complaint)
+            raise Failure(f"the time of the run on {PROGRAM} is over", NOT_SO)
+        at, _, heard = reply.rstrip("\n").partition(" ")
+        # A cycle may begin a little before the time that was asked for.
+        self.ms = float(at) if heard else max(ms, float(at))
+        return bytes.fromhex(heard)
+
+    def end(self) -> dict[str, Any]:
+        """End the run; the answer is the summary."""
+        out, complaint = self._process.communicate("end\n")
+        return _summary(self._process.returncode, out, complaint)
+
+    def _order(self, text: str) -> None:
+        assert self._process.stdin
+        with suppress(BrokenPipeError):
+            self._process.stdin.write(f"{text}\n")
+            self._process.stdin.flush()
+
+
+def _summary(status: int, out: str, complaint: str) -> dict[str, Any]:
+    if status != 0:
+        line = complaint.strip().rpartition("\n")[2].removeprefix(f"{PROGRAM}: ")
+        raise Failure(line or f"{PROGRAM} ended with status {status}", NOT_SO)
+    answer = json.loads(out)
     if not isinstance(answer, dict):
         raise Failure(f"{PROGRAM} did not answer with an object; build it again")
     return answer

@@ -123,11 +123,16 @@ static void wire_surroundings(struct board *board)
 {
     struct clock *clock = &board->clock;
     const struct options *options = board->options;
+    struct rs485_listener client = {.model = &board->tty, .hear = tty_send};
     tty_init(&board->tty, clock, &board->line);
+    lockstep_init(&board->lockstep, clock, &board->line, &board->report);
+    if (options->lockstep) {
+        client = (struct rs485_listener){.model = &board->lockstep, .hear = lockstep_hear};
+    }
     rs485_init(&board->line, (struct rs485_wires){.clock = clock,
                                                   .pins = &board->pins,
                                                   .usart = &board->usart[board->pins.usart],
-                                                  .listener = {.model = &board->tty, .hear = tty_send},
+                                                  .listener = client,
                                                   .baud = options->baud,
                                                   .format = options->format});
     board->recorder.wires = (struct recorder_wires){.clock = clock,
@@ -203,6 +208,10 @@ static bool open_line(struct board *board)
     const struct options *options = board->options;
     if (!rs485_open(&board->line, options->line_script, options->line_log)) {
         return false;
+    }
+    if (options->lockstep) {
+        lockstep_open(&board->lockstep);
+        return true;
     }
     if (options->pty != NULL) {
         return tty_open_pty(&board->tty, options->pty);

@@ -23,6 +23,7 @@
 #include "gpio.h"
 #include "image.h"
 #include "inputs.h"
+#include "lockstep.h"
 #include "iwdg.h"
 #include "memory.h"
 #include "nvic.h"
@@ -82,6 +83,7 @@ struct board {
     struct pins pins;
     struct rs485 line;
     struct tty tty;
+    struct lockstep lockstep;
     struct inputs inputs;
     struct recorder recorder;
     struct faults faults;

@@ -306,6 +306,7 @@ static const struct argument rows[] = {
     TEXT("--supply", supply),
     TEXT("--end-at", end_at),
     TEXT("--stack-limit", stack_limit),
+    FLAG("--lockstep", lockstep),
     FLAG("--art", art),
     FLAG("--no-crystal", no_crystal),
     FLAG("--slow-flash", flash_settings.slow),

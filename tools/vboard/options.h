@@ -47,6 +47,7 @@ struct options {
     struct options_stuck stuck[OPTIONS_STUCK_MAX];
     unsigned stucks;
     bool tcp;
+    bool lockstep;
     unsigned tcp_port;
     uint64_t for_ps;
     uint64_t measure_from_ps;

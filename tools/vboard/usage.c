@@ -19,6 +19,7 @@ const char options_usage[] =
     "  --baud RATE           of the line (19200)\n"
     "  --format FORMAT       of the line: 8E1, 8O1, 8N1 or 8N2 (8N1)\n"
     "  --pty PATH, --tcp PORT  a client on the line, in real time\n"
+    "  --lockstep            a client on standard input and output, in virtual time (lockstep.h)\n"
     "  --steps, --vcd FILE   write pulses and waveforms\n"
     "  --ticks reset|timer   the steps' ticks count from power-on or from the start of their timer (reset)\n"
     "  --step-timer TIM2|TIM5  the timer that makes the steps (TIM2)\n"

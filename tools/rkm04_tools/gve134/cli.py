@@ -44,6 +44,12 @@ Without --port and GVE134_PORT it connects to a virtual unit of its own. Connect
 The page is for this machine only: its address has a token, and 127.0.0.1 is not to be reached from
 others. Ctrl-C ends it, and the virtual unit with it; a unit on a line is left as it is.
 """
+BENCH_NOTES = """\
+--target stm32 runs the image of the reference board on the virtual board (modelled, not measured):
+load and late pulses at 4 x 200 000 pulses/s with the line saturated, the queue while gve134 send
+streams over slow converters, the time to an answer, power-on to ready, stack, flash and RAM, each
+with two cycle models. hal/stm32/bench/README.md tells what each figure means. About two minutes.
+"""
 SIM_OPTIONS = [
     ("--inputs", "INPUTS", "what the inputs do over time; all are 1 (open) at the start"),
     ("--steps", "OUT.csv", "write the tick of every pulse"),
@@ -80,6 +86,7 @@ def make_parser() -> Parser:
     serve.add_arguments(add_command(commands, "serve", serve.run, title, serve.EXAMPLE))
     gcode_options.add_arguments(commands)
     _add_service(commands)
+    _add_bench(commands)
     add_board(commands, "gve134")
     add_client_commands(commands, add_command)
     completion.add_command(commands, "gve134", add_command)
@@ -115,6 +122,27 @@ def _add_service(commands: Commands) -> None:
         "--machine", metavar="FILE.rkm", help="the machine (default: that of GVE134_MACHINE)"
     )
     add_page_options(command, 8405)
+
+
+def _bench(options: argparse.Namespace) -> int:
+    """Import what measures only when it is asked for."""
+    if options.target == "host":
+        from rkm04_tools.gve134.bench import host_figures
+
+        return host_figures.run(options)
+    from rkm04_tools.gve134.bench import target
+
+    return target.run(options)
+
+
+def _add_bench(commands: Commands) -> None:
+    title = "measure speed and load, and compare them with their goals"
+    example = f"gve134 bench --json\n  gve134 bench --target stm32\n\n{BENCH_NOTES.rstrip()}"
+    command = add_command(commands, "bench", _bench, title, example)
+    command.add_argument(
+        "--target", choices=["host", "stm32"], default="host",
+        help="what is measured: the tools here, or the image of a board (default: host)",
+    )  # fmt: skip
 
 
 def _add_check(commands: Commands) -> None:

@@ -31,8 +31,9 @@ from rkm04_tools.gve134.unit import POLL_SECONDS, Unit, is_memory_write
 from rkm04_tools.transport import BITS_PER_BYTE
 
 PACKET_COMMANDS_MAX = 64
+PACKET_COMMANDS_FIRST = 32
 PACKET_COMMANDS_MIN = 8
-PACKET_GROWTH = 8
+PACKET_GROWTH = 2
 PACKET_SECONDS = 0.15
 """What H may have to wait for: a packet on the line."""
 PACKET_BYTES_MIN = 300
@@ -65,7 +66,7 @@ class Sender:
     sent: int = 0
     lines: int = 0
     packets: int = 0
-    size: int = PACKET_COMMANDS_MAX
+    size: int = PACKET_COMMANDS_FIRST
     inta: bool = False
     ask_person: Callable[[str], None] = lambda text: None
     executed: Executed | None = None
