@@ -70,6 +70,17 @@ void test_a_reference_run_has_its_numbers_in_their_order(void)
     rig_run_ms(1000);
 }
 
+void test_after_n_all_axes_are_at_0_and_go_on_from_there(void)
+{
+    rig_expect("0L1,2,3,4", "0");
+    rig_run_ms(500);
+    rig_expect("0N", "0");
+    rig_expect("0P4", "0,0,0,0,0");
+    rig_expect("0L5,6,7,8", "0");
+    rig_run_ms(500);
+    rig_expect("0P4", "0,5,6,7,8");
+}
+
 static void enter_two(void)
 {
     rig_expect("0H", "8");
@@ -95,6 +106,9 @@ void test_xm_and_xa_take_the_last_v_and_xu_and_xd_do_not(void)
     TEST_ASSERT_EQUAL_UINT32(GVE_FACTOR_ONE * 17U / 16U, unit.queue.factor);
     expect_speeds(17 * 1000, 17 * 2000);
     rig_expect("0XD", "8");
+    TEST_ASSERT_EQUAL_UINT32(GVE_FACTOR_ONE * 255U / 256U, unit.queue.factor);
+    TEST_ASSERT_EQUAL_UINT32(255000, unit.queue.ring[0].vector.speed);
+    TEST_ASSERT_EQUAL_UINT32(2 * 255000, unit.queue.ring[1].vector.speed);
     rig_expect("0XM200", "8");
     TEST_ASSERT_EQUAL_UINT32(2U * GVE_FACTOR_ONE, unit.queue.factor);
     expect_speeds(16 * 6000, 16 * 6000);
