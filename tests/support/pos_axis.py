@@ -30,6 +30,8 @@ EDGE_LATE = 60 * US
 INITIATOR = 2 * MS
 """From a stand to the start of what waits for it: a pass for the initiator, one for the start."""
 
+RENEWING = MEASURES | {Code.POS_INIT, Code.POS_RESET}
+
 
 class Axis:
     """The state of an axis."""
@@ -53,6 +55,8 @@ class Axis:
         """What CAPTURED_STEPS may be; empty: nothing was captured."""
         self.initiated = 0
         """By then the initiator has done its work."""
+        self.at_once = False
+        """And has found nothing to do."""
         self.stood = -math.inf
         """Until then the unit may not have noticed that the axis stands."""
         self.crystal = True
@@ -72,6 +76,11 @@ class Axis:
         made = self.motion.train.count_until(tick) - self.motion.offset
         return self.seat.moved(made * self.motion.sign)
 
+    @property
+    def goes_on(self) -> bool:
+        """Whether it leaves the next stand by itself."""
+        return self.programmed is not None or self.homing is not None
+
     # --- instructions ---
 
     def take(self, act: Act) -> None:
@@ -80,6 +89,8 @@ class Axis:
         near = self.motion.stand()[0] - MS if bits.jede else math.inf
         if (act.tick > near or act.tick < self.stood) and self._matters(act):
             raise Unsure("an instruction just when the axis comes to stand")
+        if self.at_once and act.tick < self.initiated and act.code in RENEWING:
+            raise Unsure("an instruction just when a measure of no pulses ends")
         if act.code == Code.POS_CONTROL:
             self._control(act)
         else:
@@ -148,12 +159,13 @@ class Axis:
     def initiate(self, act: Act, low: float, high: float) -> None:
         """The axis stands: the measure is there."""
         bits = self.bits
-        bits.inic = False
+        bits.inic, self.at_once = False, False
         self.programmed, self.cut, self.homing = None, False, None
         accel = self.settings.accel(act.values[-1])
         if act.code == Code.POS_HOME:
             self.homing = Homing(self, act, accel)
             self.homing.initiate()
+            self.at_once = bits.pol
         else:
             self.goal = self.goal_of(act)
             step = self._inside(self.goal.step)
@@ -162,6 +174,7 @@ class Axis:
             bits.cont = self.order.end > 0
             bits.pol = not bits.cont
             if bits.pol:
+                self.at_once = True
                 self._reached(low, high)
         self.note(low, high + MS)
         self.go(low, high)

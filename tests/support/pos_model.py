@@ -22,6 +22,9 @@ from pos_words import AXES, MOVES_ORIGIN, MS, REGISTER, US, Code, Error, Mismatc
 NOTICED = 4
 """Ticks after a stand, by when its last pulse has come for sure."""
 
+FAR_APART = 5 * MS // 2
+"""Stands that are further apart cannot be told from what comes after them."""
+
 
 @dataclass
 class Done:
@@ -78,7 +81,10 @@ class Follower:
         """Let the axis come to all stands up to a tick."""
         motion, bits = self.axis.motion, self.axis.bits
         while bits.jede:
-            stands = math.ceil(motion.stand()[1]) + NOTICED
+            first, last = motion.stand()
+            stands = math.ceil(last) + NOTICED
+            if first < tick and last - first > FAR_APART and self.axis.goes_on:
+                raise Unsure("an axis that may stand long before another pulse, or after it")
             motion.verify(min(stands, tick))
             if math.ceil(motion.stand()[1]) + NOTICED <= min(stands, tick):
                 self.axis.stands()

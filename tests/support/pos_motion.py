@@ -15,11 +15,9 @@ import numpy as np
 from pos_change import CHANGE, begun, changed
 from pos_curve import BITS, Curve, Order
 from pos_family import Family, alone, rest_ticks
-from pos_words import MS, Mismatch, Unsure
+from pos_words import Mismatch, Unsure
 
 FAMILIES_MAX = 64
-FAR_APART = 8 * MS
-"""Stands that are further apart cannot be followed together."""
 
 
 @dataclass
@@ -79,10 +77,6 @@ class Motion:
         """Something else is wanted from a tick on, or a little later."""
         self.verify(tick)
         self._keep(changed(self.families, self.seen, tick, order, late))
-        if not order.speed and not any(curve.reaches for curve in self.curves()):
-            first, last = self.stand()
-            if last - first > FAR_APART:
-                raise Unsure("an axis that may stand long before another pulse, or after it")
 
     def _keep(self, families: list[Family]) -> None:
         rng = self.train.growing

@@ -53,7 +53,7 @@ def expected(axis: Axis, tick: int) -> dict[str, set[int]]:
     steps = [axis.seat_at(tick + off).step for off in offsets]
     counted = range(min(steps), max(steps) + 1)
     told["POSITION_STEPS"] = {signed32(step) for step in counted}
-    if len({bits.referenced for bits in states(axis, tick)}) == 1:
+    if tick > axis.initiated and len({bits.referenced for bits in states(axis, tick)}) == 1:
         position = axis.origin.position_of
         told["POSITION"] = {signed32(position(axis.settings, step)) for step in counted}
     if axis.captured:
