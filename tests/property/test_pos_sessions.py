@@ -23,7 +23,7 @@ LATE = 2 * MS
 WRONG_SHARE_MAX = 0.08
 """Of sessions in which the firmware differs from the contract besides."""
 
-UNSURE_SHARE_MAX = 0.5
+UNSURE_SHARE_MAX = 0.6
 """Changes that are late leave more open than the model can follow."""
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 
 from pos_curve import BITS, GAIN, Curve, Leg, Order, moving, started
@@ -58,8 +59,8 @@ def _after(before: Curve | None, curve: Curve) -> Curve:
     """A curve with what came before its stand."""
     if before is None:
         return curve
-    legs = (*before.legs, *curve.legs)
-    return Curve(legs, curve.rest, curve.rest_time, curve.end, curve.blur)
+    start = len(before.legs) if curve.legs else -1
+    return replace(curve, legs=(*before.legs, *curve.legs), start=start)
 
 
 def _from_rests(families: Sequence[Family], order: Order, low: int, late: int) -> Family:
@@ -86,7 +87,9 @@ def changed(
     """The families in which something else is wanted from a tick on, after so many pulses."""
     found: list[Family] = []
     blind: list[tuple[Curve, Places]] = []
-    for family in families:
+    waiting, moving_on = _parted(families, tick)
+    found += [_restarted(family, order) for family in waiting]
+    for family in moving_on:
         sources = [family.base] if family.base and _undone(family, tick) else []
         if family.wide and _few(family, seen, tick, late):
             found += _of_wide(family, seen, tick, order, late)
@@ -102,6 +105,31 @@ def changed(
             raise Unsure("a late change before a start has shown itself")
         found.append(_blindly(blind, seen, (tick, late), order))
     return found
+
+
+def _parted(families: Sequence[Family], tick: int) -> tuple[list[Family], list[Family]]:
+    """Those that have not left the stand at a tick, and the others."""
+    waiting, moving_on = [], []
+    for family in families:
+        if not family.both[0].waits(tick) and not family.both[-1].waits(tick):
+            moving_on.append(family)
+        elif all(curve.waits(tick) for curve in family.both):
+            waiting.append(family)
+        elif isinstance(family, Loose) or not family.starts:
+            raise Unsure("a change just when the axis starts")
+        else:
+            waiting.append(replace(family, low=tick, kept={}))
+            moving_on.append(replace(family, high=tick - 1, kept={}))
+    return waiting, moving_on
+
+
+def _restarted(family: Family, order: Order) -> Family:
+    """The starts that come, with something else wanted."""
+    if isinstance(family, Loose):
+        shape, ticks = family.shape, (family.low, family.high)
+        return loose(lambda n: shape(n).restarted(order), (family.first, family.last), ticks)
+    make = family.make
+    return replace(family, make=lambda i: make(i).restarted(order), kept={})
 
 
 def _between_of(family: Family, seen: int, tick: int, late: int) -> Iterator[tuple[Curve, Places]]:
@@ -137,7 +165,8 @@ def _of_wide(family: Family, seen: int, tick: int, order: Order, late: int) -> I
         yield _composed(family, order, number)
     both = family.both
     soon = any(ceil_tick(curve.rest_time) <= tick + late for curve in both)
-    if not soon and any(list(_places(curve, seen, tick, late)) for curve in both):
+    leads_on = any(list(_places(curve, seen, tick, late)) for curve in both)
+    if not soon and leads_on and seen < max(curve.count for curve in both):
         return
     if not order.speed or all(curve.reaches for curve in both):
         yield family
@@ -201,7 +230,7 @@ def _of_curve(curve: Curve, seen: int, tick: int, order: Order, late: int) -> It
     for per_step, low, high in options:
         yield _family(curve, order, per_step, low, high)
     rests = ceil_tick(curve.rest_time)
-    if options and rests > tick + late:
+    if options and rests > tick + late and seen < curve.count:
         return
     if curve.reaches or not order.speed:
         yield alone(curve)
@@ -221,13 +250,13 @@ def _places(curve: Curve, seen: int, tick: int, late: int) -> Iterator[Places]:
     first = seen + 1
     due = last = NEVER
     lenient = late > CHANGE
-    if curve.rest_time > tick << BITS and first <= curve.count:
+    if curve.rest_time > tick << BITS and first <= curve.count and curve.leg_at(first):
         due, last = ceil_tick(curve.time_of(first)), first
         while last < curve.count and curve.time_of(last + (not lenient)) <= tick + late << BITS:
             last += 1
     between: list[Places] = []
-    if late >= CHANGE and (lenient or due > tick + late):
-        between = list(_between(curve, tick, late, NEVER if lenient else due))
+    if lenient or due > tick + max(late, CHANGE):
+        between = list(_between(curve, tick, max(late, CHANGE), NEVER if lenient else due))
     cruises = between and _leg_during(curve, tick).sign == 0
     if due < NEVER and (not cruises or due <= tick + 2 * late):
         yield 1, first, last

@@ -155,6 +155,8 @@ class Curve:
     """N."""
     blur: float = 0.0
     """By how many steps it may be wrong, as pulses did not tell where a change took effect."""
+    start: int = -1
+    """Which leg is the first after a stand; -1: none."""
 
     @property
     def reaches(self) -> bool:
@@ -219,7 +221,18 @@ class Curve:
         if kept:
             kept[-1] = replace(kept[-1], x1=Fraction(x))
         legs = (*kept, *lay(Fraction(x), at, time, order))
-        return finished(legs, Fraction(x), time, order.end, self.blur)
+        return replace(finished(legs, Fraction(x), time, order.end, self.blur), start=self.start)
+
+    def waits(self, tick: int) -> bool:
+        """Whether it has not left the stand at a tick."""
+        return self.start >= 0 and self.legs[self.start].time >= tick << BITS
+
+    def restarted(self, order: Order) -> Curve:
+        """The curve that leaves the stand at the same time, as something else is wanted."""
+        leg, before = self.legs[self.start], self.legs[: self.start]
+        again = (*before, *lay(leg.x0, Fraction(0), leg.time, order))
+        curve = finished(again, leg.x0, leg.time, order.end, self.blur)
+        return replace(curve, start=self.start if len(again) > len(before) else -1)
 
 
 def lay(x: Fraction, square2: Fraction, time: int, order: Order) -> list[Leg]:
@@ -241,7 +254,8 @@ def finished(legs: tuple[Leg, ...], x: Fraction, time: int, end: int, blur: floa
 
 def started(x: Place, time: int, order: Order, blur: float = 0.0) -> Curve:
     """The curve that leaves a stand at a time."""
-    return moving(Fraction(x), Fraction(0), time, order, blur)
+    curve = moving(Fraction(x), Fraction(0), time, order, blur)
+    return replace(curve, start=0 if curve.legs else -1)
 
 
 def moving(x: Fraction, square2: Fraction, time: int, order: Order, blur: float = 0.0) -> Curve:
