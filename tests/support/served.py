@@ -20,6 +20,7 @@ from frames import FLAG, fcs16, frame, unescape
 ROOT = Path(__file__).resolve().parents[2]
 COMMAND = [sys.executable, "-P", "-m", "rkm04_tools", "serve"]
 GVE_COMMAND = [sys.executable, "-P", "-m", "rkm04_tools.gve134", "serve"]
+POSITIONING_COMMAND = [sys.executable, "-P", "-m", "rkm04_tools.positioning", "serve"]
 PATIENCE_SECONDS = 15.0
 ANSWER = 0x80
 

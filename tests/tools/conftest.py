@@ -18,6 +18,7 @@ from fake_unit import FakeLine, FakeUnit
 from gve134_ports import FakeGveLine
 from rkm04_tools.cli import main, run_tool
 from rkm04_tools.gve134.cli import make_parser as make_gve134_parser
+from rkm04_tools.positioning.cli import make_parser as make_positioning_parser
 from served import Served
 from service_client import Service, build_with_page
 
@@ -87,6 +88,19 @@ def gve(capsys: pytest.CaptureFixture[str]) -> Tool:
     def run(*arguments: str | Path) -> Result:
         capsys.readouterr()
         status = run_tool(make_gve134_parser(), [str(argument) for argument in arguments])
+        printed = capsys.readouterr()
+        return Result(status, printed.out, printed.err)
+
+    return run
+
+
+@pytest.fixture
+def positioning(capsys: pytest.CaptureFixture[str]) -> Tool:
+    """Run a command of `positioning` inside this process."""
+
+    def run(*arguments: str | Path) -> Result:
+        capsys.readouterr()
+        status = run_tool(make_positioning_parser(), [str(argument) for argument in arguments])
         printed = capsys.readouterr()
         return Result(status, printed.out, printed.err)
 

@@ -23,6 +23,8 @@ FILES = (
     "firmware/rkm04/image/image.h",
     "firmware/gve134/command/gve_commands.def",
     "firmware/gve134/image/image.h",
+    "firmware/positioning/registers/registers.def",
+    "firmware/positioning/image/image.h",
 )
 COMMANDS = [name for name, _ in commands_of(make_parser()) if name not in ("build", "size")]
 
@@ -38,6 +40,7 @@ def clone(tmp_path_factory) -> Path:
         shutil.copy(ROOT / name, root / name)
     (root / "tools/service_page").mkdir()
     (root / "tools/gve134").symlink_to("rkm04")
+    (root / "tools/positioning").symlink_to("rkm04")
     return root
 
 
@@ -74,6 +77,19 @@ def test_the_other_tool_needs_no_setup_for_them_either(clone):
         (["chekc", "a.gve"], 2, "gve134: COMMAND chekc is none; did you mean check?; gve134 "),
     ]:
         done = run(clone, "tools/gve134", *arguments)
+        assert done.returncode == status, arguments
+        assert (done.stdout or done.stderr).startswith(begin)
+    assert is_untouched(clone)
+
+
+def test_the_third_tool_needs_no_setup_for_them_either(clone):
+    for arguments, status, begin in [
+        (["--help"], 0, "usage: positioning "),
+        (["sim", "--help"], 0, "usage: positioning sim "),
+        (["--version"], 0, "positioning, with the firmware 01.00"),
+        (["smi", "a.csv"], 2, "positioning: COMMAND smi is none; did you mean sim?; positioning "),
+    ]:
+        done = run(clone, "tools/positioning", *arguments)
         assert done.returncode == status, arguments
         assert (done.stdout or done.stderr).startswith(begin)
     assert is_untouched(clone)

@@ -1,19 +1,15 @@
 #include "pos_serve.h"
 
-#include "base_tick.h"
 #include "pos_kind.h"
 #include "serve.h"
-
-/* A byte at the delivered 19 200 Bd, 8E1. */
-#define BYTE_TICKS (TICK_HZ / 19200U * 11U)
 
 const char pos_serve_usage[] =
     "usage: positioning-host serve [--tcp PORT | --pty PATH] [--node N ...] [--flash FILE] [--speed X]\n"
     "                              [--unpaced] [--control PORT] [--address ADDRESS] [--noise N] [--loss N]\n"
     "                              [--seed N] [--json] [--until-eof]\n"
     "\n"
-    "Units on one line in real time, until Ctrl-C. The line carries Modbus RTU. When ready it prints where it\n"
-    "listens.\n"
+    "Units on one line in real time, until Ctrl-C. The line carries Modbus RTU; bytes take their time as the\n"
+    "stored settings of the units say. When ready it prints where it listens.\n"
     "\n"
     "--tcp PORT        listens there (5000), for the bytes of RTU; 0 takes any free port\n"
     "--pty PATH        makes a pty and the link PATH to it\n"
@@ -39,7 +35,6 @@ static const struct serve_kind kind = {
     .tool = "positioning",
     .order_help = "not understood; write 3=1 or 3=0 for input 3, 2.3=1 for that of unit 2, or ?",
     .flash_mark = "POS4",
-    .byte_ticks = BYTE_TICKS,
     .has_nodes = true,
 };
 

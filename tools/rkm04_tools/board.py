@@ -28,6 +28,7 @@ IMAGES = (UNIT, BRINGUP)
 VERSIONS = {
     UNIT: ("firmware/rkm04/rkm04.h", r'RKM04_VERSION "([^"]+)"'),
     "gve134": ("firmware/gve134/command/gve_commands.def", r'"\?", "0,([^"]*)"'),
+    "positioning": ("firmware/positioning/registers/registers.def", r'^U\(VERSION, .*, (\d+), ""'),
 }
 """Of each unit that there is an image of, where its version stands."""
 RATES = (38_400, 57_600, 115_200, 230_400, 460_800, 921_600)
@@ -108,7 +109,9 @@ def names(unit: str = UNIT) -> list[str]:
 def version(unit: str = UNIT) -> str:
     """The version that the image answers with."""
     file, pattern = VERSIONS[unit]
-    match = re.search(pattern, (ROOT / file).read_text())
+    match = re.search(pattern, (ROOT / file).read_text(), re.MULTILINE)
+    if match and unit == "positioning":
+        return f"{int(match[1]) >> 8:02}.{int(match[1]) & 0xFF:02}"
     return match[1] if match else ""
 
 

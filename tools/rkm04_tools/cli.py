@@ -359,7 +359,7 @@ def add_board(commands: Commands, unit: str = board.UNIT) -> None:
             part.add_argument("--image", choices=board.IMAGES, default=board.UNIT,
                               help="that of the unit, or the one a new board is tried with "
                                    f"(default: {board.UNIT})")  # fmt: skip
-        else:
+        elif board.is_full_duplex(unit):
             part.add_argument("--baud", type=int, choices=board.RATES, default=board.line_bd(unit),
                               help="the rate of the line "
                                    f"(default: {board.line_bd(unit)})")  # fmt: skip

@@ -7,7 +7,7 @@ import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NoReturn
+from typing import NoReturn, TypeAlias
 
 from rkm04_tools import host
 
@@ -25,6 +25,7 @@ Lines on standard input, and on the control port, act while it runs:
 Ctrl-C ends it. Without --flash stored programs end with it; with it, starting it again is like
 switching the units on again: stored programs run at once."""
 
+Place: TypeAlias = "argparse._MutuallyExclusiveGroup"
 Passed = Sequence[tuple[str, str, str]]
 """Options with a value, its name and its help; the C program judges it."""
 
@@ -40,8 +41,8 @@ PASSED_ON: Passed = [
 ]
 
 
-def add_arguments(command: argparse.ArgumentParser, passed_on: Passed = PASSED_ON) -> None:
-    """Add the arguments of the command."""
+def add_arguments(command: argparse.ArgumentParser, passed_on: Passed = PASSED_ON) -> Place:
+    """Add the arguments of the command; what is returned takes more places to listen at."""
     place = command.add_mutually_exclusive_group()
     place.add_argument(
         "--tcp", metavar="PORT", help="listen there (default: 5000; 0: any free port)"
@@ -52,6 +53,7 @@ def add_arguments(command: argparse.ArgumentParser, passed_on: Passed = PASSED_O
     command.add_argument(
         "--unpaced", action="store_true", help="bytes take no time on the line, for tests"
     )
+    return place
 
 
 def run(options: argparse.Namespace) -> NoReturn:
@@ -63,10 +65,11 @@ def become(program: Path, tool: str, options: argparse.Namespace, passed_on: Pas
     """Become the C program of a tool."""
     sys.stdout.flush()
     sys.stderr.flush()
-    os.execv(program, [tool, "serve", *_arguments(options, passed_on)])
+    os.execv(program, [tool, "serve", *arguments_of(options, passed_on)])
 
 
-def _arguments(options: argparse.Namespace, passed_on: Passed) -> list[str]:
+def arguments_of(options: argparse.Namespace, passed_on: Passed) -> list[str]:
+    """What the C program is given of a command line."""
     values = [(flag, value) for flag, *_ in passed_on for value in getattr(options, flag[2:])]
     values += [(flag, getattr(options, flag[2:])) for flag in ("--tcp", "--pty")]
     given = [part for flag, value in values if value is not None for part in (flag, value)]

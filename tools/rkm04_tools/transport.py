@@ -59,14 +59,17 @@ class Port(Transport, Protocol):
         """Close the port, and let nothing of what was sent go out any more that still waits."""
 
 
-def open_transport(name: str, baud: int = BAUD) -> Port:
-    """Open a port by its name: a device, a pty or socket://HOST:PORT."""
+def open_transport(name: str, baud: int = BAUD, form: str = "8N1") -> Port:
+    """Open a port by its name: a device, a pty or socket://HOST:PORT.
+
+    `form`: the bits, parity and stop bits of a serial device.
+    """
     if name.startswith("socket://"):
         match = ADDRESS.fullmatch(name)
         if not match or not 0 < int(match[2]) < 65_536:
             raise Failure(f"{name}: write socket://HOST:PORT, as in socket://127.0.0.1:5000")
         return SocketTransport(name, match[1].strip("[]"), int(match[2]))
-    return SerialTransport(name, baud)
+    return SerialTransport(name, baud, form)
 
 
 class SocketTransport:
@@ -118,12 +121,14 @@ class SocketTransport:
 class SerialTransport:
     """A serial device, a pty, or another URL that pyserial knows."""
 
-    def __init__(self, name: str, baud: int = BAUD) -> None:
+    def __init__(self, name: str, baud: int = BAUD, form: str = "8N1") -> None:
         self.name = name
         try:
             self._port = serial.serial_for_url(
                 name,
                 baudrate=baud,
+                parity=form[1],
+                stopbits=int(form[2]),
                 timeout=SLICE_SECONDS,
                 write_timeout=WRITE_SECONDS,
                 exclusive=True,

@@ -30,7 +30,7 @@ struct serve_line {
     struct serve_noise to_clients;
 };
 
-/* `byte_ticks`: what a byte takes, unless the options say that it takes next to nothing. */
+/* `byte_ticks`: what a byte takes, unless the options say that it takes next to nothing; 0: not known yet. */
 void serve_line_init(struct serve_line *line, struct serve_port *port, uint32_t byte_ticks,
                      const struct serve_options *options);
 

@@ -36,6 +36,17 @@ static enum exit_status add_numbered_unit(struct serve_units *units, uint8_t nod
     return status;
 }
 
+/* Bytes take what the kind says, or else what the unit has set; those of clients what the slowest unit needs. */
+static void pace(struct serve_unit *unit, const struct serve_options *options, struct serve_line *line)
+{
+    if (options->unpaced || unit->kind->byte_ticks != 0) {
+        host_machine_set_byte_ticks(&unit->machine, options->unpaced ? 0 : unit->kind->byte_ticks);
+    }
+    if (!options->unpaced && line->byte_ticks < unit->machine.line.byte_ticks) {
+        line->byte_ticks = unit->machine.line.byte_ticks;
+    }
+}
+
 enum exit_status serve_units_begin(struct serve_units *units, const struct serve_kind *kind,
                                    const struct serve_options *options, struct serve_line *line)
 {
@@ -49,7 +60,7 @@ enum exit_status serve_units_begin(struct serve_units *units, const struct serve
         status = numbered ? add_numbered_unit(units, node, options->flash) : add_unit(units, node, options->flash);
         if (status == EXIT_DONE) {
             serve_unit_attach(units->list[i], line);
-            host_machine_set_byte_ticks(&units->list[i]->machine, options->unpaced ? 0 : kind->byte_ticks);
+            pace(units->list[i], options, line);
         }
     }
     return status;

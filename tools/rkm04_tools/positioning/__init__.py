@@ -1,0 +1,1 @@
+"""The command `tools/positioning`: for the positioning unit what `tools/rkm04` is for the RKM04."""

@@ -1,0 +1,9 @@
+"""Entry of `python -m rkm04_tools.positioning`."""
+
+import sys
+
+from rkm04_tools.cli import run_tool
+from rkm04_tools.positioning.cli import make_parser
+
+if __name__ == "__main__":
+    sys.exit(run_tool(make_parser(), sys.argv[1:]))

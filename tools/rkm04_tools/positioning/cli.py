@@ -1,0 +1,105 @@
+"""The command line of `tools/positioning`."""
+
+from __future__ import annotations
+
+import argparse
+
+from rkm04_tools import board, completion
+from rkm04_tools.cli import Commands, Parser, add_board, add_command
+from rkm04_tools.positioning import check, listing, serve
+
+NAME = "positioning"
+SCRIPT_NOTES = """\
+A script has an instruction in each line, with its time in ms from the start and its axis, 1 to 4:
+  ms,axis,POS_INIT[,space]              ms,axis,POS_MODE_ABS,position,accel
+  ms,axis,POS_MODE,len,accel            ms,axis,POS_HOME,method,position,accel
+  ms,axis,POS_CONTROL,feed[,mp]         ms,axis,POS_CAPTURE
+  ms,axis,POS_RESET                     ms,0,SETTING,register,value
+  ms,axis,READ                          # begins a comment
+Ways and positions are in um, accelerations in mm/s2, feeds in 1/65536 mm/min, or as 1000mm/min.
+"""
+SIM_NOTES = """\
+What READ has found is shown, and each instruction that is refused; then, and where an axis has an
+error at the end, the exit status is 1.
+INPUTS has lines ms,input,level such as 350.5,3,1: BI3 becomes 1 at 350.5 ms. All begin at 0.
+
+The simulation ends when the script is over and the axes stand, or at the limit of time. Steps,
+trace and waveforms are those of rkm04 sim, with motors 1 to 4 for axes 1 to 4.
+"""
+SIM_OPTIONS = [
+    ("--inputs", "INPUTS", "what the inputs do over time; all are 0 at the start"),
+    ("--steps", "OUT.csv", "write the tick of every pulse"),
+    ("--trace", "OUT.csv", "write moves and stops"),
+    ("--vcd", "OUT.vcd", "write the waveforms for a viewer such as GTKWave"),
+    ("--plot", "OUT", "draw speeds, positions and signals: a name ending in .svg or .png"),
+]
+FORMS = [
+    ("--csv", "csv", "a row for each register of the line"),
+    ("--md", "md", "tables in Markdown, as in the document"),
+    ("--st", "st", "constants in Structured Text"),
+    ("--json", "json", "one JSON object: registers, images, codes, bits"),
+]
+
+
+def make_parser() -> Parser:
+    """The parser of the whole command line."""
+    parser = Parser(
+        prog=NAME,
+        description="Tools for the positioning unit, whose four axes a PLC moves over Modbus.",
+        epilog="positioning COMMAND --help shows an example of each command.",
+        allow_abbrev=False,
+    )
+    parser.add_argument(
+        "--version", action="version",
+        version=f"positioning, with the firmware {board.version(NAME)}",
+        help="show the version and end",
+    )  # fmt: skip
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    _add_check(commands)
+    _add_sim(commands)
+    title = "a unit without hardware: it runs in real time and speaks Modbus, RTU or TCP"
+    serve.add_arguments(add_command(commands, "serve", serve.run, title, serve.EXAMPLE))
+    _add_registers(commands)
+    add_board(commands, NAME)
+    completion.add_command(commands, NAME, add_command)
+    return parser
+
+
+def _sim(options: argparse.Namespace) -> int:
+    """Import the drawing of pictures only when it may be needed: it takes long."""
+    from rkm04_tools.positioning import sim
+
+    return sim.run(options)
+
+
+def _add_check(commands: Commands) -> None:
+    title = "find out whether scripts can be read"
+    example = f"positioning check moves.csv\n\n{SCRIPT_NOTES.rstrip()}"
+    command = add_command(commands, "check", check.run, title, example)
+    command.add_argument("files", nargs="+", metavar="FILE", help="a script; -: standard input")
+
+
+def _add_sim(commands: Commands) -> None:
+    title = "play a script of instructions to the simulated unit, in virtual time"
+    example = (
+        "positioning sim moves.csv --plot moves.svg\n"
+        "  positioning sim moves.csv --inputs inputs.csv --for 10 --vcd moves.vcd"
+    )
+    notes = f"{SCRIPT_NOTES}\n{SIM_NOTES.rstrip()}"
+    command = add_command(commands, "sim", _sim, title, f"{example}\n\n{notes}")
+    command.add_argument("file", metavar="FILE", help="a script (.csv); -: standard input")
+    command.add_argument(
+        "--for", metavar="SECONDS", dest="seconds", default="60",
+        help="end at this unit time at the latest (default: 60)",
+    )  # fmt: skip
+    for flag, metavar, text in SIM_OPTIONS:
+        command.add_argument(flag, metavar=metavar, help=text)
+
+
+def _add_registers(commands: Commands) -> None:
+    title = "print the table of all registers, of Modbus and of the settings"
+    example = "positioning registers --csv > registers.csv"
+    command = add_command(commands, "registers", listing.run, title, example, has_json=False)
+    forms = command.add_mutually_exclusive_group(required=True)
+    for flag, form, text in FORMS:
+        forms.add_argument(flag, action="store_const", const=form, dest="form", help=text)
