@@ -3,37 +3,24 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import pytest
-from fake_positioning import CODES
-from plc_cycle import Plc
-from st_program import Instance
-
-INIT, MODE, RESET, MODE_ABS, HOME, CAPTURE = (
-    CODES[name]
-    for name in ("POS_INIT", "POS_MODE", "POS_RESET", "POS_MODE_ABS", "POS_HOME", "POS_CAPTURE")
+from plc_moves import (
+    GO,
+    HOME,
+    INIT,
+    LOCKED,
+    MODE,
+    MODE_ABS,
+    NOT_ONLINE,
+    OUT_OF_RANGE,
+    PREEMPTED,
+    RESET,
+    feed,
+    finish,
+    moving,
 )
-GO = {"Velocity": 50.0, "Acceleration": 500.0}
-NOT_ONLINE, LOCKED, OUT_OF_RANGE, PREEMPTED = 0x8001, 0x8002, 0x8003, 0x8004
-
-
-def feed(axis: Instance) -> int:
-    high, low = axis["Out"][6:8]
-    return int(high) << 16 | int(low)
-
-
-def finish(plc: Plc, block: Instance) -> None:
-    plc.until(lambda: not block["Busy"])
-
-
-def moving(plc: Plc, **inputs: float) -> Instance:
-    """A relative move that is under way."""
-    values: dict[str, Any] = {"Distance": 100.0, **GO, **inputs}
-    move = plc.start("MC_MoveRelative", **values)
-    plc.until(lambda: plc.unit.axes[0].has("JEDE"))
-    plc.run(5)
-    return move
+from st_program import Instance
 
 
 def test_a_rising_edge_takes_the_inputs_and_sets_busy_in_the_same_call(plc) -> None:
@@ -452,90 +439,3 @@ def test_axes_move_side_by_side(plc) -> None:
         moves.append(plc.add("MC_MoveRelative", axis, Execute=True, Distance=float(axis), **GO))
     plc.until(lambda: all(move["Done"] for move in moves))
     assert [axis.position for axis in plc.unit.axes] == [0, 2000, 3000, 4000]
-
-
-def test_a_move_that_is_over_asks_for_no_feed(plc) -> None:
-    move = plc.start("MC_MoveRelative", Distance=1.0, **GO)
-    plc.until(lambda: feed(plc.axes[0]) > 0)
-    finish(plc, move)
-    assert feed(plc.axes[0]) == 0
-
-
-def test_a_move_that_begins_anew_with_a_bad_input_is_held(plc) -> None:
-    move = moving(plc)
-    move["Execute"] = False
-    plc.run(1)
-    move["Execute"], move["Velocity"] = True, -1.0
-    plc.run(1)
-    finish(plc, move)
-    assert move["ErrorID"] == OUT_OF_RANGE
-    plc.until(lambda: not plc.unit.axes[0].has("JEDE"))
-    assert plc.unit.axes[0].position < 100000
-
-
-def test_reset_leaves_the_axis_to_a_stop_that_comes_while_it_waits(plc) -> None:
-    moving(plc, Acceleration=50.0)
-    plc.run(60)
-    plc.unit.axes[0].fault(7)
-    plc.run(5)
-    reset = plc.start("MC_Reset")
-    plc.run(1)
-    assert reset["Busy"]
-    stop = plc.start("MC_Stop")
-    finish(plc, reset)
-    finish(plc, stop)
-    assert (reset["Done"], stop["Done"]) == (True, True)
-    assert plc.unit.axes[0].executed == [INIT, MODE, INIT]
-
-
-def test_reset_does_not_take_the_axis_while_stop_holds_it(plc) -> None:
-    moving(plc, Acceleration=50.0)
-    plc.run(60)
-    plc.unit.axes[0].fault(7)
-    plc.run(5)
-    reset = plc.start("MC_Reset")
-    stop = plc.start("MC_Stop")
-    plc.until(lambda: stop["Done"])
-    plc.unit.axes[0].fault(7)
-    again = plc.start("MC_Reset")
-    plc.run(1)
-    assert (reset["Done"], again["ErrorID"]) == (True, LOCKED)
-
-
-def test_reset_waits_until_the_axis_stands(plc) -> None:
-    moving(plc, Acceleration=50.0)
-    plc.run(60)
-    plc.unit.axes[0].fault(7)
-    plc.run(5)
-    reset = plc.start("MC_Reset")
-    plc.until(lambda: not plc.unit.axes[0].has("JEDE"))
-    assert plc.unit.axes[0].executed == [INIT, MODE]
-    finish(plc, reset)
-    assert plc.unit.axes[0].executed == [INIT, MODE, INIT]
-
-
-def test_stop_holds_the_axis_even_when_it_is_not_online(plc) -> None:
-    plc.cut = True
-    plc.until(lambda: not plc.axes[0]["Online"])
-    stop = plc.start("MC_Stop")
-    plc.run(1)
-    assert stop["ErrorID"] == NOT_ONLINE
-    plc.cut = False
-    plc.until(lambda: plc.axes[0]["Online"])
-    move = plc.start("MC_MoveRelative", Distance=1.0, **GO)
-    finish(plc, move)
-    assert move["ErrorID"] == LOCKED
-    stop["Execute"] = False
-    plc.run(1)
-    move = plc.start("MC_MoveRelative", Distance=1.0, **GO)
-    finish(plc, move)
-    assert move["Done"]
-
-
-def test_a_probe_whose_unit_has_restarted_is_aborted(plc) -> None:
-    plc.unit.axes[0].captures = 7
-    probe = plc.start("MC_TouchProbe")
-    plc.run(10)
-    plc.unit.restart()
-    finish(plc, probe)
-    assert probe["CommandAborted"]
