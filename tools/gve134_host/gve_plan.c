@@ -101,13 +101,13 @@ static void note_course(struct planner *planner, const struct path_section *sect
 static void begin_chain(struct planner *planner)
 {
     if (outfile_is_open(&planner->course)) {
-        put_place(planner, NAN);
+        put_place(planner, (double)NAN);
     }
     bool started = path_start(&planner->path, 0);
     (void)started;
     planner->moves = true;
     planner->chains++;
-    planner->seconds += (double)planner->modal.pause_ms / MS_PER_S;
+    planner->seconds += (double)planner->modal.pause_ms / (double)MS_PER_S;
 }
 
 static void lay_section(struct planner *planner)
