@@ -102,6 +102,7 @@ MODULES = (
         "gve-queue", "gve134/queue", ("gve_queue.c", "gve_queue_home.c", "gve_queue_stop.c"), (),
         ("unit/gve134/queue", "system/gve134"),
     ),
+    Module("gve-unit", "gve134", ("gve134_execute.c", "gve134_packet.c"), (), ("system/gve134",)),
     Module("group", "engine/group", ("group.c", "group_change.c"), (), ("system/group",)),
 )  # fmt: skip
 
