@@ -255,13 +255,14 @@ static bool serve_next(struct gve134 *unit)
     return served;
 }
 
-/* True: there may be more. */
+/* One request, or as many of a packet as there is time for: these only wait for its end. True: there may be more. */
 static bool serve_some(struct gve134 *unit)
 {
     uint64_t until = hal_time_now() + SERVE_TICKS;
-    bool served = true;
-    for (unsigned count = 0; served && count < (unsigned)SERVED_MAX && hal_time_now() < until; count++) {
-        served = serve_next(unit);
+    bool served = serve_next(unit);
+    bool more = served;
+    for (unsigned count = 1; more && unit->packet.open && count < (unsigned)SERVED_MAX; count++) {
+        more = hal_time_now() < until && serve_next(unit);
     }
     return served;
 }
