@@ -70,6 +70,7 @@ def test_the_answer_for_scripts_is_one_object(check: Check) -> None:
     assert status == 1
     assert file == {
         "file": "a.gve", "ok": False, "commands": 1, "errors": [error], "more_errors": 0,
+        "warnings": [],
     }  # fmt: skip
 
 
@@ -233,3 +234,13 @@ def test_the_document_has_the_refusals_of_the_table() -> None:
         for name in names.split(", ")
     }
     assert shown == {row.text: row.states for row in host.commands() if row.states != "00000"}
+
+
+def test_what_is_for_the_host_after_a_command_is_warned_of(check: Check) -> None:
+    status, out, err = check("L100 ;@wait 1\n;@wait 2\nL1 ; see ;@probe\n  ;@probe\n")
+
+    assert (status, err) == (0, "")
+    assert out.splitlines()[0] == (
+        "a.gve:1:6: warning: ;@wait after a command is only a comment; give it a line of its own"
+    )
+    assert out.count("warning") == 1

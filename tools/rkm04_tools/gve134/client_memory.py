@@ -19,6 +19,8 @@ LINE = re.compile(r"([0-9A-Fa-f]{2}):((?:[ \t]+[0-9A-Fa-f]{2})+)")
 READS = {"byte": "ER", "word": "EUR", "float": "EFR"}
 WRITES = {"byte": "EW", "word": "EUW", "float": "EFW"}
 HEAD = "; memory of a GVE134: place: bytes, all hexadecimal\n"
+END = "; end of the memory\n"
+"""A backup that begins with the one and does not end with the other was cut off."""
 
 
 def run_get(options: Namespace) -> int:
@@ -65,6 +67,7 @@ def run_backup(options: Namespace) -> int:
         f"{place:02X}: {content[place : place + ROW_BYTES].hex(' ').upper()}\n"
         for place in range(0, MEMORY_BYTES, ROW_BYTES)
     )
+    text += END
     path = named(options.file)
     if options.file == STANDARD_INPUT:
         sys.stdout.write(text)
@@ -143,9 +146,22 @@ def read_file(name: str) -> dict[int, int]:
                 what = "is past the end FF" if place >= MEMORY_BYTES else "is there twice"
                 raise Failure(f"{where}: place {place:02X} {what}", NOT_SO)
             content[place] = int(value, 16)
+    if _is_cut_off(source.text, len(content)):
+        raise Failure(
+            f"{source.name}: this backup was cut off, it has {len(content)} of {MEMORY_BYTES} "
+            "bytes and no end; nothing was done with it; take another one",
+            NOT_SO,
+        )
     if not content:
         raise Failure(f"{source.name}: has no bytes; memory backup writes such a file", NOT_SO)
     return content
+
+
+def _is_cut_off(text: str, count: int) -> bool:
+    """Of a backup as it is written here; other files have what places they want."""
+    lines = text.splitlines()
+    whole = count == MEMORY_BYTES or END.strip() in lines
+    return bool(lines) and lines[0] == HEAD.strip() and not whole
 
 
 def _read_all(unit: Unit, bar: Bar) -> bytes:

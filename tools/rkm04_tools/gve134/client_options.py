@@ -12,6 +12,8 @@ from importlib import import_module
 from textwrap import fill
 from typing import Any
 
+from rkm04_tools.gve134.gcode.options import add_turning
+
 PORT_HELP = "a serial device, socket://HOST:PORT or a pty (or GVE134_PORT)"
 BAUDS = (38_400, 57_600, 115_200, 230_400, 460_800, 921_600)
 BAUD_DEFAULT = 115_200
@@ -227,6 +229,7 @@ def _add_own(name: str, command: argparse.ArgumentParser) -> None:
             "--machine", metavar="FILE.rkm",
             help="the machine for G-code (default: that of GVE134_MACHINE)",
         )  # fmt: skip
+        add_turning(command)
         command.add_argument(
             "--no-wait", dest="wait", action="store_false", help="do not wait for the axes"
         )

@@ -16,11 +16,12 @@ from rkm04_tools.gve134.check import SHOWN_MAX, Checked
 from rkm04_tools.gve134.client_base import unit_of
 from rkm04_tools.gve134.gcode.axes import read_mill
 from rkm04_tools.gve134.gcode.command import machine_of
+from rkm04_tools.gve134.gcode.options import START_DEFAULT, TOLERANCE_DEFAULT
 from rkm04_tools.gve134.gcode.reading import lines_of
 from rkm04_tools.gve134.gcode.turning import turn_file
 from rkm04_tools.gve134.job import job_of
-from rkm04_tools.gve134.link_errors import LineError, NotConfirmed, Restarted
-from rkm04_tools.gve134.sending import Sender
+from rkm04_tools.gve134.link_errors import LineError, NotConfirmed, Refused, Restarted
+from rkm04_tools.gve134.sending import Interrupted, Sender
 from rkm04_tools.gve134.source import read_source
 from rkm04_tools.gve134.state import AXES, positions_text
 from rkm04_tools.gve134.stopping import Stopper, guarded
@@ -46,8 +47,10 @@ def run_send(options: Namespace) -> int:
     with unit_of(options) as unit, Bar("executing") as bar:
         if _is_gcode(options):
             here = positions_text(unit.positions())
+            start = ",".join(f"{at:g}" for at in options.start)
+            at = "position 0" if options.start == START_DEFAULT else f"position {start}"
             print(
-                f"gve134: {source.name}: position 0 of the program is where the axes stand, {here},"
+                f"gve134: {source.name}: {at} of the program is where the axes stand, {here},"
                 " unless its G28 or G92 says otherwise",
                 file=sys.stderr,
             )
@@ -62,19 +65,25 @@ def run_send(options: Namespace) -> int:
             )
         except (NotConfirmed, Restarted):
             raise
+        except (Interrupted, Refused) as error:
+            raise Failure(f"{error}; {sender.spindle_text}", error.status) from None
         except LineError as error:
             what = "no vector was sent"
             if sender.sent:
                 what = f"{sender.sent} of {count_of(job.vectors, 'vector')} were sent and go on"
                 what += " by themselves"
             text = f"{error}; {what}: whether the axes move is NOT KNOWN"
-            raise Failure(text, error.status) from None
+            raise Failure(f"{text}; {sender.spindle_text}", error.status) from None
+        except Failure as error:
+            raise Failure(f"{error}; {sender.spindle_text}", error.status) from None
 
 
 def vectors_of(options: Namespace) -> Source | None:
     """The commands of a file, whatever kind of file it is; None: it has errors, which are shown."""
     if _is_gcode(options):
         return _turned(options)
+    if options.start != START_DEFAULT or options.tolerance != TOLERANCE_DEFAULT:
+        raise Failure(f"{options.file}: --start and --tolerance are for G-code, leave them out")
     return read_source(options.file)
 
 
@@ -87,7 +96,10 @@ def _turned(options: Namespace) -> Source | None:
     path, mill = named(options.file), read_mill(machine_of(options))
     pieces: list[str] = []
     with Bar("turning") as bar:
-        turned = turn_file(lines_of(path, bar.show), path.name, mill, pieces.append)
+        turned = turn_file(
+            lines_of(path, bar.show), path.name, mill, pieces.append,
+            options.tolerance, options.start,
+        )  # fmt: skip
     for kind, problems in (("error", turned.problems), ("warning", turned.warnings)):
         for each in problems[:SHOWN_MAX]:
             print(f"{path}:{each.line}:{each.column}: {kind}: {each.message}", file=sys.stderr)
@@ -97,8 +109,11 @@ def _turned(options: Namespace) -> Source | None:
 def is_good(source: Source) -> bool:
     """Whether the firmware's own parser has nothing to say; else that is shown."""
     parsed = host.check(source.text)
+    checked = Checked(source, parsed)
     if parsed.errors:
-        Checked(source, parsed).report(sys.stderr)
+        checked.report(sys.stderr)
+    else:
+        checked.warn(sys.stderr)
     return not parsed.errors
 
 
@@ -135,7 +150,9 @@ class Progress:
 
 def _executed(sender: Sender, halted: Halted) -> str:
     """What to tell of the vectors once the axes stand; nothing of a unit that has restarted."""
-    return "" if halted.restarted else f"; {sender.executed_text(halted.positions)}"
+    if halted.restarted:
+        return ""
+    return f"; {sender.executed_text(halted.positions)}; {sender.spindle_text}"
 
 
 def _send(options: Namespace, sender: Sender, bar: Bar, stopper: Stopper) -> int:

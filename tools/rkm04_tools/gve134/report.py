@@ -72,7 +72,7 @@ def _row(axis: Mapping[str, Any]) -> Sequence[str]:
 def _counts(answer: Mapping[str, Any]) -> str:
     text = f"{thousands(answer['commands'])} commands, {thousands(answer['vectors'])} vectors"
     if answer["repeats"]:
-        text += f", {thousands(answer['repeats'])} times no room"
+        text += f"; lines sent again as the queue was full: {thousands(answer['repeats'])}"
     return text
 
 

@@ -14,6 +14,7 @@ brought about. What a line asks of the host (`gcode.directives`) is done when it
 
 from __future__ import annotations
 
+import re
 from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -45,6 +46,8 @@ SWITCH_NOT_FOUND = "its switch was not found, or not let go, within the ways tha
 BEGINS_ANEW = ("D", "G", "J", "H", "R")
 """What may stand first in a file for a unit that was interrupted."""
 
+SPINDLE_SET = re.compile(r"!7V(\d+)")
+
 Tell = Callable[[int], None]
 
 
@@ -68,6 +71,8 @@ class Sender:
     packets: int = 0
     size: int = PACKET_COMMANDS_FIRST
     inta: bool = False
+    spindle: int | None = None
+    """In 0.1 %, as the file has set it last; None: not known."""
     ask_person: Callable[[str], None] = lambda text: None
     executed: Executed | None = None
     _under_way: list[Command] = field(default_factory=list)
@@ -254,7 +259,11 @@ class Sender:
         unit = self.unit
         flags = self._wait_until_stands()
         if not flags.has(INTA) or flags.has(INTCOM):
-            raise Failure(f"{self._where(command)}: nothing was touched on the way", NOT_SO)
+            raise Failure(
+                f"{self._where(command)}: nothing was touched on the way; the axes stand at "
+                f"{positions_text(unit.positions())}",
+                NOT_SO,
+            )
         touched, stand = unit.positions(latched=True), unit.positions()
         if int(unit.order("SR4").values, 16):
             raise self.interrupted(self._where(command))
@@ -275,7 +284,26 @@ class Sender:
         if self.executed is not None:
             self.executed.stood(unit.positions())
 
+    @property
+    def spindle_text(self) -> str:
+        """Whether the spindle turns, as the file has set it: the unit cannot be asked."""
+        if self.spindle is None:
+            return "whether the spindle turns is NOT KNOWN: this file has not set it"
+        if self.spindle == 0:
+            return "the spindle is off"
+        return f"THE SPINDLE TURNS at {self.spindle / 10:g} %, gve134 spindle 0 stops it"
+
+    def _note_spindle(self, text: str) -> None:
+        if match := SPINDLE_SET.fullmatch(text):
+            self.spindle = int(match[1])
+        elif text in ("J", "!7J"):
+            self.spindle = 0
+        elif text.startswith("O0"):
+            self.spindle = None
+
     def _taken(self, commands: list[Command]) -> None:
+        for command in commands:
+            self._note_spindle(command.text)
         self._begun.clear()
         self._waits = 0
         self.lines += len(commands)

@@ -100,12 +100,19 @@ class Status:
             for n, name in INTERRUPTS.items()
         }
 
+    def _unnamed(self) -> str:
+        """What stopped the axes where no interrupt and no H did."""
+        flags = self.flags
+        if flags.has(INTA) and not flags.has(RUN | NO_CRYSTAL | FAULT):
+            return "a reference run (W) that failed: its switch was not found, or not let go"
+        return "what the unit does not tell" if flags.has(INTA) else "nothing"
+
     def as_text(self) -> str:
         """For people."""
         rows = [
             ("state", self.flags.text),
             ("RUN, INTA", f"{self.flags.has(RUN):d}, {self.flags.has(INTA):d}"),
-            ("stopped by", ", ".join(self.causes) or "nothing"),
+            ("stopped by", ", ".join(self.causes) or self._unnamed()),
             ("queue", "no vector fits" if self.flags.has(FULL) else "has room"),
         ]
         for name, each in self._interrupts().items():

@@ -6,6 +6,8 @@ import argparse
 
 from rkm04_tools.cli import Commands, add_command
 
+TOLERANCE_DEFAULT = 0.01
+START_DEFAULT = (0.0,) * 4
 TITLE = "turn G-code into vectors for the unit, and tell what the unit would make of them"
 EXAMPLE = """\
 gve134 gcode pocket.nc --machine mill.rkm
@@ -30,18 +32,23 @@ def add_arguments(commands: Commands) -> None:
     command.add_argument("-o", "--output", metavar="OUT.gve", help="write the vectors")
     command.add_argument("--machine", metavar="FILE.rkm",
                          help="the machine (default: that of GVE134_MACHINE)")  # fmt: skip
-    command.add_argument("--tolerance", metavar="MM", type=_tolerance, default=0.01,
-                         help="how far a chord may be from its arc, 0.0001 to 1 (default: 0.01)"
-                         )  # fmt: skip
-    command.add_argument("--start", metavar="X,Y,Z,A", type=_start, default=(0.0,) * 4,
-                         help="where the axes stand at the beginning, in mm and degrees "
-                              "(default: 0,0,0,0)")  # fmt: skip
+    add_turning(command)
     command.add_argument("--xy", metavar="OUT",
                          help="draw the path in X and Y, coloured by speed: a name ending in .svg "
                               "or .png")  # fmt: skip
     command.add_argument("--check", action="store_true",
                          help="only find what is wrong: no preview, and nothing is written"
                          )  # fmt: skip
+
+
+def add_turning(command: argparse.ArgumentParser) -> None:
+    """What every command takes that turns programs."""
+    command.add_argument("--tolerance", metavar="MM", type=_tolerance, default=TOLERANCE_DEFAULT,
+                         help="how far a chord may be from its arc, 0.0001 to 1 (default: 0.01)"
+                         )  # fmt: skip
+    command.add_argument("--start", metavar="X,Y,Z,A", type=_start, default=START_DEFAULT,
+                         help="where the axes stand at the beginning, in mm and degrees "
+                              "(default: 0,0,0,0)")  # fmt: skip
 
 
 def _tolerance(text: str) -> float:

@@ -21,6 +21,10 @@ GEOMETRY = "RIJKXYZAF"
 """The words to which a motion that cannot be is put down."""
 
 MOVES_ONLY = frozenset("XYZAF")
+PATH_TOLERANCE = (
+    "G64 takes no tolerance (P) here: the path is kept exactly, and corners are slowed by the "
+    "machine file's jumps; write G64 alone"
+)
 ALWAYS = frozenset("XYZAFST")
 OF_ARCS = frozenset("IJKR")
 
@@ -123,4 +127,6 @@ class Program:
             taken -= set(LETTERS)
         for letter in block.values:
             if letter not in taken:
+                if letter == "P" and "path" in block.codes:
+                    raise Wrong(letter, PATH_TOLERANCE)
                 raise Wrong(letter, f"{letter} has no meaning in this line")

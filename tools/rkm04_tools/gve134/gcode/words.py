@@ -20,6 +20,11 @@ LINE_LETTERS_MAX = 1000
 """The longest line, in characters: far more than any block has."""
 
 TEXT_SHOWN_MAX = 20
+O_WORD = re.compile(r"[ \t]*(?:[Nn][0-9]+[ \t]*)?()[Oo][ \t]*(?:<[^>]*>?|[0-9]+)[ \t]*[A-Za-z].*")
+O_WORDS = (
+    "subprograms, loops and branches (o... sub, call, while, if) are LinuxCNC's and not known "
+    "here; let the CAM program write them out, as it does for grbl"
+)
 FOREIGN = {
     "#": "parameters (#) are not known here; write numbers",
     "[": "expressions ([ ]) are not known here; write numbers",
@@ -70,6 +75,8 @@ def read_line(text: str) -> Line:
         return Line(WORD.findall(upper), comment, [])
     if upper.strip(" \t") == "%":
         return Line([("%", "")], comment, [])
+    if match := O_WORD.fullmatch(code):
+        return Line([], comment, [Trouble(match.end(1) + 1, O_WORDS)])
     return Line([], comment, _troubles(code))
 
 
