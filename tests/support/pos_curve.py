@@ -211,11 +211,10 @@ class Curve:
         return self.rest
 
     def changed(self, x: Place, order: Order) -> Curve:
-        """The curve on which something else is wanted from a place on."""
-        leg = self.leg_at(x)
-        if leg is None:
-            assert self.legs, "a curve that stands is not changed"
-            leg = self.legs[0]
+        """The curve on which something else is wanted from a place on, if it comes there."""
+        if not self.legs or not self.legs[0].x0 <= x <= self.rest:
+            return self
+        leg = self.leg_at(x) or self.legs[0]
         at, time = leg.square2_at(x), leg.time_at(x)
         kept = [each for each in self.legs if each.x0 < x]
         if kept:
