@@ -166,7 +166,7 @@ def _of_wide(family: Family, seen: int, tick: int, order: Order, late: int) -> I
     both = family.both
     soon = any(ceil_tick(curve.rest_time) <= tick + late for curve in both)
     leads_on = any(list(_places(curve, seen, tick, late)) for curve in both)
-    if not soon and leads_on and seen < max(curve.count for curve in both):
+    if not soon and leads_on and seen < min(curve.count for curve in both):
         return
     if not order.speed or all(curve.reaches for curve in both):
         yield family
