@@ -112,6 +112,13 @@ def test_before_an_l_and_an_n_all_is_executed() -> None:
     assert executed.look((-65, 0, 0, 0)) == 4
 
 
+def test_axes_that_go_back_are_on_the_next_vector() -> None:
+    executed = Executed((0, 0, 0, 0))
+    executed.taken(commands("C9,0,0,0", "C-9,0,0,0", "C9,0,0,0"))
+
+    assert [executed.look((x, 0, 0, 0)) for x in (2, 6, 5, 1, 1, 4)] == [0, 0, 1, 1, 1, 2]
+
+
 def test_the_pulses_of_a_coupled_axis_are_no_matter() -> None:
     executed = Executed((0, 0, 0, 0))
     executed.taken(commands("C5,0,0,0", "C5,0,0,0"))
@@ -145,6 +152,14 @@ def test_at_the_end_of_a_job_all_is_executed() -> None:
     sending.finish()
 
     assert sending.look() == 300
+
+
+def test_after_a_reference_run_the_vectors_are_followed() -> None:
+    sending = sender(FakeGve(vector_s=0.01), "C10\nWX-5,10,5,10\nNX70\nC1\nC1\n")
+    sending.send()
+    sending.finish()
+
+    assert sending.look() == 3
 
 
 def test_an_interrupt_tells_how_many_vectors_were_executed_and_sent() -> None:

@@ -2,8 +2,8 @@
 
 A unit tells neither how many wait nor which one runs. But it holds 128 at most, they lie on a path
 that is known, and L and N are taken only when nothing waits. So the vector is looked for on whose
-line all axes stand, from the last one known on. Where the path comes by the same place again the
-first is meant: the number may be too low for a while, never too high.
+line all axes stand, from the last one known on; on that they do not go back. Where the path comes
+by the same place again the first is meant: the number may be too low for a while, never too high.
 """
 
 from __future__ import annotations
@@ -31,10 +31,18 @@ class Executed:
         """So many are over; None: it is not known any more."""
         self._place = list(place)
         self._waiting: deque[Steps] = deque()
+        self._gone = 0
+        """Pulses of all axes that were seen of the first of them."""
         self._places = 0
         """Those of the queue that vectors take which wait; one without motion takes none."""
         self._moved = [False] * len(AXES)
         """The axes that the job has moved; of a coupled A the positions are those of another."""
+
+    @property
+    def place(self) -> Positions:
+        """Where the first vector begins that is not over."""
+        x, y, z, a = self._place
+        return x, y, z, a
 
     def taken(self, commands: Iterable[Command]) -> None:
         """The unit has taken these."""
@@ -67,9 +75,11 @@ class Executed:
         ahead = [*self._waiting, *(steps_of(each) for each in perhaps if each.is_vector)]
         for number, steps in enumerate(ahead):
             ways = self._ways(at, place)
-            if is_on(steps, ways):
+            gone = sum(map(abs, ways))
+            if is_on(steps, ways) and (number > 0 or gone >= self._gone):
                 over = number + (ways == steps)
                 self._pass(min(over, known))
+                self._gone = gone if over == number < known else 0
                 return None if self.done is None else self.done + max(0, over - known)
             at = [here + each for here, each in zip(at, steps, strict=True)]
         return self.done
@@ -81,6 +91,7 @@ class Executed:
         )
 
     def _pass(self, count: int) -> None:
+        self._gone = 0 if count else self._gone
         for _ in range(count):
             steps = self._waiting.popleft()
             self._places -= any(steps)

@@ -309,7 +309,13 @@ class Sender:
         self.lines += len(commands)
         self.sent += sum(command.is_vector for command in commands)
         self._under_way = []
-        if self.executed is not None:
+        if self.executed is None:
+            return
+        if any(
+            command.letter == "W" for command in commands
+        ):  # has been answered, so the axes stand
+            self.executed.stood(self.unit.positions())
+        else:
             self.executed.taken(commands)
 
     # ---- what has been executed ----

@@ -137,7 +137,7 @@ class Connection:
         corners: list[Positions] = []
         progress = None
         if job and job.is_open:
-            corners = list(job.tracker.see(positions, job.sender.sent, is_at_rest))
+            corners = job.see(positions, is_at_rest)
             percent = self.known.percent
             progress = job.progress(flags, None if percent is None else percent / 100)
         made = [place[:3] for place in self.made.go(corners, positions)]

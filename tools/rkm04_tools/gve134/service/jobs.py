@@ -11,7 +11,6 @@ from rkm04_tools.gve134.sending import Interrupted, Sender
 from rkm04_tools.gve134.service import acting, working
 from rkm04_tools.gve134.service.board import Board
 from rkm04_tools.gve134.service.connection import Connection
-from rkm04_tools.gve134.service.course import Tracker
 from rkm04_tools.gve134.service.files import File
 from rkm04_tools.gve134.service.heard import step_towards
 from rkm04_tools.gve134.state import RUN, positions_text
@@ -55,7 +54,7 @@ class Jobs:
         self._board.change(wanted=None)
         self._line.begin_way()
         sender = Sender(unit, file.job, lambda _: self._between(), ask_person=self._ask_person)
-        self._line.job = working.Work(file, sender, Tracker(file.course, begin), begin)
+        self._line.job = working.Work(file, sender, begin)
         return self._work(unit)
 
     def go_on(self, unit: Unit) -> str:
@@ -106,7 +105,7 @@ class Jobs:
         assert unit is not None
         assert job is not None
         self._beside(unit)
-        if time.monotonic() >= self._line.look_due or job.is_at_sync:
+        if time.monotonic() >= self._line.look_due:
             self._line.look(unit, LOOK_SECONDS if job.phase == working.SENDING else PAUSE_SECONDS)
 
     def _ask_person(self, text: str) -> None:

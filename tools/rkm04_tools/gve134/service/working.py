@@ -9,7 +9,6 @@ import numpy as np
 
 from rkm04_tools.failure import Failure
 from rkm04_tools.gve134.sending import Sender
-from rkm04_tools.gve134.service.course import Tracker
 from rkm04_tools.gve134.service.files import File
 from rkm04_tools.gve134.state import Flags, Positions
 from rkm04_tools.service.trouble import as_json
@@ -26,8 +25,9 @@ class Work:
 
     file: File
     sender: Sender
-    tracker: Tracker
     begin: Positions
+    at: int | None = 0
+    """The vector of its course that is executed; None: it is not known."""
     phase: str = SENDING
     text: str = ""
     trouble: Failure | None = None
@@ -42,12 +42,6 @@ class Work:
         """Whether it is, or may be gone on with."""
         return self.is_under_way or self.phase == HELD
 
-    @property
-    def is_at_sync(self) -> bool:
-        """Whether positions may mean something else now than at the last look."""
-        course = self.file.course
-        return course is not None and self.sender.sent in course.syncs
-
     def as_json(self) -> dict[str, Any]:
         """What all browsers know of it."""
         return {
@@ -59,15 +53,32 @@ class Work:
             "begin": self.begin,
         }
 
+    def see(self, positions: Positions, is_at_rest: bool) -> list[Positions]:
+        """Take in positions; the corners that the axes have passed since the last ones."""
+        course, executed = self.file.course, self.sender.executed
+        if course is None or executed is None:
+            return []
+        if is_at_rest:
+            executed.stood(positions)
+        done = self.sender.look(positions)
+        before, self.at = self.at, None if done is None else int(course.counts[done])
+        if self.at is None or before is None:
+            return []
+        place, corners = np.array(executed.place), []
+        for number in range(self.at, before, -1):
+            x, y, z, a = (int(each) for each in place)
+            corners.append((x, y, z, a))
+            place = place - course.parts[number - 1]
+        return corners[::-1]
+
     def progress(self, flags: Flags, factor: float | None) -> dict[str, Any] | None:
         """How far it is; None: nothing is known of that."""
-        file, tracker = self.file, self.tracker
+        file, at = self.file, self.at
         if file.course is None or file.seconds is None or not len(file.course):
             return None
         taken = int(file.course.counts[self.sender.sent])
-        if not tracker.is_known:
+        if at is None:
             return {"at": None, "line": None, "level": None, "sent": taken, "left_s": None}
-        at = tracker.number
         left = float(np.sum(file.seconds[at:])) / (factor or 1.0)
         line = int(file.course.lines[at]) if at < taken or not flags.stands else None
         return {
