@@ -234,6 +234,7 @@ def test_a_silent_unit_in_a_job_is_told_in_the_largest_letters(
     expect(page.at("position-X")).to_have_text(NOT_KNOWN)
     page.doing("not known")
     expect(page.page.locator("#inputs button").first).to_have_attribute("data-level", "unknown")
+    expect(page.at("override-now")).to_have_text(f"{NOT_KNOWN} %")
     expect(page.at("start")).to_be_disabled()
     page.page.keyboard.press("Escape")
     expect(page.at("alarm")).to_contain_text("NOT CONFIRMED")
@@ -325,6 +326,13 @@ def test_a_service_that_stands_still_is_noticed_and_clicks_meanwhile_never_act(
     expect(page.at("alarm")).to_have_text("HALT NOT CONFIRMED: USE THE EMERGENCY STOP")
     page.page.keyboard.press("Escape")
     expect(page.at("alarm")).to_have_attribute("data-kind", "done")
+
+
+def test_all_of_it_is_on_one_screen_whatever_the_length_of_the_file(page: GvePage) -> None:
+    page.open("a.gve", LONG * 20)
+    for name in ("stop", "start", "code", "canvas", "position-A", "outputs-off", "typed"):
+        expect(page.at(name)).to_be_in_viewport(ratio=1)
+    assert page.page.locator("#code-lines div").count() < 100
 
 
 def test_everything_is_reached_by_keys(page: GvePage) -> None:

@@ -320,6 +320,9 @@ def test_a_unit_that_restarts_ends_the_job_and_is_told_until_noted(
     assert vectors_of(unit) == taken
     assert desk.now["job"]["phase"] == "failed"
     assert desk.now["restarted"]
+    assert "gve134" not in told["error"]["cause"] + told["error"]["next"]
+    again = desk.ask("start", file=desk.now["file"]["number"])
+    assert "take note of that first" in again["error"]["next"]
     assert state["known"]["port"] == 0xFF
     desk.ask("seen")
     assert not desk.now["restarted"]

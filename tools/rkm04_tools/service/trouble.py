@@ -26,8 +26,8 @@ class NotConnected(Failure):
 class Stopped(Failure):
     """A stop went ahead of it."""
 
-    def __init__(self, why: str = "a stop went ahead of this") -> None:
-        super().__init__(f"{why}; send it again if it is still wanted")
+    def __init__(self) -> None:
+        super().__init__("a stop went ahead of this; send it again if it is still wanted")
 
 
 class Late(Failure):

@@ -13,11 +13,12 @@ from rkm04_tools.gve134.service import working
 from rkm04_tools.gve134.service.board import NOT_CONNECTED, Board
 from rkm04_tools.gve134.service.heard import AFTER_RESET, HeardWire, Known
 from rkm04_tools.gve134.service.looking import Looks, Made
+from rkm04_tools.gve134.service.words import told
 from rkm04_tools.gve134.state import RUN, Positions
 from rkm04_tools.gve134.unit import Unit
 from rkm04_tools.line_errors import LineError, PortError
 from rkm04_tools.service import virtual
-from rkm04_tools.service.trouble import Fault, NotConnected, as_json
+from rkm04_tools.service.trouble import Fault, NotConnected
 from rkm04_tools.service.virtual import VirtualLine
 from rkm04_tools.transport import open_transport
 
@@ -128,7 +129,7 @@ class Connection:
         with_inputs = not (job and job.is_under_way) or now >= self._inputs_due
         if with_inputs:
             self._inputs_due = now + INPUTS_SECONDS
-        told = self.looks.look(unit, with_inputs)
+        seen = self.looks.look(unit, with_inputs)
         positions, flags = self.looks.positions, self.looks.flags
         assert positions is not None
         assert flags is not None
@@ -141,7 +142,7 @@ class Connection:
             percent = self.known.percent
             progress = job.progress(flags, None if percent is None else percent / 100)
         made = [place[:3] for place in self.made.go(corners, positions)]
-        self._board.tell({**told, "progress": progress, "made": made})
+        self._board.tell({**seen, "progress": progress, "made": made})
 
     def restart(self) -> None:
         """The unit has started anew: what it was told is gone."""
@@ -168,13 +169,13 @@ class Connection:
             is_virtual = board.state.virtual
             error = virtual.ended() if is_virtual and not isinstance(got, Fault) else got
             board.change(
-                connected=False, version=None, reference=False, error=as_json(error),
+                connected=False, version=None, reference=False, error=told(error),
                 away=comes_back and not is_virtual, known=Known(), wanted=None,
             )  # fmt: skip
         elif isinstance(got, LineError):
-            board.change(error=as_json(got), reference=False)
+            board.change(error=told(got), reference=False)
         elif not self.unit and not isinstance(got, NotConnected):
-            board.change(connected=False, error=as_json(got))
+            board.change(connected=False, error=told(got))
 
     # ---- the job ----
 

@@ -24,7 +24,17 @@ PAUSE_SECONDS = 0.1
 """The same while nothing is sent."""
 OVERRIDE_STEPS = 4
 """Commands to change the speed that are sent in a turn."""
-CUT = "halted in the middle of a command, of which the end is not known, and the rest was not sent"
+
+
+class Cut(Stopped):
+    """A job was halted in the middle of a command."""
+
+    def __init__(self) -> None:
+        Failure.__init__(
+            self,
+            "halted in the middle of a command, of which the end is not known, and the rest was "
+            "not sent; look at the unit, and begin anew",
+        )
 
 
 class Held(Stopped):
@@ -48,6 +58,8 @@ class Jobs:
         """Send a file, and wait for its end."""
         if file.job is None or file.course is None:
             raise BadRequest(f"{file.name} has errors; nothing was sent")
+        if self._board.state.restarted:
+            raise BadRequest(f"{file.name}: the unit has restarted; take note of that first")
         acting.require_free(unit.flags())
         begin = unit.positions()
         unit.order(f"XM{self._board.state.wanted or round(self._line.known.percent or 100)}")
@@ -157,7 +169,7 @@ class Jobs:
 def _end_of(failure: Failure, sent: int) -> Failure:
     """Why a job has ended, with what is not known then."""
     if isinstance(failure, Stopped):
-        return Stopped(CUT)
+        return Cut()
     if isinstance(failure, LineError) and not isinstance(failure, Restarted):
         text = f"{failure}; {sent} vectors were sent and go on by themselves: whether the axes "
         text += "move is NOT KNOWN"

@@ -7,7 +7,6 @@ a port that comes back.
 
 from __future__ import annotations
 
-import re
 import sys
 import time
 from collections import deque
@@ -33,6 +32,7 @@ from rkm04_tools.gve134.service.orders import (
     Work,
     name_of,
 )  # fmt: skip
+from rkm04_tools.gve134.service.words import plain, told
 from rkm04_tools.gve134.stopping import halted_text
 from rkm04_tools.gve134.unit import Unit
 from rkm04_tools.line_errors import LineError
@@ -44,7 +44,6 @@ from rkm04_tools.service.trouble import (
     NotConnected,
     Stopped,
     Unsent,
-    as_json,
 )  # fmt: skip
 from rkm04_tools.service.virtual import VirtualLine
 
@@ -56,9 +55,6 @@ GRACE_SECONDS = 0.3
 """For a command that is under way when a halt is asked for; packets take less."""
 CLOSING_SECONDS = 10.0
 ORDERS_MAX = 100
-
-OF_COMMANDS = re.compile(r" \(gve134 [^)]*\)")
-"""Advice that is of use at a command line only."""
 
 Got = TypeVar("Got")
 
@@ -206,7 +202,7 @@ class Worker:
     def _answer(self, name: str, asked: Asked, got: str | Failure) -> None:
         asker = {"type": "answer", "id": asked.number, "from": asked.client, "message": name}
         if isinstance(got, Failure):
-            self.board.tell({**asker, "text": None, "error": as_json(got)})
+            self.board.tell({**asker, "text": None, "error": told(got)})
         else:
             self.board.tell({**asker, "text": got, "error": None})
 
@@ -274,7 +270,7 @@ class Worker:
             unit.order("D")
         self._line.jogging = False
         self._line.look(unit)
-        return OF_COMMANDS.sub("", halted_text(halted))
+        return plain(halted_text(halted))
 
     def _override_or_look(self) -> None:
         """What is done while nothing else is; a port that was lost comes back."""

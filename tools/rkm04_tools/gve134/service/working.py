@@ -10,8 +10,8 @@ import numpy as np
 from rkm04_tools.failure import Failure
 from rkm04_tools.gve134.sending import Sender
 from rkm04_tools.gve134.service.files import File
+from rkm04_tools.gve134.service.words import told
 from rkm04_tools.gve134.state import Flags, Positions
-from rkm04_tools.service.trouble import as_json
 
 SENDING, FINISHING, WAITS, HELD, DONE, FAILED = (
     "sending", "finishing", "waits", "held", "done", "failed",
@@ -49,7 +49,7 @@ class Work:
             "name": self.file.name,
             "phase": self.phase,
             "text": self.text,
-            "trouble": self.trouble and as_json(self.trouble),
+            "trouble": self.trouble and told(self.trouble),
             "begin": self.begin,
         }
 

@@ -94,7 +94,7 @@ export class Axes {
         const unit = of === null ? t("jog.pulses") : of.unit === "mm" ? "mm" : "°";
         const [per, digits] = [of?.steps_per_unit ?? 1, of === null ? 0 : 3];
         const was = last?.positions[axis];
-        const before = was === undefined ? "" : `(${t("live.steps", { steps: numberText(was) })})`;
+        const before = was === undefined ? "" : t("live.was", { steps: numberText(was) });
         card.root.dataset.state = at === null ? "unknown" : "known";
         card.root.dataset.moving = String(speed !== null && speed !== 0);
         card.position.textContent = at === null ? NOT_KNOWN : `${fixed(at / per, digits)} ${of === null ? "" : unit}`;

@@ -100,6 +100,7 @@ export const cs: Dictionary = {
     "live.full": "fronta plná",
     "live.speed": "{speed} {unit}/s",
     "live.steps": "{steps} pulsů",
+    "live.was": "naposledy {steps} pulsů",
     "is.rest": "v klidu",
     "is.moves": "pohyb",
     "is.brakes": "brzdí",

@@ -98,6 +98,7 @@ export const en = {
     "live.full": "queue full",
     "live.speed": "{speed} {unit}/s",
     "live.steps": "{steps} pulses",
+    "live.was": "last known: {steps} pulses",
     "is.rest": "at rest",
     "is.moves": "moving",
     "is.brakes": "braking",

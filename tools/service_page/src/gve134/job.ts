@@ -108,7 +108,8 @@ export class JobPanel {
         const doing = this.#unit.doing;
         const job = state?.job ?? null;
         const set = (id: string, enabled: boolean): void => void (byId(id, HTMLButtonElement).disabled = !enabled);
-        set("start", state?.file?.ok === true && doing === "rest" && !isOpen(job));
+        const isNoted = state?.restarted !== true;
+        set("start", state?.file?.ok === true && doing === "rest" && !isOpen(job) && isNoted);
         set("go", !isUnderWay(job) && (doing === "waits" || (doing === "stopped" && job?.phase === "held")));
         set("delete", !isUnderWay(job) && ["waits", "stopped", "fault"].includes(doing));
         set("open", !isOpen(job));
@@ -138,7 +139,7 @@ export class JobPanel {
         if (!isSlid && shown !== null) {
             this.#slider.value = String(shown);
         }
-        const isNow = percent !== null && this.#unit.state.value?.connected === true;
+        const isNow = percent !== null && this.#unit.doing !== "unknown";
         const now = isNow ? `${numberText(percent)} %` : `${NOT_KNOWN} %`;
         const target = isSlid && performance.now() - this.#slid_ms < HELD_MS ? Number(this.#slider.value) : wanted;
         const isOther = target !== null && (percent === null || Math.round(percent) !== target);
@@ -147,7 +148,7 @@ export class JobPanel {
 
     #showWords(job: Job | null): void {
         const progress = this.#unit.now?.progress;
-        const trouble = job?.trouble ? ` ${troubleText(job.trouble)}` : "";
+        const trouble = job?.trouble ? `${job.phase === "failed" ? ":" : ""} ${troubleText(job.trouble)}` : "";
         const isLost = isUnderWay(job) && progress?.at === null ? ` (${t("job.lost")})` : "";
         const words = job === null ? "" : t(`job.${job.phase}`, { name: job.name, text: job.text }) + trouble + isLost;
         this.#words.dataset.kind =

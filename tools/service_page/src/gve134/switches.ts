@@ -25,9 +25,13 @@ export class Switches {
         language.onChange(() => this.#show());
     }
 
+    /** A unit that is not heard may have lost what it was told. */
+    get #isThere(): boolean {
+        return this.#unit.doing !== "unknown";
+    }
+
     get #port(): number | null {
-        const state = this.#unit.state.value;
-        return state?.connected ? state.known.port : null;
+        return this.#isThere ? (this.#unit.state.value?.known.port ?? null) : null;
     }
 
     #show(): void {
@@ -49,7 +53,7 @@ export class Switches {
             show(lamp, t(`output.${OUTPUTS[bit] ?? "spindle"}`), isOn, t(isOn === null ? "live.unknown" : isOn ? "live.on" : "live.off"));
         });
         this.#off.disabled = !isConnected;
-        const spindle = state?.connected ? state.known.spindle : null;
+        const spindle = this.#isThere ? (state?.known.spindle ?? null) : null;
         byId("spindle-now", HTMLElement).textContent = spindle === null ? "–" : `${numberText(spindle / 10, 1)} %`;
     }
 
