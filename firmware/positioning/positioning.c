@@ -102,18 +102,22 @@ static void watch_bus(struct pos_unit *unit, uint64_t now)
     unit->silences += acts ? 1U : 0U;
 }
 
-/* Axes that are to begin do so together. */
-static bool start(struct pos_unit *unit)
+/* What the pass has brought takes effect; axes that are to begin do so together. True: the next pass is to come at
+ * once. */
+static bool follow(struct pos_unit *unit)
 {
-    bool started = false;
+    bool again = false;
+    for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
+        again = pos_axis_follow(&unit->axes[axis]) || again;
+    }
     uint64_t start_tick = hal_time_now() + (uint64_t)START_TICKS;
     for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
         if (pos_axis_wants_start(&unit->axes[axis])) {
             pos_axis_start(&unit->axes[axis], start_tick, io_inputs(&unit->io));
-            started = true;
+            again = true;
         }
     }
-    return started;
+    return again;
 }
 
 static void show_leds(const struct pos_unit *unit, uint64_t now)
@@ -136,8 +140,9 @@ uint64_t positioning_poll(struct pos_unit *unit)
     wake = earlier(wake, positioning_serve(unit));
     plc_pass(unit);
     watch_bus(unit, hal_time_now());
+    bool again = follow(unit);
     show_leds(unit, now);
-    return start(unit) ? hal_time_now() : wake;
+    return again ? hal_time_now() : wake;
 }
 
 static bool rests(const struct pos_axis *axis)

@@ -185,7 +185,7 @@ static void take_settings(struct pos_unit *unit)
     uint32_t axes = pos_write_axes(&unit->write);
     for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
         if ((axes >> axis & 1U) != 0U) {
-            pos_axis_take_settings(&unit->axes[axis]);
+            pos_axis_take_settings(&unit->axes[axis], io_inputs(&unit->io));
         }
     }
     if (axes != 0U) {

@@ -23,9 +23,11 @@ static struct pos_scale scale_of(const struct pos_axis *axis)
 
 /* ---- settings -------------------------------------------------------------------------------------------------- */
 
-static void set_watch(struct pos_axis *axis)
+static void set_watch(struct pos_axis *axis, uint8_t inputs)
 {
+    bool active = pos_axis_is_active(axis, POS_AXIS_CAPTURE, inputs);
     hal_step_hold();
+    axis->watch.capture_was_active = active;
     axis->watch.reference = (int8_t)pos_axis_signed_setting(axis, POS_AXIS_REFERENCE);
     axis->watch.capture = (int8_t)pos_axis_signed_setting(axis, POS_AXIS_CAPTURE);
     hal_step_release();
@@ -46,10 +48,10 @@ void pos_axis_init(struct pos_axis *axis, unsigned motor, const uint32_t *settin
     axis->backlash_um = (uint16_t)pos_axis_setting(axis, POS_AXIS_BACKLASH);
     pos_frame_init(&axis->frame, &scale, axis->backlash_um);
     set_polarity(axis);
-    set_watch(axis);
+    set_watch(axis, 0);
 }
 
-void pos_axis_take_settings(struct pos_axis *axis)
+void pos_axis_take_settings(struct pos_axis *axis, uint8_t inputs)
 {
     const struct pos_scale scale = scale_of(axis);
     const struct pos_scale *before = &axis->frame.scale;
@@ -61,7 +63,7 @@ void pos_axis_take_settings(struct pos_axis *axis)
         pos_frame_reset(&axis->frame, &scale, backlash_um, pos_drive_steps(&axis->drive));
         set_polarity(axis);
     }
-    set_watch(axis);
+    set_watch(axis, inputs);
 }
 
 /* ---- instructions ---------------------------------------------------------------------------------------------- */

@@ -100,8 +100,9 @@ struct pos_axis {
 /* Free, at position 0. The values of the settings must live as long. */
 void pos_axis_init(struct pos_axis *axis, unsigned motor, const uint32_t *settings);
 
-/* Takes settings that have been written. Only while the axis is free and stands. */
-void pos_axis_take_settings(struct pos_axis *axis);
+/* Takes settings that have been written; an input that is active now is no edge. Only while the axis is free and
+ * stands. */
+void pos_axis_take_settings(struct pos_axis *axis, uint8_t inputs);
 
 /* The instructions. Each returns POS_OK, or why it is refused: then nothing but ERR and ERROR has changed. */
 enum pos_error pos_axis_take(struct pos_axis *axis, unsigned space);
@@ -116,8 +117,13 @@ void pos_axis_control(struct pos_axis *axis, uint32_t feed, int mp);
 /* A fault: it brakes and ends the measure; nothing of an axis that is free. */
 void pos_axis_fault(struct pos_axis *axis, enum pos_error error);
 
-/* One pass: positions, ends, initiator, inputs, speeds. Returns when to call again at the latest. */
+/* The beginning of a pass: positions, ends, inputs, the initiator of what was given in an earlier pass. Returns when to
+ * call again at the latest. */
 uint64_t pos_axis_poll(struct pos_axis *axis, uint8_t inputs);
+
+/* The end of a pass, when all instructions of it have come: the wanted speed counts. True: the initiator has something
+ * to do in the next pass. */
+bool pos_axis_follow(struct pos_axis *axis);
 
 /* Whether it is to leave its stand; and it does, at a tick at least 0.5 ms ahead, unless an input forbids it. */
 bool pos_axis_wants_start(const struct pos_axis *axis);

@@ -235,27 +235,6 @@ static void resume(struct pos_axis *axis, uint32_t speed)
     }
 }
 
-/* A change of the wanted speed. */
-static void follow(struct pos_axis *axis)
-{
-    uint32_t speed = wanted_speed(axis);
-    if (axis->state != (uint8_t)POS_MOVING || speed == axis->speed) {
-        return;
-    }
-    if (!pos_axis_is_busy(axis)) {
-        axis->state = (uint8_t)(speed == 0U ? POS_READY : POS_MOVING);
-    } else if (speed == 0U) {
-        hold(axis);
-        axis->speed = 0;
-    } else if (axis->speed == 0U) {
-        resume(axis, speed);
-    } else {
-        pos_drive_change(&axis->drive, speed);
-        axis->speed = speed;
-        tell_speed(axis);
-    }
-}
-
 static enum pos_axis_register limit_of(const struct pos_axis *axis)
 {
     return axis->drive.measure.backward ? POS_AXIS_LIMIT_MINUS : POS_AXIS_LIMIT_PLUS;
@@ -297,8 +276,33 @@ uint64_t pos_axis_poll(struct pos_axis *axis, uint8_t inputs)
     if (axis->waits && !pos_axis_is_busy(axis)) {
         initiate(axis, inputs);
     }
-    follow(axis);
     return wake;
+}
+
+static void follow(struct pos_axis *axis)
+{
+    uint32_t speed = wanted_speed(axis);
+    if (axis->state != (uint8_t)POS_MOVING || speed == axis->speed) {
+        return;
+    }
+    if (!pos_axis_is_busy(axis)) {
+        axis->state = (uint8_t)(speed == 0U ? POS_READY : POS_MOVING);
+    } else if (speed == 0U) {
+        hold(axis);
+        axis->speed = 0;
+    } else if (axis->speed == 0U) {
+        resume(axis, speed);
+    } else {
+        pos_drive_change(&axis->drive, speed);
+        axis->speed = speed;
+        tell_speed(axis);
+    }
+}
+
+bool pos_axis_follow(struct pos_axis *axis)
+{
+    follow(axis);
+    return axis->waits && !pos_axis_is_busy(axis);
 }
 
 bool pos_axis_wants_start(const struct pos_axis *axis)
