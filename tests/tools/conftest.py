@@ -19,7 +19,7 @@ from gve134_ports import FakeGveLine
 from rkm04_tools.cli import main, run_tool
 from rkm04_tools.gve134.cli import make_parser as make_gve134_parser
 from rkm04_tools.positioning.cli import make_parser as make_positioning_parser
-from served import Served
+from served import POSITIONING_COMMAND, Served
 from service_client import Service, build_with_page
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -103,6 +103,37 @@ def positioning(capsys: pytest.CaptureFixture[str]) -> Tool:
         status = run_tool(make_positioning_parser(), [str(argument) for argument in arguments])
         printed = capsys.readouterr()
         return Result(status, printed.out, printed.err)
+
+    return run
+
+
+@pytest.fixture
+def pos_serve(tmp_path: Path) -> Iterator[Callable[..., Served]]:
+    """Start units that end with the test, ten times as fast as real ones unless told otherwise."""
+    started: list[Served] = []
+
+    def start(*arguments: str | Path, speed: str = "10", place: str = "--tcp") -> Served:
+        more = ("--speed", speed, "--control", "0", *arguments)
+        served = Served(place, "0", *more, cwd=tmp_path, command=POSITIONING_COMMAND)
+        started.append(served)
+        return served
+
+    yield start
+    for served in started:
+        served.end()
+
+
+@pytest.fixture
+def pos_call(
+    positioning: Tool, pos_serve: Callable[..., Served], monkeypatch: pytest.MonkeyPatch
+) -> Callable[..., str]:
+    """Run a command that must not complain; returns what it printed."""
+    monkeypatch.setenv("POSITIONING_PORT", pos_serve().place)
+
+    def run(*arguments: str | Path) -> str:
+        result = positioning(*arguments)
+        assert (result.status, result.err) == (0, ""), (arguments, result)
+        return str(result.out)
 
     return run
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 from fake_gve134 import FakeGve
 from gve134_ports import FakeGveLine
-from rkm04_tools.gve134.stopping import TWICE_SECONDS
+from rkm04_tools.stopper import TWICE_SECONDS
 
 Start = Callable[..., "subprocess.Popen[str]"]
 PATIENCE_S = 30.0

@@ -15,9 +15,10 @@ from rkm04_tools.gve134.client_base import unit_of
 from rkm04_tools.gve134.job import COMMENT, LINE_OWN
 from rkm04_tools.gve134.link import MEMORY_SECONDS
 from rkm04_tools.gve134.sending import LONG_SECONDS
-from rkm04_tools.gve134.stopping import Stopper, halt_at_signal
+from rkm04_tools.gve134.stopping import halt_at_signal
 from rkm04_tools.gve134.unit import Unit, is_memory_write
 from rkm04_tools.line_errors import LineError, PortError
+from rkm04_tools.stopper import Stopper
 
 TYPED = re.compile(r"(?:!7)?[\x20\x22-\x7e]+")
 PROMPT = "> "
@@ -28,7 +29,7 @@ SUM_CHARACTERS = 4
 def run_console(options: Namespace) -> int:
     """Talk until the end of input; of a script whether all was done."""
     is_typed = sys.stdin.isatty()
-    with unit_of(options) as unit, Stopper(unit) as stopper:
+    with unit_of(options) as unit, Stopper(unit.link.wire) as stopper:
         unit.link.connect()
         print(f"{unit.link.version}; Ctrl-D ends, Ctrl-C halts", file=sys.stderr)
         console = Console(unit)

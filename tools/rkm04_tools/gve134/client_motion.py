@@ -16,13 +16,12 @@ from rkm04_tools.gve134.link_errors import Refused
 from rkm04_tools.gve134.sending import SWITCH_NOT_FOUND, causes_of
 from rkm04_tools.gve134.state import AXES, INTA, Flags, Positions, positions_text
 from rkm04_tools.gve134.stopping import (
-    ENDED_BEFORE,
     guarded,
     halt_loudly,
     halted_text,
-    shout,
 )
 from rkm04_tools.gve134.unit import POLL_SECONDS, Unit
+from rkm04_tools.stopper import ENDED_BEFORE, shout
 
 HOME_EXTRA_SECONDS = 10.0
 SLOWEST_RAMP = 1000

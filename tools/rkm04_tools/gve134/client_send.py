@@ -24,9 +24,10 @@ from rkm04_tools.gve134.link_errors import LineError, NotConfirmed, Refused, Res
 from rkm04_tools.gve134.sending import Interrupted, Sender
 from rkm04_tools.gve134.source import read_source
 from rkm04_tools.gve134.state import AXES, positions_text
-from rkm04_tools.gve134.stopping import Stopper, guarded
+from rkm04_tools.gve134.stopping import guarded
 from rkm04_tools.gve134.unit import Halted
 from rkm04_tools.source import Source, named
+from rkm04_tools.stopper import Stopper
 
 LEFT_AFTER_SECONDS = 2.0
 SHOWN_SECONDS = 0.25

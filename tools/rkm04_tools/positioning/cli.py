@@ -7,6 +7,7 @@ import argparse
 from rkm04_tools import board, completion
 from rkm04_tools.cli import Commands, Parser, add_board, add_command
 from rkm04_tools.positioning import check, listing, serve
+from rkm04_tools.positioning.client_options import add_client_commands
 
 NAME = "positioning"
 SCRIPT_NOTES = """\
@@ -61,6 +62,7 @@ def make_parser() -> Parser:
     serve.add_arguments(add_command(commands, "serve", serve.run, title, serve.EXAMPLE))
     _add_registers(commands)
     add_board(commands, NAME)
+    add_client_commands(commands, add_command)
     completion.add_command(commands, NAME, add_command)
     return parser
 

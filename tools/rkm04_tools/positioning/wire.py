@@ -72,6 +72,7 @@ class Wire:
     def __init__(self, port: Port, node: int, rate: int, bits: int, tcp: bool) -> None:
         self.node = node
         self.counts = Counts()
+        self.tries = SENT_MAX
         self.look: Callable[[], None] = lambda: None
         self._port = port
         self._tcp = tcp
@@ -132,7 +133,7 @@ class Wire:
         """Send a request until it is answered."""
         request.dev_id = self.node
         error: LineError = NoAnswer("")
-        for sent in range(SENT_MAX):
+        for sent in range(self.tries):
             self.look()
             self.counts.requests += 1
             self.counts.repeats += sent > 0

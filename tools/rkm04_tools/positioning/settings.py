@@ -1,0 +1,199 @@
+"""`settings`: get, set, back up, restore and compare."""
+
+from __future__ import annotations
+
+import json
+from argparse import Namespace
+from collections.abc import Callable
+from typing import Any
+
+from rkm04_tools.client_base import count_of, tell
+from rkm04_tools.failure import DONE, NOT_SO, Failure, finished_or_absent, writing_failed
+from rkm04_tools.positioning.listing import Place, places
+from rkm04_tools.positioning.table import AXES, Register, registers
+from rkm04_tools.positioning.unit import Unit, setting
+from rkm04_tools.source import STANDARD_INPUT, named, read_text
+
+FORMAT = "positioning settings"
+FORMAT_VERSION = 1
+FILE_BYTES_MAX = 100_000
+UNIT_PART = "unit"
+
+Opened = Callable[[Namespace], Unit]
+Values = dict[str, dict[str, int]]
+"""Settings by name, of the unit and of axis1 to axis4."""
+
+
+def stored_places() -> list[Place]:
+    """All settings of a unit."""
+    return [place for place in places() if place.register.is_setting]
+
+
+def part_of(axis: int) -> str:
+    """The name of a part of the file."""
+    return f"axis{axis}" if axis else UNIT_PART
+
+
+def read_all(unit: Unit) -> Values:
+    """All settings of a unit."""
+    unit.require_known()
+    found: Values = {}
+    for axis in range(AXES + 1):
+        own = [place for place in stored_places() if place.axis == axis]
+        first = own[0].number
+        words = unit.wire.read(first, own[-1].number + own[-1].register.words - first)
+        found[part_of(axis)] = {
+            p.register.name: p.register.of_words(words[p.number - first :][: p.register.words])
+            for p in own
+        }
+    return found
+
+
+def run_get(options: Namespace, opened: Opened) -> int:
+    """Print settings."""
+    rows = [setting(name) for name in options.names]
+    with opened(options) as unit:
+        unit.axis(options.axis)
+        if rows:
+            found = {row.name: unit.get(row.name, options.axis) for row in rows}
+        else:
+            everything = read_all(unit)
+            found = everything[UNIT_PART] | everything[part_of(options.axis)]
+    text = "\n".join(f"{name:<14}{_text(registers()[name], v)}" for name, v in found.items())
+    return tell(options, {"axis": options.axis, "settings": found}, text)
+
+
+def _text(row: Register, value: int) -> str:
+    return f"{value:>11}  {row.unit}".rstrip()
+
+
+def run_set(options: Namespace, opened: Opened) -> int:
+    """Write settings."""
+    values: dict[str, int] = {}
+    for each in options.values:
+        name, equals, text = each.partition("=")
+        row = setting(name)
+        if not equals or not text.removeprefix("-").isdecimal() or not row.takes(int(text)):
+            raise Failure(f"{each}: write {row.name}=VALUE, a value that registers --md lists")
+        values[row.name] = int(text)
+    with opened(options) as unit:
+        for names in _together(values):
+            unit.set_many({name: values[name] for name in names}, options.axis)
+        if options.store:
+            unit.store()
+    text = ", ".join(f"{name} is {value}" for name, value in values.items())
+    note = "" if options.store else "; not stored (--store)"
+    answer = {"axis": options.axis, "settings": values, "stored": options.store}
+    return tell(options, answer, f"{text}{note}")
+
+
+def _together(values: dict[str, int]) -> list[list[str]]:
+    """STEPS and MICROMETRES in one request: each is held against the other."""
+    pair: list[str] = [name for name in ("STEPS", "MICROMETRES") if name in values]
+    return ([pair] if pair else []) + [[name] for name in values if name not in pair]
+
+
+def run_backup(options: Namespace, opened: Opened) -> int:
+    """Write all settings to a file."""
+    with opened(options) as unit:
+        state, found = unit.read(), read_all(unit)
+    content = {
+        "format": FORMAT, "version": FORMAT_VERSION, "layout": state.values["LAYOUT"],
+        "settings": found,
+    }  # fmt: skip
+    text = f"{json.dumps(content, indent=2)}\n"
+    if options.file == STANDARD_INPUT:
+        print(text, end="")
+        return DONE
+    path = named(options.file)
+    try:
+        with finished_or_absent(path) as part:
+            part.write_text(text, encoding="ascii")
+    except OSError as error:
+        raise writing_failed(path, error) from None
+    number = sum(map(len, found.values()))
+    return tell(options, {"file": str(path), "settings": number}, f"{path}: {number} settings")
+
+
+def run_restore(options: Namespace, opened: Opened) -> int:
+    """Write the settings of a file that differ."""
+    wanted = read_file(options.file)
+    with opened(options) as unit:
+        found = read_all(unit)
+        _require_free(unit)
+        differ = _differ(wanted, found)
+        for axis in range(AXES + 1):
+            own = {d["name"]: d["file"] for d in differ if d["part"] == part_of(axis)}
+            if {"STEPS", "MICROMETRES"} & own.keys():
+                own |= {name: wanted[part_of(axis)][name] for name in ("STEPS", "MICROMETRES")}
+            for names in _together(own):
+                unit.set_many({name: own[name] for name in names}, axis)
+        if left := _differ(wanted, read_all(unit)):
+            raise Failure(f"{len(left)} settings read otherwise than written", NOT_SO)
+        if options.store:
+            unit.store()
+    note = "" if options.store else "; not stored (--store)"
+    answer = {"file": options.file, "written": differ, "stored": options.store}
+    text = f"{options.file}: {count_of(len(differ), 'setting')} written, the others were so already"
+    return tell(options, answer, text + note)
+
+
+def _require_free(unit: Unit) -> None:
+    for axis in range(1, AXES + 1):
+        state = unit.axis(axis).read()
+        if state.is_taken or state.moves:
+            raise Failure(
+                f"axis {axis} is {state.words}, and settings wait for it; reset comes first", NOT_SO
+            )
+
+
+def run_diff(options: Namespace, opened: Opened) -> int:
+    """Tell where a file and the unit differ."""
+    wanted = read_file(options.file)
+    with opened(options) as unit:
+        differ = _differ(wanted, read_all(unit))
+    lines = [f"{d['part']} {d['name']}: file {d['file']}, unit {d['unit']}" for d in differ]
+    same = f"{options.file}: the unit is set so"
+    tell(options, {"file": options.file, "differ": differ}, "\n".join(lines) or same)
+    return NOT_SO if differ else DONE
+
+
+def _differ(wanted: Values, found: Values) -> list[dict[str, Any]]:
+    return [
+        {"part": part, "name": name, "file": value, "unit": found[part][name]}
+        for part, own in wanted.items()
+        for name, value in own.items()
+        if found[part][name] != value
+    ]
+
+
+def read_file(name: str) -> Values:
+    """The settings of a backup: all of them, each in its range, or a Failure."""
+    source = read_text(name, FILE_BYTES_MAX, "so it is no backup", "a backup of the settings")
+    try:
+        content = json.loads(source.text)
+    except ValueError:
+        raise _damaged(source.name, "it is no JSON") from None
+    if not isinstance(content, dict) or content.get("format") != FORMAT:
+        raise _damaged(source.name, "it is of another kind")
+    if (content.get("version"), content.get("layout")) != (FORMAT_VERSION, 1):
+        raise _damaged(source.name, "it is of another version of the unit or of this tool")
+    values = content.get("settings")
+    known = {part_of(axis): {} for axis in range(AXES + 1)}  # type: dict[str, dict[str, Register]]
+    for place in stored_places():
+        known[part_of(place.axis)][place.register.name] = place.register
+    if not isinstance(values, dict) or values.keys() != known.keys():
+        raise _damaged(source.name, f"it must have {', '.join(known)}")
+    for part, rows in known.items():
+        own = values[part]
+        if not isinstance(own, dict) or own.keys() != rows.keys():
+            raise _damaged(source.name, f"{part} does not have just its settings")
+        for row in rows.values():
+            value = own[row.name]
+            if type(value) is not int or not row.takes(value):
+                raise _damaged(source.name, f"{row.name} of {part} has no value of its range")
+    return values
+
+
+def _damaged(name: str, why: str) -> Failure:
+    return Failure(f"{name}: {why}; nothing was written; settings backup makes such a file", NOT_SO)
