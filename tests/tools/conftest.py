@@ -112,9 +112,11 @@ def pos_serve(tmp_path: Path) -> Iterator[Callable[..., Served]]:
     """Start units that end with the test, ten times as fast as real ones unless told otherwise."""
     started: list[Served] = []
 
-    def start(*arguments: str | Path, speed: str = "10", place: str = "--tcp") -> Served:
+    def start(
+        *arguments: str | Path, speed: str = "10", place: str = "--tcp", at: str = "0"
+    ) -> Served:
         more = ("--speed", speed, "--control", "0", *arguments)
-        served = Served(place, "0", *more, cwd=tmp_path, command=POSITIONING_COMMAND)
+        served = Served(place, at, *more, cwd=tmp_path, command=POSITIONING_COMMAND)
         started.append(served)
         return served
 
