@@ -7,8 +7,8 @@
  * begins with group_start and is over when group_take_end has said so. What a stop has left of the path stays:
  * group_start goes on with it, group_forget drops it.
  *
- * A change takes effect at a whole step of the longest axis, the first that is due 0.42 ms after it was asked for, or
- * up to 0.1 ms later where many sections are planned anew. Each channel is frozen from there on while the path is
+ * A change takes effect at a whole step of the longest axis, the first that is due 0.35 ms after it was asked for, or
+ * up to 0.2 ms later where many sections get other speeds. Each channel is frozen from there on while the path is
  * planned; where the plan is late, so are the pulses, and the motors are where the path says all the same.
  */
 #ifndef GROUP_H
@@ -50,7 +50,7 @@ struct group_manner {
 struct group {
     struct path path;
     struct group_manner manner;
-    struct group_speeds speeds;                /* that wait to be taken, if `of` is not NULL */
+    bool speeds_wait;                          /* other speeds are ready, and are to be taken */
     struct step_channel *channel[UNIT_MOTORS]; /* NULL: the motor is not of the group */
     uint8_t axis[UNIT_MOTORS];                 /* of the path, that the motor follows */
     uint8_t motors[PATH_AXES];                 /* that follow the axis: a bit each */
@@ -101,7 +101,8 @@ bool group_resume(struct group *group);
 void group_plan_isr(struct group *group);
 
 /* Gives all sections their speeds, from the first one on that waits or moves: at once while the group stands or comes
- * to rest, else as soon as a change can take effect, by group_poll at the latest. The context must live so long. */
+ * to rest, else as soon as a change can take effect, by group_poll at the latest. `of` is called before this returns.
+ * The plan interrupt must not be held off. */
 void group_set_speeds(struct group *group, const struct group_speeds *speeds);
 
 /* Hands over segments, for some 0.1 ms, sees sections and the motion end, plans what is left to be planned. Whenever

@@ -8,22 +8,27 @@
 
 enum {
     /* From the plan's begin to the place: what planning takes, and the lead of the step output. */
-    LEAD_TICKS = 420 * TICKS_PER_US,
+    LEAD_TICKS = 350 * TICKS_PER_US,
     LEAD_TICKS_MAX = 8 * LEAD_TICKS,
-    LOOK_TICKS = 2 * TICKS_PER_US / 5, /* more for each section that is looked at, */
-    SPEED_TICKS = LOOK_TICKS,          /* and for each that gets another speed */
+    LOOK_TICKS = 7 * TICKS_PER_US / 10, /* more for each section that is looked at, */
+    SPEED_TICKS = TICKS_PER_US / 8,     /* and for each that gets another speed */
     PATIENCE_TICKS = 500 * TICKS_PER_US,
-    GO_ON_TICKS = 300 * TICKS_PER_US, /* so much is handed over after the place at once */
+    GO_ON_TICKS = 370 * TICKS_PER_US, /* so much is handed over after the place at once */
+    FIRST_TICKS = 4 * TICKS_PER_MS,   /* and the first segment of each axis, if it is due by then */
+    THAW_TICKS = 90 * TICKS_PER_US,   /* the motors go on so long before it: the last segment may be on its way */
 };
 
-/* Thaws the motors before `motor`. */
+/* Thaws the motors before `motor`, all at once: each lays its next pulse before one of them lays what is farther ahead.
+ */
 static void thaw(struct group *group, unsigned motor)
 {
+    hal_step_hold();
     while (motor-- > 0) {
         if (group->channel[motor] != NULL) {
-            step_channel_thaw(group->channel[motor]);
+            step_channel_thaw_held(group->channel[motor]);
         }
     }
+    hal_step_release();
 }
 
 /* All motors or none. */
@@ -38,8 +43,8 @@ static bool freeze(struct group *group, const uint64_t back[PATH_AXES])
     return true;
 }
 
-/* The motors go on with what the path now has instead. */
-static void go_on(struct group *group, const uint64_t back[PATH_AXES], uint64_t until_tick)
+/* What is frozen is dropped, and the first segment that the path now has instead comes after what stays. */
+static void recall(struct group *group, const uint64_t back[PATH_AXES], uint64_t until_tick)
 {
     for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
         struct path_segment next;
@@ -52,13 +57,13 @@ static void go_on(struct group *group, const uint64_t back[PATH_AXES], uint64_t 
     }
 }
 
-/* Hands all over that is due before a place, in turns, as far as there is room. */
-static void feed_until(struct group *group, uint64_t tick)
+/* Hands all over that is due before a place, in turns, as far as there is room; until `end_tick` at most. */
+static void feed_until(struct group *group, uint64_t tick, uint64_t end_tick)
 {
     bool fed = true;
     while (fed) {
         fed = false;
-        for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
+        for (unsigned axis = 0; axis < (unsigned)PATH_AXES && hal_time_now() < end_tick; axis++) {
             fed = group_feed_axis(group, axis, tick) || fed;
         }
     }
@@ -73,24 +78,28 @@ static bool is_in(const struct group *group, enum axis_state state)
 static void take_speeds(struct group *group, uint32_t first)
 {
     for (uint32_t section = first; section != group->path.end; section++) {
-        path_set_speed(&group->path, section, group->speeds.of(group->speeds.context, section));
+        path_take_speed(&group->path, section);
     }
-    group->speeds.of = NULL;
+    group->speeds_wait = false;
 }
 
-/* All that is to come after the place is frozen. */
+/* All that is to come after the place is frozen. Laying it would take the time in which its first segments, which may
+ * be short, are planned: so that waits until they are there, or the place is near. */
 static void plan_from(struct group *group, const struct path_place *place, const uint64_t back[PATH_AXES])
 {
     if (is_in(group, AXIS_BRAKING)) {
         path_stop(&group->path, place);
     } else {
-        if (group->speeds.of != NULL) {
+        if (group->speeds_wait) {
             take_speeds(group, place->section);
         }
         path_change(&group->path, place);
     }
-    go_on(group, back, place->entry.time.high + (uint64_t)GO_ON_TICKS);
-    feed_until(group, place->entry.time.high + (uint64_t)GO_ON_TICKS);
+    uint64_t tick = place->entry.time.high;
+    recall(group, back, tick + (uint64_t)FIRST_TICKS);
+    feed_until(group, tick + (uint64_t)GO_ON_TICKS, tick - (uint64_t)THAW_TICKS);
+    thaw(group, UNIT_MOTORS);
+    feed_until(group, tick + (uint64_t)GO_ON_TICKS, TICK_NEVER);
 }
 
 enum change {
@@ -105,7 +114,7 @@ static bool reach(struct group *group, const struct path_place *place, uint64_t 
     if (path_back(&group->path, place, back)) {
         return true;
     }
-    feed_until(group, place->entry.time.high + 2U);
+    feed_until(group, place->entry.time.high + 2U, TICK_NEVER);
     return path_back(&group->path, place, back);
 }
 
@@ -114,7 +123,7 @@ static uint64_t lead_of(const struct group *group)
 {
     uint64_t sections = group->path.end - group->path.first;
     uint64_t each = is_in(group, AXIS_BRAKING) ? 0 : (uint64_t)LOOK_TICKS;
-    each += group->speeds.of != NULL ? (uint64_t)SPEED_TICKS : 0;
+    each += group->speeds_wait ? (uint64_t)SPEED_TICKS : 0;
     return (uint64_t)LEAD_TICKS + sections * each;
 }
 
@@ -175,10 +184,10 @@ void group_plan(struct group *group)
     bool moves = is_in(group, AXIS_MOVING);
     if (is_in(group, AXIS_BRAKING)) {
         plan_stop(group);
-    } else if (moves && (path_lags(&group->path) || group->speeds.of != NULL)) {
+    } else if (moves && (path_lags(&group->path) || group->speeds_wait)) {
         moves = change(group) != RESTS;
     }
-    if (group->speeds.of != NULL && !moves) {
+    if (group->speeds_wait && !moves) {
         take_speeds(group, group->path.first);
     }
 }
@@ -214,10 +223,14 @@ bool group_stop(struct group *group, enum axis_cause cause)
     return stops;
 }
 
+/* What takes time comes first, while a stop can be planned. */
 void group_set_speeds(struct group *group, const struct group_speeds *speeds)
 {
+    for (uint32_t section = group->path.first; section != group->path.end; section++) {
+        path_ready_speed(&group->path, section, speeds->of(speeds->context, section));
+    }
     hal_run_hold_plan();
-    group->speeds = *speeds;
+    group->speeds_wait = true;
     group_plan(group);
     hal_run_release_plan();
 }

@@ -142,6 +142,18 @@ static inline void path_set_speed(const struct path *path, uint32_t section, uin
 /* Whether a path that is stopped at a place with an acceleration of its own comes to rest before its end. */
 bool path_can_rest(const struct path *path, const struct path_place *place);
 
+/* The same in two parts, as the first takes time: a speed for a section that changes nothing yet, at any time after the
+ * section was added; and it is taken. A section that has been given none takes the speed that it has. */
+static inline void path_ready_speed(const struct path *path, uint32_t section, uint32_t speed)
+{
+    path_section_ready_speed(&path->ring[section & (path->size - 1U)], speed);
+}
+
+static inline void path_take_speed(const struct path *path, uint32_t section)
+{
+    path_section_take_speed(&path->ring[section & (path->size - 1U)]);
+}
+
 /* How many of the last pulses of each axis that were handed over lie after a place that path_find has found: those that
  * a change there makes void. False if an axis has not been handed over as far as that. */
 bool path_back(const struct path *path, const struct path_place *place, uint64_t back[PATH_AXES]);

@@ -9,16 +9,30 @@ uint64_t path_lay_grains(const struct path *path, const struct path_place *place
     return place->accel != 0 ? PATH_GRAINS_PER_ACCEL * place->accel : own;
 }
 
+/* Pulses of an axis up to a place between two steps. Rounding down twice is rounding down once. */
+static uint32_t pulses_between(struct wide place, uint32_t steps, const struct path_divisor *grains, uint32_t length)
+{
+    uint64_t rest = 0;
+    return (uint32_t)(path_divide(path_wide_times(place, steps), grains, &rest) / length);
+}
+
+/* Pulses of an axis up to a whole step of the longest one; mostly by the processor's own division. */
+static uint32_t pulses_at(uint64_t step, uint32_t steps, uint32_t length)
+{
+    uint64_t way = step * steps;
+    return way <= UINT32_MAX ? (uint32_t)way / length : (uint32_t)(way / length);
+}
+
 void path_lay_pulses(const struct path *path, const struct path_place *place, uint32_t pulses[PATH_AXES])
 {
     uint64_t rest = 0;
     const struct path_section *section = path_section_of(path, place->section);
     const struct path_divisor grains = path_divisor_of(path_lay_grains(path, place));
-    const struct path_divisor length = path_divisor_of(section->length);
+    uint64_t step = path_divide(place->entry.place, &grains, &rest);
     for (unsigned axis = 0; axis < PATH_AXES; axis++) {
-        struct wide way = path_wide_times(place->entry.place, path_section_steps(section, axis));
-        struct wide longest = {.low = path_divide(way, &grains, &rest)};
-        pulses[axis] = (uint32_t)path_divide(longest, &length, &rest);
+        uint32_t steps = path_section_steps(section, axis);
+        pulses[axis] = rest == 0 ? pulses_at(step, steps, section->length)
+                                 : pulses_between(place->entry.place, steps, &grains, section->length);
     }
 }
 

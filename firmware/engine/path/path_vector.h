@@ -67,6 +67,8 @@ struct path_section {
     uint32_t turning;    /* the fewest steps of an axis that turns at its beginning; 0: none, or the path stood in it */
     uint64_t gain2;      /* what the square of the speed can gain in the vector, in terms of border speeds */
     uint64_t speed2;     /* the vector's own speed in these terms */
+    uint64_t ready2;     /* the same of a speed that waits to be taken, */
+    uint32_t ready;      /* and that speed */
     uint64_t border2;    /* the most at its beginning, in these terms */
     uint64_t cap2;       /* the same, and no more than the vectors on both sides allow; set where the plan is made */
     uint64_t exit2;      /* the plan: at its end, in these terms; until it is laid what can be braked from */
@@ -90,12 +92,24 @@ uint64_t path_section_to_border2(const struct path_section *section, uint64_t sp
 uint64_t path_section_to_border2_up(const struct path_section *section, uint64_t speed2);
 uint64_t path_section_from_border2(const struct path_section *section, uint64_t border2);
 
-/* Another speed for the vector. */
-static inline void path_section_set_speed(struct path_section *section, uint32_t speed)
+/* Another speed for the vector waits until it is taken: what takes time has been done by then. */
+static inline void path_section_ready_speed(struct path_section *section, uint32_t speed)
 {
     uint64_t speed2 = (uint64_t)speed * speed;
-    section->vector.speed = speed;
-    section->speed2 = section->plain ? speed2 : path_section_to_border2(section, speed2);
+    section->ready = speed;
+    section->ready2 = section->plain ? speed2 : path_section_to_border2(section, speed2);
+}
+
+static inline void path_section_take_speed(struct path_section *section)
+{
+    section->vector.speed = section->ready;
+    section->speed2 = section->ready2;
+}
+
+static inline void path_section_set_speed(struct path_section *section, uint32_t speed)
+{
+    path_section_ready_speed(section, speed);
+    path_section_take_speed(section);
 }
 
 /* 1/(1024*acceleration) step: as many make a step. The square of the speed changes by one on the way. */

@@ -204,7 +204,7 @@ static uint64_t channel_pushed(const struct step_channel *channel)
 }
 
 /* The cursor goes back to the last pulse that is laid. */
-static void channel_thaw(struct step_channel *channel)
+void step_channel_thaw_held(struct step_channel *channel)
 {
     uint64_t laid = step_cursor_pulse(&channel->cursor) - channel->recalled;
     if (channel->recalled != 0) {
@@ -231,7 +231,7 @@ bool step_channel_freeze(struct step_channel *channel, uint64_t back)
     channel->frozen = true;
     bool in_time = channel->recalled == much;
     if (!in_time) {
-        channel_thaw(channel);
+        step_channel_thaw_held(channel);
     }
     hal_step_release();
     return in_time;
@@ -240,7 +240,7 @@ bool step_channel_freeze(struct step_channel *channel, uint64_t back)
 void step_channel_thaw(struct step_channel *channel)
 {
     hal_step_hold();
-    channel_thaw(channel);
+    step_channel_thaw_held(channel);
     hal_step_release();
 }
 
@@ -256,14 +256,10 @@ void step_channel_recall(struct step_channel *channel, uint64_t back, const stru
         channel_truncate(channel, pulse);
     }
     channel->recalled = 0;
-    channel->frozen = false;
     if (segment != NULL) {
         channel->turn = backward;
         step_channel_append(channel, segment);
         atomic_store_explicit(&channel->running, true, memory_order_relaxed);
-    }
-    if (step_channel_is_running(channel)) {
-        hal_step_run(channel->motor);
     }
     hal_step_release();
     if (ends) {

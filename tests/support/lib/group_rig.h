@@ -38,9 +38,13 @@ static bool stop_asked;
 static uint64_t busy_until; /* main does not come to its pass before */
 static int64_t ordered[UNIT_MOTORS];
 
+static uint64_t laying_ticks; /* what laying pulses takes once */
+
 static inline unsigned lay_isr(void *context, unsigned motor, struct hal_step_room *room)
 {
     (void)context;
+    machine.now += laying_ticks;
+    laying_ticks = 0;
     return step_channel_lay_isr(&channels[motor], room);
 }
 

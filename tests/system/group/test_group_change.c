@@ -119,7 +119,7 @@ void test_speeds_wait_where_the_queues_end_before_they_can_take_effect(void)
         group_set_speeds(&group, &speeds);
         run_to_the_end();
         assert_arrived();
-        TEST_ASSERT_NULL(group.speeds.of);
+        TEST_ASSERT_FALSE(group.speeds_wait);
     }
 }
 

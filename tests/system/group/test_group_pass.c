@@ -75,15 +75,6 @@ void test_main_is_woken_for_half_of_a_queue(void)
     }
 }
 
-/* Planning takes its time: the speeds are asked for in it. */
-static uint64_t planning_ticks;
-
-static uint32_t slow_planning(const void *context, uint32_t section)
-{
-    machine.now += section == group_first(&group) ? planning_ticks : 0;
-    return slow(context, section);
-}
-
 /* The tick of the next pass that a pass asks for; it began at `begin`. */
 static uint64_t plan_for(uint64_t ticks, uint64_t *begin)
 {
@@ -94,8 +85,9 @@ static uint64_t plan_for(uint64_t ticks, uint64_t *begin)
     }
     start();
     run_alone_to(hal_time_now() + 5 * TICKS_PER_MS);
-    planning_ticks = ticks;
-    group.speeds = (struct group_speeds){.of = slow_planning, .context = &speed};
+    group_set_speeds(&group, &(struct group_speeds){.of = slow, .context = &speed});
+    group.speeds_wait = true;
+    laying_ticks = ticks;
     *begin = hal_time_now();
     uint64_t next = group_poll(&group);
     machine.late_steps = 0;

@@ -104,6 +104,7 @@ static void recall(struct step_channel *channel, const struct act *act)
     const struct step_segment segment = {
         .slope = act->slope, .tick = act->tick, .pace_ticks = act->pace_ticks, .steps = act->steps};
     step_channel_recall(channel, frozen, act->steps != 0 ? &segment : NULL, act->what >> 16 != 0);
+    step_channel_thaw(channel);
 }
 
 static void rest(const struct step_channel *channel)

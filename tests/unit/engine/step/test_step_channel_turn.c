@@ -151,6 +151,7 @@ void test_while_frozen_the_pulses_that_stay_go_on_being_laid(void)
             TEST_ASSERT_EQUAL_UINT(0, laid_waiting());
             TEST_ASSERT_TRUE(step_channel_is_running(&channel));
             step_channel_recall(&channel, TOTAL - stays, &segment, true);
+            step_channel_thaw(&channel);
             for (uint32_t k = 1; k <= NEW_STEPS; k++) {
                 TEST_ASSERT_EQUAL_UINT32(START + (stays + k) * INTERVAL, laid_make_pulse());
                 TEST_ASSERT_EQUAL_INT64(position[stays] - (int64_t)k, step_channel_position(&channel));
@@ -168,6 +169,7 @@ static void recall(unsigned ahead, uint32_t made, uint32_t back, bool backward)
     assert_pulses(1, made);
     TEST_ASSERT_TRUE(step_channel_freeze(&channel, back));
     step_channel_recall(&channel, back, &segment, backward);
+    step_channel_thaw(&channel);
     assert_pulses(made + 1U, stays);
     for (uint32_t k = 1; k <= NEW_STEPS; k++) {
         int64_t way = backward ? -(int64_t)k : (int64_t)k;
@@ -198,6 +200,7 @@ static void end_early(unsigned ahead, uint32_t made, uint32_t back)
     assert_pulses(1, made);
     TEST_ASSERT_TRUE(step_channel_freeze(&channel, back));
     step_channel_recall(&channel, back, NULL, false);
+    step_channel_thaw(&channel);
     assert_pulses(made + 1U, stays);
     TEST_ASSERT_FALSE(step_channel_is_running(&channel));
     TEST_ASSERT_EQUAL_UINT32(START + stays * INTERVAL, step_channel_end_tick(&channel));
@@ -243,6 +246,7 @@ void test_a_channel_at_rest_takes_what_replaces_nothing(void)
     assert_pulses(1, TOTAL);
     TEST_ASSERT_TRUE(step_channel_freeze(&channel, 0));
     step_channel_recall(&channel, 0, &segment, true);
+    step_channel_thaw(&channel);
     (void)run_to_the_end();
     TEST_ASSERT_EQUAL_INT64(position[TOTAL] - NEW_STEPS, step_channel_position(&channel));
 }
