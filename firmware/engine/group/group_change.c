@@ -10,8 +10,7 @@ enum {
     /* From the plan's begin to the place: what planning takes, and the lead of the step output. */
     LEAD_TICKS = 350 * TICKS_PER_US,
     LEAD_TICKS_MAX = 8 * LEAD_TICKS,
-    LOOK_TICKS = 7 * TICKS_PER_US / 10, /* more for each section that is looked at, */
-    SPEED_TICKS = TICKS_PER_US / 8,     /* and for each that gets another speed */
+    LOOK_TICKS = TICKS_PER_US, /* more for each section that is looked at, with another speed or not */
     PATIENCE_TICKS = 500 * TICKS_PER_US,
     GO_ON_TICKS = 370 * TICKS_PER_US, /* so much is handed over after the place at once */
     FIRST_TICKS = 4 * TICKS_PER_MS,   /* and the first segment of each axis, if it is due by then */
@@ -123,7 +122,6 @@ static uint64_t lead_of(const struct group *group)
 {
     uint64_t sections = group->path.end - group->path.first;
     uint64_t each = is_in(group, AXIS_BRAKING) ? 0 : (uint64_t)LOOK_TICKS;
-    each += group->speeds_wait ? (uint64_t)SPEED_TICKS : 0;
     return (uint64_t)LEAD_TICKS + sections * each;
 }
 

@@ -4,8 +4,7 @@
 enum {
     SECTIONS = 60,
     LEAD_TICKS = 350 * TICKS_PER_US,
-    LOOK_TICKS = 58,  /* 0.7 us, for each section that is looked at, */
-    SPEED_TICKS = 10, /* and for each that gets another speed */
+    LOOK_TICKS = 84,  /* 1 us, for each section that is looked at */
     STEP_TICKS = 420, /* at 200 000 steps/s */
 };
 
@@ -78,7 +77,7 @@ void test_other_speeds_take_effect_later_by_the_time_that_their_sections_need(vo
     uint64_t now = hal_time_now();
     group_set_speeds(&group, &speeds);
     TEST_ASSERT_EQUAL_UINT32(SECTIONS, group_end(&group) - group_first(&group));
-    expect_place_at(now + LEAD_TICKS + SECTIONS * (LOOK_TICKS + SPEED_TICKS));
+    expect_place_at(now + LEAD_TICKS + SECTIONS * LOOK_TICKS);
     run_to_the_end();
     assert_arrived();
 }
@@ -94,7 +93,7 @@ void test_sections_that_are_over_need_no_time(void)
     uint64_t now = hal_time_now();
     uint64_t sections = group_end(&group) - group_first(&group);
     group_set_speeds(&group, &speeds);
-    expect_place_at(now + LEAD_TICKS + sections * (LOOK_TICKS + SPEED_TICKS));
+    expect_place_at(now + LEAD_TICKS + sections * LOOK_TICKS);
     run_to_the_end();
     assert_arrived();
 }
