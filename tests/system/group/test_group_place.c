@@ -156,7 +156,7 @@ static int64_t ask_before_step(uint64_t ticks)
 
 void test_between_steps_a_step_is_waited_for_if_it_comes_half_a_millisecond_later(void)
 {
-    const uint64_t lead = LEAD_TICKS + 2 * LOOK_TICKS;
+    const uint64_t lead = LEAD_TICKS + LOOK_TICKS;
     const uint64_t patience = 500 * TICKS_PER_US;
     TEST_ASSERT_INT64_WITHIN(1, 0, ask_before_step(lead + patience - 2U));
     TEST_ASSERT_INT64_WITHIN(2, patience + 3, ask_before_step(lead + patience + 3U));
