@@ -17,14 +17,12 @@ from pos_words import MS, Mismatch, Unsure
 
 SESSIONS = int(os.environ.get("RKM04_PROGRAMS", "300"))
 BATCH = 1000
-LATE = 2 * MS
-"""So late does the firmware take changes; 1 ms is in the contract."""
+WRONG_SHARE_MAX = 0.05
+"""Of sessions in which the model loses the place of a change: most come between two pulses, after
+one that planning could not touch any more."""
 
-WRONG_SHARE_MAX = 0.08
-"""Of sessions in which the firmware differs from the contract besides."""
-
-UNSURE_SHARE_MAX = 0.6
-"""Changes that are late leave more open than the model can follow."""
+UNSURE_SHARE_MAX = 0.35
+"""What is open at once is more than the model can follow."""
 
 
 @pytest.mark.parametrize("batch", range(-(-SESSIONS // BATCH)))
@@ -35,7 +33,7 @@ def test_any_session_goes_as_the_contract_says(batch: int) -> None:
     for seed in seeds:
         spoken, done = run_session(session(seed))
         try:
-            compare(spoken, done, LATE)
+            compare(spoken, done, MS)
         except Unsure:
             count["unsure"] += 1
         except Mismatch as mismatch:

@@ -15,6 +15,9 @@ from pos_words import MS, SPEED_UNITS, Unsure
 CHANGE = MS
 """A change takes effect within this, or at the next pulse."""
 
+LEAD = MS * 45 // 100
+"""Planning takes so long: pulses that are due before come as they were."""
+
 SLOW_CHANGE = 20 * MS
 """Likewise below 1 step/s."""
 
@@ -246,17 +249,24 @@ def _family(curve: Curve, order: Order, per_step: int, low: int, high: int) -> F
 
 
 def _places(curve: Curve, seen: int, tick: int, late: int) -> Iterator[Places]:
-    """Where a change may take effect; more than `CHANGE` late: wherever it is not later."""
+    """Where a change may take effect: at pulses up to the first that planning leaves time for.
+
+    And at constant speed between pulses, if it is not later than `late`.
+    """
     first = seen + 1
-    due = last = NEVER
-    lenient = late > CHANGE
+    due = last = soon = NEVER
+    since = tick
     if curve.rest_time > tick << BITS and first <= curve.count and curve.leg_at(first):
         due, last = ceil_tick(curve.time_of(first)), first
-        while last < curve.count and curve.time_of(last + (not lenient)) <= tick + late << BITS:
+        while last < curve.count and curve.time_of(last) < tick + LEAD << BITS:
+            since = ceil_tick(curve.time_of(last))
+            last += 1
+        soon = ceil_tick(curve.time_of(last))
+        while last < curve.count and curve.time_of(last + 1) <= tick + late << BITS:
             last += 1
     between: list[Places] = []
-    if lenient or due > tick + max(late, CHANGE):
-        between = list(_between(curve, tick, max(late, CHANGE), NEVER if lenient else due))
+    if due == NEVER or soon > tick + LEAD + late // 2:
+        between = list(_between(curve, since, tick + max(late, CHANGE) - since, soon))
     cruises = between and _leg_during(curve, tick).sign == 0
     if due < NEVER and (not cruises or due <= tick + 2 * late):
         yield 1, first, last

@@ -121,8 +121,8 @@ void pos_axis_fault(struct pos_axis *axis, enum pos_error error);
  * call again at the latest. */
 uint64_t pos_axis_poll(struct pos_axis *axis, uint8_t inputs);
 
-/* The end of a pass, when all instructions of it have come: the wanted speed counts. True: the initiator has something
- * to do in the next pass. */
+/* The end of a pass, when all instructions of it have come: the wanted speed counts. True: the next pass is to come at
+ * once, as more is to be handed over, or the initiator has something to do. */
 bool pos_axis_follow(struct pos_axis *axis);
 
 /* Whether it is to leave its stand; and it does, at a tick at least 0.5 ms ahead, unless an input forbids it. */

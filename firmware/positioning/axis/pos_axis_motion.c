@@ -302,7 +302,7 @@ static void follow(struct pos_axis *axis)
 bool pos_axis_follow(struct pos_axis *axis)
 {
     follow(axis);
-    return axis->waits && !pos_axis_is_busy(axis);
+    return pos_drive_is_stirred(&axis->drive) || (axis->waits && !pos_axis_is_busy(axis));
 }
 
 bool pos_axis_wants_start(const struct pos_axis *axis)

@@ -20,6 +20,7 @@ void pos_drive_init(struct pos_drive *drive, unsigned motor)
     drive->origin_steps = 0;
     drive->start_tick = 0;
     drive->speed = 0;
+    drive->stirred = false;
     step_channel_init(&drive->channel, motor);
     group_init(&drive->group, drive->ring, POS_DRIVE_SECTIONS);
     group_connect(&drive->group, motor, &drive->channel, AXIS);
@@ -78,16 +79,19 @@ void pos_drive_start(struct pos_drive *drive, uint32_t speed, uint64_t start_tic
 void pos_drive_change(struct pos_drive *drive, uint32_t speed)
 {
     drive->speed = speed;
+    drive->stirred = true;
     group_set_speeds(&drive->group, &(struct group_speeds){.of = speed_of, .context = drive});
 }
 
 void pos_drive_hold(struct pos_drive *drive)
 {
+    drive->stirred = true;
     (void)group_stop(&drive->group, AXIS_CAUSE_PAUSE);
 }
 
 void pos_drive_fault(struct pos_drive *drive)
 {
+    drive->stirred = true;
     (void)group_stop(&drive->group, AXIS_CAUSE_FAULT);
 }
 
@@ -112,6 +116,7 @@ bool pos_drive_resume(struct pos_drive *drive, uint32_t speed)
 
 uint64_t pos_drive_poll(struct pos_drive *drive)
 {
+    drive->stirred = false;
     uint64_t wake = group_poll(&drive->group);
     add(drive);
     return wake;

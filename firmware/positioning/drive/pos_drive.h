@@ -48,6 +48,7 @@ struct pos_drive {
     int64_t origin_steps; /* where the measure began */
     uint32_t speed;       /* wanted by all sections */
     uint8_t motor;
+    bool stirred; /* planned anew since the last poll: more is to be handed over soon */
 };
 
 /* Stands at step 0. */
@@ -74,6 +75,12 @@ void pos_drive_plan_isr(struct pos_drive *drive);
 
 /* Goes on while it comes to rest because of pos_drive_hold. False: it is too late, or nothing is to be taken back. */
 bool pos_drive_resume(struct pos_drive *drive, uint32_t speed);
+
+/* Whether it has been planned anew since pos_drive_poll, which is to be called at once then. */
+static inline bool pos_drive_is_stirred(const struct pos_drive *drive)
+{
+    return drive->stirred;
+}
 
 /* Returns when to call again at the latest. */
 uint64_t pos_drive_poll(struct pos_drive *drive);
