@@ -21,17 +21,6 @@ bool path_is_laid(const struct path *path)
     return path->laid == path->known;
 }
 
-/* Whether the path comes into its last section as fast as it would have ended before it, at least. */
-static bool is_as_fast(const struct path *path, uint32_t section)
-{
-    const struct path_section *after = path_section_of(path, section);
-    if (section == path->first) {
-        return false;
-    }
-    uint64_t speed2 = path_section_of(path, section - 1U)->speed2;
-    return after->speed2 >= speed2 && after->border2 >= speed2;
-}
-
 /* The path goes on to its last section, unless all before it has been laid. */
 static void join(struct path *path)
 {
@@ -52,7 +41,7 @@ bool path_add(struct path *path, const struct path_vector *vector)
         path_section_mind_turns(section, path_section_of(path, path->end - 1U), path->turn_us);
     }
     path->end++;
-    if (path->start_speed == 0 || (path->chain == path->end - 1U && is_as_fast(path, path->end - 1U))) {
+    if (path->start_speed == 0 || vector->straight) {
         join(path);
     }
     return true;

@@ -93,9 +93,8 @@ void path_init(struct path *path, struct path_section *ring, uint32_t size, uint
  *   takes speeds up to S at once where it is changed, no higher than the border allowed as long as an axis that turned
  *   there has not made its first pulse; and falls from S to a speed below at once,
  *   is stopped when it has braked to S; at once, if it is no faster,
- *   is the vectors that were there when it left the stand, and later ones that are as fast
- *   and are entered with no less than their speed: others wait for the next start, as their border may be slower than
- *   the end that was planned.
+ *   is the vectors that were there when it left the stand, and later ones that go straight on: others wait for the next
+ *   start, as a border with a turn or a low border speed may be slower than the end that was planned.
  * Borders are as ever: the path is at 0 where a border speed wants it. The path must stand. */
 void path_set_start_speed(struct path *path, uint32_t start_speed);
 

@@ -57,6 +57,8 @@ struct path_vector {
     uint64_t extent2; /* E^2, at least 1 */
     uint32_t
         border_speed; /* not exceeded where another vector joins this one's beginning, 1/256 step/s of that number */
+
+    bool straight; /* it goes on as the vector before it: same direction, speed and acceleration */
 };
 
 /* A place of the caller's ring. */

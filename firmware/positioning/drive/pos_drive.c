@@ -44,6 +44,7 @@ static void add(struct pos_drive *drive)
             .accel = drive->measure.accel,
             .extent2 = pulses * pulses,
             .border_speed = PATH_SPEED_MAX,
+            .straight = drive->to_add != drive->measure.pulses,
         };
         bool added = group_add(&drive->group, &vector);
         assert(added);
