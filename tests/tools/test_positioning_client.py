@@ -114,6 +114,15 @@ def test_watch_looks_as_often_as_asked(pos_call: Callable[..., str]):
     assert all("axis 4: 0.000 mm, FREE" in line for line in lines)
 
 
+def test_a_unit_as_fast_as_possible_answers_too(positioning: Tool, pos_serve: Serve):
+    port = ["--port", pos_serve(speed="0").place]
+
+    assert positioning("move", "1", *port).out == "axis 1: 1.000 mm, REACHED\n"
+    assert positioning("settings", "set", "BACKLASH=5", "--store", *port).status == 1
+    assert positioning("reset", *port).status == 0
+    assert positioning("settings", "set", "BACKLASH=5", "--store", *port).status == 0
+
+
 def test_scan_finds_every_unit(positioning: Tool, pos_serve: Serve):
     served = pos_serve("--node", "3", "--node", "7")
 

@@ -1,7 +1,11 @@
 #include "pos_serve.h"
 
+#include "base_tick.h"
 #include "pos_kind.h"
 #include "serve.h"
+
+/* More than 3.5 characters at 9600 Bd. */
+#define SILENCE_TICKS (10U * TICKS_PER_MS)
 
 const char pos_serve_usage[] =
     "usage: positioning-host serve [--tcp PORT | --pty PATH] [--node N ...] [--flash FILE] [--speed X]\n"
@@ -35,6 +39,7 @@ static const struct serve_kind kind = {
     .tool = "positioning",
     .order_help = "not understood; write 3=1 or 3=0 for input 3, 2.3=1 for that of unit 2, or ?",
     .flash_mark = "POS4",
+    .silence_ticks = SILENCE_TICKS,
     .has_nodes = true,
 };
 

@@ -108,7 +108,14 @@ static void follow_clock(struct serve *serve)
     }
 }
 
-/* Without a clock: lets them run while there is work; to its next event where that is far. */
+/* Up to there units may wait for silence on the line. */
+static uint64_t silence_end(const struct serve *serve)
+{
+    return serve->line.last_tick + serve->kind->silence_ticks;
+}
+
+/* Without a clock: lets them run while there is work, to its next event where that is far; and through the silence on
+ * the line for which they wait. */
 static void run_ahead(struct serve *serve)
 {
     uint64_t begin_ns = units_real_ns();
@@ -116,6 +123,9 @@ static void run_ahead(struct serve *serve)
         uint64_t next = serve_units_next_tick(&serve->units);
         uint64_t slice = serve->units.now + SLICE_TICKS;
         serve_units_run(&serve->units, next < slice ? slice : next + 1U);
+    }
+    if (!serve_units_have_work(&serve->units)) {
+        serve_units_run(&serve->units, silence_end(serve));
     }
 }
 
@@ -217,7 +227,7 @@ static bool find_rest(struct serve *serve, struct timespec *rest)
 {
     uint64_t rest_ns = 0;
     if (serve->options->milli_speed == 0) {
-        if (!serve_units_have_work(&serve->units)) {
+        if (!serve_units_have_work(&serve->units) && serve->units.now >= silence_end(serve)) {
             return false;
         }
     } else {

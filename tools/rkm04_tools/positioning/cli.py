@@ -63,6 +63,8 @@ def make_parser() -> Parser:
     _add_registers(commands)
     add_board(commands, NAME)
     add_client_commands(commands, add_command)
+    title = "measure how fast the unit is on this machine"
+    add_command(commands, "bench", _bench, title, "positioning bench --json")
     completion.add_command(commands, NAME, add_command)
     return parser
 
@@ -72,6 +74,13 @@ def _sim(options: argparse.Namespace) -> int:
     from rkm04_tools.positioning import sim
 
     return sim.run(options)
+
+
+def _bench(options: argparse.Namespace) -> int:
+    """Import Modbus only when it is needed."""
+    from rkm04_tools.positioning import bench
+
+    return bench.run(options)
 
 
 def _add_check(commands: Commands) -> None:

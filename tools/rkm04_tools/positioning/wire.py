@@ -43,6 +43,8 @@ GAP_CHARACTERS = 3.5
 GAP_SECONDS_MIN = 0.00175
 REST_SECONDS = 0.05
 """Silence that long in an answer is its end, whole or not."""
+LATE_SECONDS = 0.1
+"""After a repeat an answer may come twice; so long the second one is waited for."""
 SENT_MAX = 4
 """How often a request is sent at the most."""
 FRAME_BYTES_MAX = 256
@@ -82,6 +84,7 @@ class Wire:
         self._byte_seconds = 0.0 if tcp else bits / rate
         self._number = 0
         self._quiet_from = 0.0
+        self._owed = False
 
     @property
     def name(self) -> str:
@@ -142,6 +145,8 @@ class Wire:
             except (NoAnswer, GarbledAnswer) as failed:
                 error = failed
                 continue
+            finally:
+                self._owed = sent > 0 and not self._tcp
             if not isinstance(answer, ExceptionResponse):
                 return answer
             if answer.exception_code != TARGET_FAILED:
@@ -166,8 +171,9 @@ class Wire:
 
     def _be_quiet(self) -> None:
         """Drop what has come too late, and leave the silence that ends a frame for all units."""
-        while self._port.read(0.0):
+        while self._port.read(LATE_SECONDS if self._owed else 0.0):
             pass
+        self._owed = False
         gap = max(GAP_CHARACTERS * self._byte_seconds, GAP_SECONDS_MIN)
         left = self._quiet_from + gap - time.monotonic()
         if not self._tcp and left > 0:
