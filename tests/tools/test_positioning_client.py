@@ -426,6 +426,25 @@ def test_hold_of_a_dumb_unit_is_not_confirmed(port: Place):
             unit.axis(1).hold()
 
 
+def test_a_line_that_dies_in_a_move_is_shouted(pos_serve: Serve, began: Callable[..., Any]):
+    served = pos_serve(speed="1")
+    process = began("move", "1000", "--feed", "600", "--port", served.place)
+    served.control().wait_for("moves", lambda state: state["moving"][0])
+
+    served.end(signal.SIGKILL)
+    _, err = process.communicate(timeout=PATIENCE_SECONDS)
+
+    assert process.returncode == 3
+    assert err.startswith("STOP NOT CONFIRMED: ")
+
+
+def test_nothing_is_shouted_where_nothing_has_begun(positioning: Tool, port: Place):
+    result = positioning("move", "1", "--port", port[0])
+
+    assert result.status == 3
+    assert "STOP" not in result.err
+
+
 def test_another_master_is_noticed(unit: Unit):
     axis = unit.axis(1)
     axis.init()

@@ -12,7 +12,7 @@ from rkm04_tools.failure import INTERRUPTED, NO_CONNECTION, Failure
 from rkm04_tools.frame import NODES
 from rkm04_tools.line_errors import LineError, PortError
 from rkm04_tools.positioning import settings
-from rkm04_tools.positioning.line_errors import WrongUnit
+from rkm04_tools.positioning.line_errors import Restarted, WrongUnit
 from rkm04_tools.positioning.state import AxisState, UnitState, feed_text, mm_text
 from rkm04_tools.positioning.table import AXES
 from rkm04_tools.positioning.unit import Axis, Unit, open_unit
@@ -183,15 +183,21 @@ def _moved(options: Namespace, work: Callable[[Axis], AxisState]) -> int:
         raise Failure(f"--feed {options.feed:g}: write mm/min, more than 0")
     with unit_of(options) as unit:
         axis = unit.axis(options.axis)
+        begun = False
         with Stopper(unit.wire) as stopper:
             try:
-                if not axis.read().is_taken:
+                taken = axis.read().is_taken
+                begun = True
+                if not taken:
                     axis.init()
                 state = work(axis)
             except KeyboardInterrupt:
                 return _hold_at_signal(axis, stopper)
+            except Restarted:
+                raise
             except LineError as error:
-                shout(str(error))
+                if begun:
+                    shout(str(error))
                 raise
     return tell(options, state.as_json(), axis_text(state))
 
@@ -208,6 +214,8 @@ def _hold_at_signal(axis: Axis, stopper: Stopper) -> int:
         print(f"positioning: {failure}", file=sys.stderr)
         return NO_CONNECTION
     kept = "; go goes on, reset gives the axis back" if state.state == "READY" else ""
+    if not state.is_taken:
+        kept = "; it was given back: THE UNIT HAS RESTARTED, or another master has done it"
     print(f"positioning: it stands: {axis_text(state)}{kept}", file=sys.stderr)
     return INTERRUPTED
 
