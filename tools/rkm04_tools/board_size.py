@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass
+from itertools import pairwise
 from pathlib import Path
 
 from rkm04_tools.objects import Graph, binutil, short
@@ -23,6 +24,7 @@ POINTER_CALLS = {
     "stm32_edge_interrupt": {"{unit}_tick_isr"},
     "look_at_inputs": {"{unit}_tick_isr"},
     "stm32_plan_interrupt": {"{unit}_plan_isr"},
+    "group_set_speeds": {"speed_of"},
     "take_speeds": {"speed_of"},
     "messages_answer": {
         *("answer_version", "answer_set_command", "answer_store_flash", "answer_get_position"),
@@ -31,6 +33,7 @@ POINTER_CALLS = {
 }
 # Folders of the build whose objects are not of the image.
 OTHERS = {"CompilerIdC", "rkm04_bench.dir", "paths_image.dir"}
+UNITS = ("rkm04", "gve134", "positioning")
 INDIRECT = "__indirect_call"
 
 # Functions of the compiler's libraries come without figures; these are above what their code pushes
@@ -39,6 +42,7 @@ LIBRARY_FRAMES = {
     "memcmp": 32,
     "memcpy": 32,
     "memset": 32,
+    "strlen": 32,
     "__aeabi_uldivmod": 96,
     "__aeabi_ldivmod": 96,
     "__assert_func": 0,
@@ -77,11 +81,12 @@ class Sizes:
     stack: int
 
 
-def call_graph(folder: Path) -> Graph:
-    """Everything that was compiled for the image."""
+def call_graph(folder: Path, unit: str = "") -> Graph:
+    """Everything that was compiled for the image; of a unit, without what is of the others."""
     graph = Graph()
+    others = {("firmware", other) for other in UNITS if unit and other != unit}
     for path in sorted(folder.rglob("*.ci")):
-        if not OTHERS.intersection(path.parts):
+        if not OTHERS.intersection(path.parts) and not others.intersection(pairwise(path.parts)):
             graph.add_calls(path)
     return graph
 
@@ -135,7 +140,7 @@ def measure(image: Path, folder: Path, unit: str = "rkm04") -> Sizes:
     return Sizes(
         flash=sum(found[name][0] for name in LOADED),
         ram=sum(size for size, address in found.values() if address in RAM),
-        stack=sum(stack_parts(call_graph(folder), unit).values()),
+        stack=sum(stack_parts(call_graph(folder, unit), unit).values()),
     )
 
 
