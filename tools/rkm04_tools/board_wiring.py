@@ -20,7 +20,7 @@ STEP_CLASSES = {
 AT_ONCE = "an edge acts at once"
 EVERY_MS = "looked at every millisecond, as {} has its line for edges"
 MORE = {"PWM", *(f"LED_{number}" for number in range(5, 9))}
-"""What RKM04 does not have, and what it has that units with a line of full duplex do not."""
+"""What units on RS-485 do not have, and what they have that those of full duplex do not."""
 FEWER = {f"S1_{number}" for number in range(1, 5)}
 LEVELS = {"EN": "ENABLE", "LINE": ""}
 """As a header names the level of a kind, where not as the kind; empty: it has none."""
@@ -68,7 +68,7 @@ def wires(header: Board, unit: str = board.UNIT) -> Iterator[Wire]:
     """The signals of a unit, in the order of the header."""
     for pin in header.pins:
         kind = pin.signal.partition("_")[0]
-        if pin.signal in (MORE if unit == board.UNIT else FEWER):
+        if pin.signal in (FEWER if board.is_full_duplex(unit) else MORE):
             continue
         level = header.values.get(f"BOARD_{LEVELS.get(kind, kind)}_LEVEL", "")
         one = {"1U": "high", "0U": "low"}.get(level, "")
