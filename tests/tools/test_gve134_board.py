@@ -13,6 +13,7 @@ from rkm04_tools import board, board_size
 from rkm04_tools.failure import Failure
 from rkm04_tools.gve134.cli import make_parser
 from rkm04_tools.objects import binutil
+from rkm04_tools.tree import ROOT
 
 UNIT = "gve134"
 STACK_MARGIN_BYTES = 256
@@ -84,7 +85,7 @@ def test_build_names_the_files_and_the_version(capsys: pytest.CaptureFixture[str
     assert [Path(name).name for name in told["files"]] == [
         f"gve134-f405.{kind}" for kind in ("elf", "hex", "bin")
     ]
-    assert all((board.ROOT / name).is_file() for name in told["files"])
+    assert all((ROOT / name).is_file() for name in told["files"])
 
 
 @compiles

@@ -13,6 +13,7 @@ import pytest
 from checks import board_pins
 from rkm04_tools import board, board_header, board_wiring
 from rkm04_tools.failure import Failure
+from rkm04_tools.tree import ROOT
 from wires import times_us, wires
 
 GOOD = (board.BOARDS / "f405" / "board.h").read_text()
@@ -98,7 +99,7 @@ def test_a_board_is_there_when_its_folder_is(
 def test_a_build_for_an_unknown_board_is_told_which_there_are(tmp_path: Path) -> None:
     done = subprocess.run(
         ["cmake", "--preset", "stm32", "-B", str(tmp_path), "-DFIRMWARE_BOARD=nucleo"],
-        cwd=board.ROOT, capture_output=True, text=True,
+        cwd=ROOT, capture_output=True, text=True,
     )  # fmt: skip
 
     assert done.returncode != 0
@@ -212,9 +213,9 @@ def test_levels_that_do_not_fit_the_supply_do_not_compile(
 ) -> None:
     assert old in GOOD
     (tmp_path / "board.h").write_text(GOOD.replace(old, new))
-    folders = [tmp_path, *(board.ROOT / each for each in ("hal/include", "firmware/base"))]
+    folders = [tmp_path, *(ROOT / each for each in ("hal/include", "firmware/base"))]
     command = [board.COMPILER, "-std=c11", "-fsyntax-only", *(f"-I{each}" for each in folders)]
-    source = str(board.ROOT / "hal/stm32/stm32_supply.c")
+    source = str(ROOT / "hal/stm32/stm32_supply.c")
     done = subprocess.run([*command, source], capture_output=True, text=True)
 
     assert done.returncode == 1

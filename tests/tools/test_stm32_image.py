@@ -11,6 +11,7 @@ from checks import ram_code
 from rkm04_tools import board, board_size
 from rkm04_tools.failure import NO_CONNECTION, NOT_SO
 from rkm04_tools.objects import Graph, binutil
+from rkm04_tools.tree import ROOT
 
 STACK_MARGIN_BYTES = 256
 
@@ -58,7 +59,7 @@ def test_the_image_begins_with_the_stack_and_the_reset_handler(image):
 
 
 def test_no_path_of_the_machine_is_in_the_image(image):
-    assert str(board.ROOT).encode() not in image.file("bin").read_bytes()
+    assert str(ROOT).encode() not in image.file("bin").read_bytes()
 
 
 HEADING = "Relocation section '.rel.ram' at offset 0x1 contains 999 entries:"
@@ -143,7 +144,7 @@ def test_build_names_the_files_and_the_version(tool):
     assert result.status == 0
     assert result.json["version"] == board.version()
     assert [Path(name).suffix for name in result.json["files"]] == [".elf", ".hex", ".bin"]
-    assert all((board.ROOT / name).is_file() for name in result.json["files"])
+    assert all((ROOT / name).is_file() for name in result.json["files"])
 
 
 def test_a_build_is_set_up_anew_only_when_the_presets_have_changed(image, tmp_path, monkeypatch):

@@ -14,7 +14,6 @@ import sys
 
 from rkm04_tools.positioning.table import (
     AXES,
-    ROOT,
     TABLE,
     Image,
     Register,
@@ -22,6 +21,7 @@ from rkm04_tools.positioning.table import (
     read_registers,
     tables,
 )
+from rkm04_tools.tree import ROOT
 
 __all__ = [
     "AXES", "DOCUMENT", "ROOT", "TABLE", "Image", "Register", "read_images", "read_registers",

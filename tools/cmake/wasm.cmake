@@ -1,13 +1,7 @@
-# WebAssembly (wasm32-wasi), for browsers. The compiler is zig's, from the Python package ziglang of build/venv.
+# WebAssembly (wasm32-wasi), for browsers.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
-file(GLOB folders ${CMAKE_CURRENT_LIST_DIR}/../../build/venv/lib/python3*/site-packages/ziglang)
-find_program(ZIG zig HINTS ${folders} REQUIRED)
-set(CMAKE_C_COMPILER ${ZIG} cc)
+include(${CMAKE_CURRENT_LIST_DIR}/zig.cmake)
 set(CMAKE_C_COMPILER_TARGET wasm32-wasi)
-set(CMAKE_AR ${ZIG})
-set(CMAKE_C_ARCHIVE_CREATE "<CMAKE_AR> ar qc <TARGET> <OBJECTS>")
-set(CMAKE_C_ARCHIVE_APPEND "<CMAKE_AR> ar q <TARGET> <OBJECTS>")
-set(CMAKE_C_ARCHIVE_FINISH "<CMAKE_AR> ranlib <TARGET>")
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 set(CMAKE_EXECUTABLE_SUFFIX_C .wasm)

@@ -9,8 +9,9 @@ static const char *program_name = "rkm04";
 
 void complain_as(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    program_name = slash != NULL ? slash + 1 : path;
+    for (program_name = path; *path != '\0'; path++) {
+        program_name = *path == '/' || *path == '\\' ? path + 1 : program_name;
+    }
 }
 
 void complain(const char *format, ...)

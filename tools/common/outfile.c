@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "complain.h"
+#include "replace.h"
 
 enum {
     BUFFER_BYTES = 1 << 18
@@ -111,7 +112,7 @@ bool outfile_publish(struct outfile *file)
     if (file->part == NULL) {
         return true;
     }
-    if (rename(file->part, file->path) != 0) {
+    if (replace_file(file->part, file->path) != 0) {
         complain_of(file, errno);
         return false;
     }

@@ -8,15 +8,14 @@ import sys
 from argparse import Namespace
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
-from pathlib import Path
 from typing import Any
 
 from rkm04_tools import child, host
 from rkm04_tools.bar import Bar
 from rkm04_tools.failure import DONE
 from rkm04_tools.table import rounded, table
+from rkm04_tools.tree import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "tests" / "support"
 HEAD = ("figure", "measured", "goal", "unit", "met")
 

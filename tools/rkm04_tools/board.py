@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import json
 import re
 import shlex
@@ -18,8 +17,8 @@ from rkm04_tools import board_part, board_size
 from rkm04_tools.board_header import read_board
 from rkm04_tools.failure import DONE, NO_CONNECTION, NOT_SO, Failure
 from rkm04_tools.table import table, thousands
+from rkm04_tools.tree import ROOT, require_checkout
 
-ROOT = Path(__file__).resolve().parents[2]
 PRESETS = ROOT / "CMakePresets.json"
 BOARDS = ROOT / "hal" / "stm32" / "boards"
 UNIT, BRINGUP = "rkm04", "bringup"
@@ -160,6 +159,7 @@ def image_of(board: str, what: str = UNIT, baud: int | None = None) -> Image:
 def build(board: str, target: str = "all", what: str = UNIT, baud: int | None = None) -> Image:
     """Build the image of a board, with the compiler installed if need be, or another target."""
     image = image_of(board, what, baud)
+    require_checkout("building an image")
     if not shutil.which(COMPILER):
         _call([str(ROOT / "tools" / "setup"), "board"], "the compiler cannot be installed")
     configure = ["cmake", "--preset", "stm32", "-B", str(image.folder), f"-DFIRMWARE_BOARD={board}"]
@@ -184,6 +184,8 @@ def _alone_in(folder: Path) -> Iterator[int]:
 
     What builds gets the lock that is yielded, so that it lasts as long as that, whatever ends this.
     """
+    import fcntl  # not on Windows
+
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / "build.lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)

@@ -13,8 +13,9 @@ from itertools import pairwise
 from pathlib import Path
 
 from rkm04_tools.objects import Graph, binutil, short
+from rkm04_tools.tree import ROOT
 
-BUDGETS = Path(__file__).resolve().parents[2] / "hal/stm32/budgets.json"
+BUDGETS = ROOT / "hal/stm32/budgets.json"
 
 # Calls through a pointer, which the compiler does not see: who calls, and what. An image has one
 # unit.

@@ -17,6 +17,7 @@ from rkm04_tools.compare import options as compare_options
 from rkm04_tools.failure import DONE, INTERRUPTED, NOT_SO, Failure
 from rkm04_tools.machine import options as machine_options
 from rkm04_tools.source import named
+from rkm04_tools.tree import require_checkout
 
 SIM_NOTES = """\
 INPUTS has lines ms,input,level such as 350.5,3,1: BI3 becomes 1 at 350.5 ms.
@@ -130,6 +131,7 @@ def _sim(options: argparse.Namespace) -> int:
 
 def _bench(options: argparse.Namespace) -> int:
     """Import what measures the image only when it is asked for."""
+    require_checkout("bench")
     if options.target == "host":
         if options.profile:
             raise Failure("--profile needs --target stm32")

@@ -14,6 +14,8 @@ from typing import Any
 
 from rkm04_tools.board import names
 from rkm04_tools.failure import DONE
+from rkm04_tools.tree import IS_INSTALLED
+from rkm04_tools.tree import ROOT as TREE
 
 WORDS = "--words"
 TITLE = "print what a shell needs to complete commands, options, ports and boards"
@@ -61,7 +63,7 @@ def add_command(commands: Any, tool: str, add: Callable[..., argparse.ArgumentPa
 
 def run(options: argparse.Namespace) -> int:
     """Print the script."""
-    tool = Path(__file__).resolve().parents[1] / options.tool
+    tool = options.tool if IS_INSTALLED else TREE / "tools" / options.tool
     script = SCRIPTS[options.shell].replace("TOOL", str(tool))
     print(script.replace("NAME", options.tool), end="")
     return DONE

@@ -19,11 +19,14 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from rkm04_tools import child
+from rkm04_tools import child, tree
 from rkm04_tools.failure import Failure
 
-PROGRAM = "rkm04-host"
+SUFFIX = ".exe" if os.name == "nt" else ""
+PROGRAM = f"rkm04-host{SUFFIX}"
 BUILD_VARIABLE = "RKM04_BUILD"
+BUILT = tree.ROOT / "build" / "host"
+"""Where a wheel brings the programs."""
 PROGRESS_AFTER_SECONDS = 1.0
 PROGRESS = re.compile(rb"^progress (\d+)\n", re.MULTILINE)
 
@@ -130,7 +133,7 @@ def measure() -> dict[str, Any]:
 
 def program_path() -> Path:
     """Where the program was built."""
-    build = os.environ.get(BUILD_VARIABLE)
+    build = os.environ.get(BUILD_VARIABLE) or (str(BUILT) if tree.IS_INSTALLED else "")
     if not build:
         raise Failure(f"{BUILD_VARIABLE} is not set; start the command as tools/rkm04")
     path = Path(build) / "bin" / PROGRAM

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -65,7 +66,10 @@ def become(program: Path, tool: str, options: argparse.Namespace, passed_on: Pas
     """Become the C program of a tool."""
     sys.stdout.flush()
     sys.stderr.flush()
-    os.execv(program, [tool, "serve", *arguments_of(options, passed_on)])
+    arguments = ["serve", *arguments_of(options, passed_on)]
+    if os.name == "nt":  # which has no exec: it would end this one at once
+        sys.exit(subprocess.call([program, *arguments]))
+    os.execv(program, [tool, *arguments])
 
 
 def arguments_of(options: argparse.Namespace, passed_on: Passed) -> list[str]:

@@ -31,6 +31,7 @@ from rkm04_tools.sim_files import (
     require_seconds,
 )
 from rkm04_tools.source import is_standard_input, named, read_source
+from rkm04_tools.tree import require_checkout
 
 MOTORS = range(1, 5)
 
@@ -46,6 +47,7 @@ def run(options: Namespace) -> int:
     read = [named(options.file)] if is_of_machine else [*programs.values()]
     require_outputs(outputs, [*read, *([inputs] if inputs else [])])
     if options.target == "stm32":
+        require_checkout("--target stm32")
         _require_board_has(outputs)
     if is_of_machine:
         machine = read_simulated(options)

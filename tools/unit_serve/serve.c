@@ -39,6 +39,9 @@ enum {
 /* So long units may run before clients are looked at again. */
 #define BUSY_NS UINT64_C(5000000)
 
+#define MS_PER_SECOND 1000
+#define NS_PER_MS 1000000
+
 /* So much they run at a time. */
 #define SLICE_TICKS ((uint64_t)TICKS_PER_MS)
 
@@ -246,6 +249,15 @@ static bool find_rest(struct serve *serve, struct timespec *rest)
     return true;
 }
 
+static int poll_for(struct pollfd *slots, const struct timespec *rest)
+{
+#ifdef __linux__
+    return ppoll(slots, SLOTS, rest, NULL);
+#else
+    return poll(slots, SLOTS, rest != NULL ? (int)(rest->tv_sec * MS_PER_SECOND + rest->tv_nsec / NS_PER_MS + 1) : -1);
+#endif
+}
+
 /* False: the end has been asked for. */
 static bool wait_for_something(struct serve *serve)
 {
@@ -254,7 +266,7 @@ static bool wait_for_something(struct serve *serve)
     fill_slots(&serve->slots[SLOT_LINE], &serve->line_port, serve_line_room(&serve->line, serve->units.now) > 0);
     fill_slots(&serve->slots[SLOT_CONTROL], &serve->control_port, true);
     serve_units_hear(&serve->units, &serve->line);
-    if (ppoll(serve->slots, SLOTS, limited ? &rest : NULL, NULL) <= 0) {
+    if (poll_for(serve->slots, limited ? &rest : NULL) <= 0) {
         for (unsigned i = 0; i < SLOTS; i++) {
             serve->slots[i].revents = 0;
         }

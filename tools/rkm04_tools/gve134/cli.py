@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import re
-from pathlib import Path
 
 from rkm04_tools import completion
 from rkm04_tools.cli import Commands, Parser, add_board, add_command, add_page_options
@@ -16,6 +15,7 @@ from rkm04_tools.gve134.client_options import (
     add_client_commands,
 )  # fmt: skip
 from rkm04_tools.gve134.gcode import options as gcode_options
+from rkm04_tools.tree import ROOT, require_checkout
 
 CHECK_NOTES = """\
 A vector file has a command in each line, as the unit's line has it, without ! and address for the
@@ -58,7 +58,7 @@ SIM_OPTIONS = [
     ("--plot", "OUT", "draw speeds, positions and signals: a name ending in .svg or .png"),
     ("--xy", "OUT", "draw the path in X and Y, coloured by its speed: .svg or .png"),
 ]
-TABLE = Path(__file__).resolve().parents[3] / "firmware/gve134/command/gve_commands.def"
+TABLE = ROOT / "firmware/gve134/command/gve_commands.def"
 
 
 def version() -> str:
@@ -130,6 +130,7 @@ def _bench(options: argparse.Namespace) -> int:
         from rkm04_tools.gve134.bench import host_figures
 
         return host_figures.run(options)
+    require_checkout("bench --target stm32")
     from rkm04_tools.gve134.bench import target
 
     return target.run(options)

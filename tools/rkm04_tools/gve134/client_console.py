@@ -63,9 +63,15 @@ def _line(stopper: Stopper, is_typed: bool) -> str:
 
 def _forget_typed() -> None:
     """What was typed while nobody answered was meant for then."""
-    import termios
+    if sys.platform == "win32":
+        import msvcrt
 
-    termios.tcflush(sys.stdin.fileno(), termios.TCIFLUSH)
+        while msvcrt.kbhit():
+            msvcrt.getwch()
+    else:
+        import termios
+
+        termios.tcflush(sys.stdin.fileno(), termios.TCIFLUSH)
 
 
 @dataclass

@@ -187,7 +187,12 @@ def _jog(options: Namespace, unit: Unit, jog: Jog) -> int:
 
 def _input_has_come() -> bool:
     """Whether Enter was pressed, or input has ended."""
-    if not select.select([sys.stdin], [], [], 0)[0]:
+    if sys.platform == "win32":
+        import msvcrt  # select of Windows takes sockets only
+
+        if sys.stdin.isatty() and not msvcrt.kbhit():
+            return False
+    elif not select.select([sys.stdin], [], [], 0)[0]:
         return False
     sys.stdin.readline()
     return True

@@ -11,7 +11,7 @@ from typing import Any
 from rkm04_tools import host
 from rkm04_tools.failure import Failure
 
-PROGRAM = "gve134-host"
+PROGRAM = f"gve134-host{host.SUFFIX}"
 
 
 @dataclass(frozen=True)

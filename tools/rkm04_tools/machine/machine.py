@@ -22,12 +22,13 @@ from rkm04_tools.failure import (
 from rkm04_tools.machine.words import problem
 from rkm04_tools.messages import MOTORS
 from rkm04_tools.source import Source, named
+from rkm04_tools.tree import ROOT
 
 FORMAT, VERSION = "rkm04-machine", 1
 FILE_BYTES_MAX = 2_000_000
 """Four programs, notes and inputs of the greatest length; a larger file is no machine."""
 PROBLEMS_MAX = 20
-SCHEMA = Path(__file__).resolve().parents[2] / "service_page" / "src" / "machine.schema.json"
+SCHEMA = ROOT / "tools" / "service_page" / "src" / "machine.schema.json"
 
 
 @dataclass(frozen=True)

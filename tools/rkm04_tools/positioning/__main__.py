@@ -5,5 +5,11 @@ import sys
 from rkm04_tools.cli import run_tool
 from rkm04_tools.positioning.cli import make_parser
 
+
+def run() -> int:
+    """Run the command line."""
+    return run_tool(make_parser(), sys.argv[1:])
+
+
 if __name__ == "__main__":
-    sys.exit(run_tool(make_parser(), sys.argv[1:]))
+    sys.exit(run())

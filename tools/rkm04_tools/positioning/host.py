@@ -9,7 +9,7 @@ from typing import Any
 from rkm04_tools import host
 from rkm04_tools.failure import NOT_SO, Failure
 
-PROGRAM = "positioning-host"
+PROGRAM = f"positioning-host{host.SUFFIX}"
 
 
 def program_path() -> Path:

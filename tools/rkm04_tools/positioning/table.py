@@ -6,9 +6,9 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
+from rkm04_tools.tree import ROOT
+
 TABLE = ROOT / "firmware/positioning/registers/registers.def"
 AXES = 4
 AXIS_STEP = 100

@@ -12,10 +12,11 @@ from rkm04_tools.host import stored
 from rkm04_tools.record import read_inputs
 from rkm04_tools.service.trouble import as_json
 from rkm04_tools.source import Source, read_source
+from rkm04_tools.tree import ROOT
 
 NAME = "the program"
 PROBLEMS_MAX = 100
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+EXAMPLES = ROOT / "tools" / "examples"
 
 
 def check(text: str) -> dict[str, Any]:

@@ -1,12 +1,7 @@
-/* What there is not in WebAssembly: sockets, and so `serve`; and processes, and so a parent. */
-#include "parent.h"
+/* What there is not in WebAssembly: sockets, and so `serve`. */
 #include "rkm04_serve.h"
 
 const char rkm04_serve_usage[] = "serve is not there in WebAssembly, which has no sockets\n";
-
-void parent_bind(void)
-{
-}
 
 enum exit_status rkm04_serve(int count, char *const arguments[])
 {

@@ -14,10 +14,11 @@ from tempfile import TemporaryDirectory
 
 from rkm04_tools import child
 from rkm04_tools.bar import Bar
-from rkm04_tools.bench import HEAD, ROOT, Row
+from rkm04_tools.bench import HEAD, Row
 from rkm04_tools.failure import DONE, Failure
 from rkm04_tools.gve134 import host
 from rkm04_tools.table import table
+from rkm04_tools.tree import ROOT
 
 MILL = ROOT / "tools/examples/gve/mill.rkm"
 VECTORS = 40_000

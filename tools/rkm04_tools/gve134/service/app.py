@@ -20,8 +20,9 @@ from rkm04_tools.gve134.service.orders import Connect
 from rkm04_tools.service.browsers import Browsers
 from rkm04_tools.service.http import Site, application, bytes_of, object_of
 from rkm04_tools.service.trouble import BadRequest
+from rkm04_tools.tree import ROOT
 
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples/gve"
+EXAMPLES = ROOT / "tools" / "examples" / "gve"
 MACHINE = EXAMPLES / "mill.rkm"
 NAME_MAX = 200
 

@@ -1,0 +1,1 @@
+"""Packages of the tools for others: `tools/wheels`."""
