@@ -52,6 +52,7 @@ void positioning_init(struct pos_unit *unit)
     pos_settings_init(&unit->settings, &unit->registers);
     unit->start_tick = hal_time_now();
     unit->silences = 0;
+    unit->leds_tick = 0;
     unit->client = (struct hal_client){
         .context = unit,
         .lay_isr = positioning_lay_isr,
@@ -102,6 +103,16 @@ static void watch_bus(struct pos_unit *unit, uint64_t now)
     unit->silences += acts ? 1U : 0U;
 }
 
+/* Planning the change of an axis takes as long as what the one before has in hand lasts. */
+static void feed(struct pos_unit *unit, unsigned last)
+{
+    for (unsigned axis = 0; axis <= last; axis++) {
+        if (pos_drive_is_stirred(&unit->axes[axis].drive)) {
+            (void)pos_drive_poll(&unit->axes[axis].drive);
+        }
+    }
+}
+
 /* What the pass has brought takes effect; axes that are to begin do so together. True: the next pass is to come at
  * once. */
 static bool follow(struct pos_unit *unit)
@@ -109,6 +120,7 @@ static bool follow(struct pos_unit *unit)
     bool again = false;
     for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
         again = pos_axis_follow(&unit->axes[axis]) || again;
+        feed(unit, axis);
     }
     uint64_t start_tick = hal_time_now() + (uint64_t)START_TICKS;
     for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
@@ -120,8 +132,12 @@ static bool follow(struct pos_unit *unit)
     return again;
 }
 
-static void show_leds(const struct pos_unit *unit, uint64_t now)
+static void show_leds(struct pos_unit *unit, uint64_t now)
 {
+    if (now < unit->leds_tick) {
+        return;
+    }
+    unit->leds_tick = now + (uint64_t)IDLE_TICKS;
     bool phase = (now / (uint64_t)BLINK_TICKS) % 2U == 0U;
     for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
         const struct pos_axis *own = &unit->axes[axis];

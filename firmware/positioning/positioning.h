@@ -27,6 +27,7 @@ struct pos_unit {
     struct pos_axis axes[POS_AXES];
     struct hal_client client;
     uint64_t start_tick;
+    uint64_t leds_tick; /* when the LEDs are to be looked at */
     uint32_t silences;
 };
 

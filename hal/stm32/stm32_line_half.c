@@ -63,8 +63,11 @@ static void serve(void)
 
 void stm32_line_interrupt(void)
 {
+    bool drove = bus.driving;
     serve();
-    stm32_event = true;
+    if (IMAGE_LINE_WAKES || (drove && !bus.driving)) {
+        stm32_event = true;
+    }
 }
 
 bool hal_line_read(struct hal_line_byte *byte)

@@ -25,8 +25,7 @@ POINTER_CALLS = {
     "stm32_edge_interrupt": {"{unit}_tick_isr"},
     "look_at_inputs": {"{unit}_tick_isr"},
     "stm32_plan_interrupt": {"{unit}_plan_isr"},
-    "group_set_speeds": {"speed_of"},
-    "take_speeds": {"speed_of"},
+    "group_set_speeds": {"{unit}_speed_of"},
     "messages_answer": {
         *("answer_version", "answer_set_command", "answer_store_flash", "answer_get_position"),
         *("answer_get_command", "answer_get_table", "answer_get_progress", "answer_get_status"),

@@ -67,10 +67,10 @@ struct path_section {
     uint32_t length;     /* L, steps */
     bool plain;          /* E = L: speeds at borders are the vector's own */
     uint32_t turning;    /* the fewest steps of an axis that turns at its beginning; 0: none, or the path stood in it */
+    uint32_t ready;      /* a speed that waits to be taken */
     uint64_t gain2;      /* what the square of the speed can gain in the vector, in terms of border speeds */
     uint64_t speed2;     /* the vector's own speed in these terms */
-    uint64_t ready2;     /* the same of a speed that waits to be taken, */
-    uint32_t ready;      /* and that speed */
+    uint64_t ready2;     /* the same of the speed that waits to be taken */
     uint64_t border2;    /* the most at its beginning, in these terms */
     uint64_t cap2;       /* the same, and no more than the vectors on both sides allow; set where the plan is made */
     uint64_t exit2;      /* the plan: at its end, in these terms; until it is laid what can be braked from */

@@ -121,7 +121,7 @@ void gve_queue_begin(struct gve_queue *queue, uint8_t inputs)
     }
 }
 
-static uint32_t speed_of(const void *context, uint32_t section)
+static uint32_t gve134_speed_of(const void *context, uint32_t section)
 {
     const struct gve_queue *queue = context;
     const struct gve_chain *chain = gve_queue_chain_of(queue);
@@ -140,7 +140,7 @@ void gve_queue_change(struct gve_queue *queue, uint32_t factor, bool last)
         chain->vectors[count & (chain->size - 1U)].speed = queue->modal.speed;
     }
     if (gve_home_phase(queue) == GVE_HOME_NONE) {
-        group_set_speeds(&chain->group, &(struct group_speeds){.of = speed_of, .context = queue});
+        group_set_speeds(&chain->group, &(struct group_speeds){.of = gve134_speed_of, .context = queue});
     }
 }
 

@@ -63,6 +63,8 @@ void pos_axis_take_settings(struct pos_axis *axis, uint8_t inputs)
         pos_frame_reset(&axis->frame, &scale, backlash_um, pos_drive_steps(&axis->drive));
         set_polarity(axis);
     }
+    axis->feed_of_speed = 0;
+    axis->speed_of_feed = 0;
     set_watch(axis, inputs);
 }
 

@@ -84,9 +84,11 @@ struct pos_axis {
     int64_t motion_steps;   /* the motor's, where the motion in progress began */
     int64_t captured_step;
     int64_t captured_um;
-    uint32_t feed;  /* wanted; 1/65 536 mm/min */
-    uint32_t speed; /* that the drive has; 0: it is held */
-    uint16_t error; /* enum pos_error */
+    uint32_t feed;          /* wanted; 1/65 536 mm/min */
+    uint32_t feed_of_speed; /* the last one of which the speed was computed, which takes long, */
+    uint32_t speed_of_feed; /* and that speed */
+    uint32_t speed;         /* that the drive has; 0: it is held */
+    uint16_t error;         /* enum pos_error */
     uint16_t captures;
     uint8_t state; /* enum pos_state */
     uint8_t phase; /* enum pos_phase */

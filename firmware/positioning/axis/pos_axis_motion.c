@@ -80,10 +80,16 @@ static uint32_t speed_of(const struct pos_axis *axis, uint32_t feed)
     return pos_measure_speed(&axis->frame.scale, feed < highest ? feed : highest, POS_SPEED_MAX);
 }
 
-/* W of unit.md. */
-static uint32_t wanted_speed(const struct pos_axis *axis)
+/* Whether W of unit.md is not 0. */
+static bool is_wanted(const struct pos_axis *axis)
 {
-    if (((unsigned)axis->control->control2 & (unsigned)POS_CNT_MP) == 0U) {
+    return ((unsigned)axis->control->control2 & (unsigned)POS_CNT_MP) != 0U && axis->feed != 0U;
+}
+
+/* W as a speed. */
+static uint32_t wanted_speed(struct pos_axis *axis)
+{
+    if (!is_wanted(axis)) {
         return 0;
     }
     uint32_t feed = axis->feed;
@@ -91,7 +97,11 @@ static uint32_t wanted_speed(const struct pos_axis *axis)
         uint32_t most = pos_home_feed(axis);
         feed = feed < most ? feed : most;
     }
-    return speed_of(axis, feed);
+    if (feed != axis->feed_of_speed) {
+        axis->feed_of_speed = feed;
+        axis->speed_of_feed = speed_of(axis, feed);
+    }
+    return axis->speed_of_feed;
 }
 
 bool pos_axis_aim(struct pos_axis *axis, int64_t step)
@@ -267,8 +277,11 @@ uint64_t pos_axis_poll(struct pos_axis *axis, uint8_t inputs)
     pos_axis_mark(axis, 0, POS_CNT_RESET);
     uint64_t wake = pos_drive_poll(&axis->drive);
     bool ended = pos_drive_take_end(&axis->drive);
-    pos_axis_look(axis);
-    take_limit(axis);
+    bool happened = atomic_exchange_explicit(&axis->watch.happened, false, memory_order_relaxed);
+    if (ended || happened) {
+        pos_axis_look(axis);
+        take_limit(axis);
+    }
     if (ended) {
         end(axis, inputs);
         wake = hal_time_now();
@@ -309,7 +322,7 @@ bool pos_axis_wants_start(const struct pos_axis *axis)
 {
     bool ready = axis->state == (uint8_t)POS_READY || axis->state == (uint8_t)POS_MOVING;
     bool aimed = ((unsigned)axis->control->control2 & (unsigned)POS_CNT_CONT) != 0U;
-    return ready && aimed && !axis->waits && !pos_axis_is_busy(axis) && wanted_speed(axis) != 0U;
+    return ready && aimed && !axis->waits && !pos_axis_is_busy(axis) && is_wanted(axis);
 }
 
 static void watch_limit(struct pos_axis *axis, int8_t input)

@@ -12,6 +12,11 @@ bool pos_watch_is_active(int32_t input, uint8_t inputs)
     return (((unsigned)inputs >> bit & 1U) != 0) == high;
 }
 
+static void tell(struct pos_watch *watch)
+{
+    atomic_store_explicit(&watch->happened, true, memory_order_relaxed);
+}
+
 /* Whether what is sought has been found. */
 static bool seek(struct pos_watch *watch, bool active)
 {
@@ -28,6 +33,7 @@ static void sense_capture(struct pos_watch *watch, const struct pos_drive *drive
     if (watch->armed && active && !watch->capture_was_active) {
         watch->armed = false;
         watch->captured = true;
+        tell(watch);
         watch->captured_motor_steps = pos_drive_steps(drive);
     }
     watch->capture_was_active = active;
@@ -40,11 +46,13 @@ bool pos_watch_sense_isr(struct pos_watch *watch, struct pos_drive *drive, uint8
     if (seek(watch, pos_watch_is_active(watch->reference, inputs))) {
         watch->seek = (uint8_t)POS_SEEK_NOTHING;
         watch->reference_hit = true;
+        tell(watch);
         watch->reference_motor_steps = pos_drive_steps(drive);
         stops = pos_drive_stop_isr(drive, false);
     }
     if (pos_watch_is_active(watch->limit, inputs) && pos_drive_stop_isr(drive, true)) {
         watch->limit_hit = true;
+        tell(watch);
         stops = true;
     }
     return stops;

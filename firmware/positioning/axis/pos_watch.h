@@ -7,6 +7,7 @@
 #ifndef POS_WATCH_H
 #define POS_WATCH_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -29,6 +30,8 @@ struct pos_watch {
     /* What was sensed last. */
     bool reference_was_active;
     bool capture_was_active;
+
+    _Atomic bool happened; /* one of the next three has been set */
 
     /* What has happened; main takes it. */
     bool limit_hit;

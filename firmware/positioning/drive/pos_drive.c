@@ -19,6 +19,8 @@ void pos_drive_init(struct pos_drive *drive, unsigned motor)
     drive->to_add = 0;
     drive->origin_steps = 0;
     drive->start_tick = 0;
+    drive->wake_tick = 0;
+    drive->room = 0;
     drive->speed = 0;
     drive->stirred = false;
     step_channel_init(&drive->channel, motor);
@@ -26,7 +28,7 @@ void pos_drive_init(struct pos_drive *drive, unsigned motor)
     group_connect(&drive->group, motor, &drive->channel, AXIS);
 }
 
-static uint32_t speed_of(const void *context, uint32_t section)
+static uint32_t positioning_speed_of(const void *context, uint32_t section)
 {
     const struct pos_drive *drive = context;
     (void)section;
@@ -71,7 +73,8 @@ void pos_drive_start(struct pos_drive *drive, uint32_t speed, uint64_t start_tic
 {
     drive->speed = speed;
     drive->start_tick = start_tick;
-    group_set_speeds(&drive->group, &(struct group_speeds){.of = speed_of, .context = drive});
+    drive->stirred = true;
+    group_set_speeds(&drive->group, &(struct group_speeds){.of = positioning_speed_of, .context = drive});
     bool started = group_start(&drive->group, start_tick);
     assert(started);
     (void)started;
@@ -81,7 +84,7 @@ void pos_drive_change(struct pos_drive *drive, uint32_t speed)
 {
     drive->speed = speed;
     drive->stirred = true;
-    group_set_speeds(&drive->group, &(struct group_speeds){.of = speed_of, .context = drive});
+    group_set_speeds(&drive->group, &(struct group_speeds){.of = positioning_speed_of, .context = drive});
 }
 
 void pos_drive_hold(struct pos_drive *drive)
@@ -115,12 +118,22 @@ bool pos_drive_resume(struct pos_drive *drive, uint32_t speed)
     return group_resume(&drive->group);
 }
 
+/* Whether nothing has happened since the last poll that would make the next one do something. */
+static bool is_fed(const struct pos_drive *drive)
+{
+    return !drive->stirred && hal_time_now() < drive->wake_tick && step_channel_is_running(&drive->channel) &&
+           step_channel_room(&drive->channel) == drive->room;
+}
+
 uint64_t pos_drive_poll(struct pos_drive *drive)
 {
-    drive->stirred = false;
-    uint64_t wake = group_poll(&drive->group);
-    add(drive);
-    return wake;
+    if (!is_fed(drive)) {
+        drive->stirred = false;
+        drive->wake_tick = group_poll(&drive->group);
+        add(drive);
+        drive->room = step_channel_room(&drive->channel);
+    }
+    return drive->wake_tick;
 }
 
 bool pos_drive_take_end(struct pos_drive *drive)

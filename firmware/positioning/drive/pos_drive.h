@@ -45,8 +45,10 @@ struct pos_drive {
     struct pos_measure measure;
     uint64_t to_add;      /* pulses of the measure that are not in the ring yet */
     uint64_t start_tick;  /* of the motion in progress */
+    uint64_t wake_tick;   /* the group wants to be polled then, if nothing else comes before */
     int64_t origin_steps; /* where the measure began */
     uint32_t speed;       /* wanted by all sections */
+    uint32_t room;        /* of the channel's queue after the last poll */
     uint8_t motor;
     bool stirred; /* planned anew since the last poll: more is to be handed over soon */
 };

@@ -55,8 +55,8 @@ enum pos_form {
 };
 
 struct pos_row {
-    int64_t min;
-    int64_t max;
+    int32_t min;
+    uint32_t max;
     uint32_t start;  /* a value as in pos_registers.h */
     uint16_t number; /* of an axis register: added to 100 times the axis */
     uint8_t type;    /* enum pos_type */

@@ -45,7 +45,7 @@ static bool is_in_range(const struct pos_row *row, uint32_t value)
     if (is_signed_word(row) && value >= SIGN_32) {
         number -= RANGE_32;
     }
-    return number >= row->min && number <= row->max;
+    return number >= (int64_t)row->min && number <= (int64_t)row->max;
 }
 
 static bool is_taken(const struct pos_row *row, uint32_t value)
