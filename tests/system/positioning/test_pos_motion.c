@@ -3,6 +3,11 @@
 
 #define FEED(mm_per_min) ((uint32_t)(mm_per_min) << 16U)
 
+/* A million have been tried. */
+#ifndef MOVES
+#define MOVES 10000
+#endif
+
 enum {
     ACCEL = 500,
 };
@@ -156,4 +161,28 @@ void test_a_measure_that_comes_while_it_brakes_waits(void)
     TEST_ASSERT_EQUAL_HEX(POS_CNT_MP | POS_CNT_INIC, rig_control(1));
     rig_run_ms(1000);
     TEST_ASSERT_EQUAL_HEX(0x0A03, rig_status(1));
+}
+
+/* 3200 steps in 37 000 um: hardly a measure ends at a whole number of either. */
+void test_after_many_measures_the_motor_stands_where_their_sum_is(void)
+{
+    static const uint16_t scale[] = {0, 3200, 0, 37000};
+    uint32_t chance = 12345;
+    int64_t sum_um = 0;
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));
+    rig_run_ms(2);
+    TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, positioning_write(&unit, 130, 4, scale));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+    for (unsigned i = 0; i < MOVES; i++) {
+        chance = chance * UINT32_C(1664525) + UINT32_C(1013904223);
+        int32_t len_um = (int32_t)(chance >> 16U) % 401 - 200;
+        TEST_ASSERT_EQUAL_INT(POS_OK, pos_mode(&unit, NULL, len_um, UINT16_MAX, 1));
+        control(UINT32_MAX, 1);
+        rig_run_ms(2);
+        rig_run_until_rest(1, 1000);
+        sum_um += len_um;
+    }
+    int64_t double_steps = 2 * sum_um * 3200 + 37000;
+    int64_t steps = double_steps >= 0 ? double_steps / 74000 : -((-double_steps + 73999) / 74000);
+    TEST_ASSERT_EQUAL_INT64(steps, rig_position[0]);
 }
