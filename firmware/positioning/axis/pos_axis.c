@@ -12,7 +12,10 @@ enum {
 
 void pos_axis_mark(struct pos_axis *axis, unsigned set, unsigned cleared)
 {
-    axis->control->control2 = (uint8_t)(((unsigned)axis->control->control2 & ~cleared) | set);
+    unsigned permit = (unsigned)axis->control->control2 & (unsigned)POS_CNT_MP;
+    unsigned bits = ((unsigned)axis->own.control2 & ~(unsigned)POS_CNT_MP) | permit;
+    axis->own.control2 = (uint8_t)((bits & ~cleared) | set);
+    *axis->control = axis->own;
 }
 
 static struct pos_scale scale_of(const struct pos_axis *axis)
@@ -96,7 +99,6 @@ void pos_axis_release(struct pos_axis *axis)
     axis->error = (uint16_t)POS_OK;
     pos_axis_mark(axis, POS_CNT_RESET, POS_CNT_MP);
     pos_axis_give_up(axis, false);
-    axis->own = *axis->control;
     axis->control = &axis->own;
 }
 
@@ -114,36 +116,26 @@ static bool is_method(uint32_t method)
 
 static bool is_too_long(const struct pos_axis *axis, const struct pos_order *order)
 {
-    struct pos_target target;
+    bool is_far = order->len_um == INT32_MIN;
     if (order->kind == (uint8_t)POS_KIND_WAY) {
-        return order->len_um == INT32_MIN || !pos_frame_aim(&axis->frame, order->len_um, &target);
+        is_far = is_far || !pos_frame_may_aim(&axis->frame, order->len_um);
+    } else if (order->kind == (uint8_t)POS_KIND_POSITION) {
+        int64_t way_um = order->len_um - pos_frame_position_um(&axis->frame, axis->frame.step);
+        is_far = is_far || way_um > INT32_MAX || way_um < -INT32_MAX;
+    } else {
+        /* homing goes as far as HOME_WAY */
     }
-    int64_t way_um = order->len_um - pos_frame_position_um(&axis->frame, axis->frame.step);
-    bool is_far = way_um > INT32_MAX || way_um < -INT32_MAX || order->len_um == INT32_MIN;
-    return order->kind == (uint8_t)POS_KIND_POSITION && is_far;
+    return is_far;
 }
 
 /* Why the state of the axis forbids a measure. */
 static enum pos_error check_state(const struct pos_axis *axis)
 {
-    enum pos_error error = POS_OK;
-    switch ((enum pos_state)axis->state) {
-    case POS_FREE:
-        error = POS_ERROR_NOT_TAKEN;
-        break;
-    case POS_FAULT:
-        error = POS_ERROR_FAULT;
-        break;
-    case POS_WAITING:
-    case POS_MOVING:
-        error = POS_ERROR_MOVES;
-        break;
-    case POS_TAKEN:
-    case POS_READY:
-    case POS_REACHED:
-        break;
-    }
-    return error;
+    static const uint8_t errors[] = {
+        [POS_FREE] = POS_ERROR_NOT_TAKEN, [POS_TAKEN] = POS_OK,   [POS_WAITING] = POS_ERROR_MOVES, [POS_READY] = POS_OK,
+        [POS_MOVING] = POS_ERROR_MOVES,   [POS_REACHED] = POS_OK, [POS_FAULT] = POS_ERROR_FAULT,
+    };
+    return (enum pos_error)errors[axis->state];
 }
 
 /* Why a measure that needs motion cannot be made. */
@@ -159,10 +151,7 @@ static enum pos_error check_motion(const struct pos_axis *axis, const struct pos
     if (order->kind == (uint8_t)POS_KIND_HOME && pos_axis_setting(axis, POS_AXIS_REFERENCE) == 0U) {
         return POS_ERROR_NO_INPUT;
     }
-    if (order->accel_mm_s2 == 0U) {
-        return POS_ERROR_ACCEL;
-    }
-    return is_too_long(axis, order) ? POS_ERROR_WAY : POS_OK;
+    return order->accel_mm_s2 == 0U ? POS_ERROR_ACCEL : POS_OK;
 }
 
 /* In the order in which the causes count. */
@@ -170,13 +159,13 @@ static enum pos_error check(const struct pos_axis *axis, const struct pos_order 
                             const struct pos_allowed *allowed)
 {
     enum pos_error error = check_state(axis);
-    if (error != POS_OK) {
-        return error;
+    if (error == POS_OK && order->kind == (uint8_t)POS_KIND_HOME && !is_method(order->method)) {
+        error = POS_ERROR_METHOD;
     }
-    if (order->kind == (uint8_t)POS_KIND_HOME && !is_method(order->method)) {
-        return POS_ERROR_METHOD;
+    if (error == POS_OK && !is_here(order)) {
+        error = check_motion(axis, order, allowed);
     }
-    return is_here(order) ? POS_OK : check_motion(axis, order, allowed);
+    return error == POS_OK && is_too_long(axis, order) ? POS_ERROR_WAY : error;
 }
 
 enum pos_error pos_axis_order(struct pos_axis *axis, struct pos_control_record *control, const struct pos_order *order,

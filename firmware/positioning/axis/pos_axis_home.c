@@ -76,11 +76,10 @@ uint32_t pos_home_feed(const struct pos_axis *axis)
 }
 
 /* The switch may have become active while the axis stood. */
-bool pos_home_may_start(struct pos_axis *axis, uint8_t inputs)
+void pos_home_start(struct pos_axis *axis, uint8_t inputs)
 {
     axis->frame.referenced = false;
     if (axis->phase == (uint8_t)POS_PHASE_FIND && pos_axis_is_active(axis, POS_AXIS_REFERENCE, inputs)) {
         enter(axis, POS_PHASE_LEAVE, inputs);
     }
-    return axis->phase != (uint8_t)POS_PHASE_NONE;
 }

@@ -179,17 +179,14 @@ static void end_measure(struct pos_axis *axis)
 
 static void begin_measure(struct pos_axis *axis)
 {
-    bool way = axis->order.kind == (uint8_t)POS_KIND_WAY;
-    int32_t len_um = axis->order.len_um;
-    bool aimed = way ? pos_frame_aim(&axis->frame, len_um, &axis->target)
-                     : pos_frame_aim_at(&axis->frame, len_um, &axis->target);
-    limit(axis);
-    if (!aimed) {
-        pos_axis_fault(axis, POS_ERROR_WAY);
-    } else if (!pos_axis_aim(axis, axis->target.step)) {
-        end_measure(axis);
+    if (axis->order.kind == (uint8_t)POS_KIND_WAY) {
+        pos_frame_aim(&axis->frame, axis->order.len_um, &axis->target);
     } else {
-        /* it is ready */
+        pos_frame_aim_at(&axis->frame, axis->order.len_um, &axis->target);
+    }
+    limit(axis);
+    if (!pos_axis_aim(axis, axis->target.step)) {
+        end_measure(axis);
     }
 }
 
@@ -295,11 +292,10 @@ uint64_t pos_axis_poll(struct pos_axis *axis, uint8_t inputs)
 static void follow(struct pos_axis *axis)
 {
     uint32_t speed = wanted_speed(axis);
-    if (axis->state != (uint8_t)POS_MOVING || speed == axis->speed) {
-        return;
-    }
     if (!pos_axis_is_busy(axis)) {
-        axis->state = (uint8_t)(speed == 0U ? POS_READY : POS_MOVING);
+        axis->state = (uint8_t)(speed == 0U ? POS_READY : POS_MOVING); /* between two parts of homing */
+    } else if (speed == axis->speed) {
+        /* it stays */
     } else if (speed == 0U) {
         hold(axis);
         axis->speed = 0;
@@ -314,15 +310,16 @@ static void follow(struct pos_axis *axis)
 
 bool pos_axis_follow(struct pos_axis *axis)
 {
-    follow(axis);
+    if (axis->state == (uint8_t)POS_MOVING) {
+        follow(axis);
+    }
     return pos_drive_is_stirred(&axis->drive) || (axis->waits && !pos_axis_is_busy(axis));
 }
 
 bool pos_axis_wants_start(const struct pos_axis *axis)
 {
-    bool ready = axis->state == (uint8_t)POS_READY || axis->state == (uint8_t)POS_MOVING;
-    bool aimed = ((unsigned)axis->control->control2 & (unsigned)POS_CNT_CONT) != 0U;
-    return ready && aimed && !axis->waits && !pos_axis_is_busy(axis) && is_wanted(axis);
+    bool aimed = ((unsigned)axis->own.control2 & (unsigned)POS_CNT_CONT) != 0U;
+    return aimed && !pos_axis_is_busy(axis) && is_wanted(axis);
 }
 
 static void watch_limit(struct pos_axis *axis, int8_t input)
@@ -335,8 +332,8 @@ static void watch_limit(struct pos_axis *axis, int8_t input)
 
 void pos_axis_start(struct pos_axis *axis, uint64_t start_tick, uint8_t inputs)
 {
-    if (axis->phase != (uint8_t)POS_PHASE_NONE && !pos_home_may_start(axis, inputs)) {
-        return;
+    if (axis->phase != (uint8_t)POS_PHASE_NONE) {
+        pos_home_start(axis, inputs);
     }
     int8_t input = limit_input(axis);
     if (pos_watch_is_active(input, inputs)) {

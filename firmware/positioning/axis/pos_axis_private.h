@@ -20,7 +20,7 @@ static inline int32_t pos_axis_signed_setting(const struct pos_axis *axis, enum 
     return wide_to_signed_32(axis->settings[which]);
 }
 
-/* Sets and clears bits of the control record. */
+/* Sets and clears bits of the control record, and writes all of them but MP. */
 void pos_axis_mark(struct pos_axis *axis, unsigned set, unsigned cleared);
 
 /* The axis' own place, and what the inputs have kept, are those of now. */
@@ -43,7 +43,7 @@ void pos_home_begin(struct pos_axis *axis, uint8_t inputs);
 void pos_home_follow(struct pos_axis *axis, uint8_t inputs);
 uint32_t pos_home_feed(const struct pos_axis *axis);
 
-/* A part of homing is about to leave its stand. False: it is over before that. */
-bool pos_home_may_start(struct pos_axis *axis, uint8_t inputs);
+/* A part of homing is about to leave its stand. */
+void pos_home_start(struct pos_axis *axis, uint8_t inputs);
 
 #endif

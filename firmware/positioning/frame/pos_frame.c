@@ -38,24 +38,26 @@ int64_t pos_frame_position_um(const struct pos_frame *frame, int64_t step)
     return frame->zero_um + pos_measure_um(&frame->scale, step - frame->zero_step);
 }
 
-static bool aim(const struct pos_frame *frame, int64_t base_step, int64_t base_um, struct pos_target *target)
+static void aim(const struct pos_frame *frame, int64_t base_step, int64_t base_um, struct pos_target *target)
 {
-    if (base_um > POS_MEASURE_UM_MAX || base_um < -POS_MEASURE_UM_MAX) {
-        return false;
-    }
     *target = (struct pos_target){
         .step = base_step + pos_measure_step(&frame->scale, base_um), .base_step = base_step, .base_um = base_um};
-    return true;
 }
 
-bool pos_frame_aim(const struct pos_frame *frame, int64_t way_um, struct pos_target *target)
+bool pos_frame_may_aim(const struct pos_frame *frame, int32_t way_um)
 {
-    return aim(frame, frame->base_step, frame->base_um + way_um, target);
+    int64_t base_um = frame->base_um + way_um;
+    return base_um <= POS_MEASURE_UM_MAX && base_um >= -POS_MEASURE_UM_MAX;
 }
 
-bool pos_frame_aim_at(const struct pos_frame *frame, int64_t position_um, struct pos_target *target)
+void pos_frame_aim(const struct pos_frame *frame, int32_t way_um, struct pos_target *target)
 {
-    return aim(frame, frame->zero_step, position_um - frame->zero_um, target);
+    aim(frame, frame->base_step, frame->base_um + way_um, target);
+}
+
+void pos_frame_aim_at(const struct pos_frame *frame, int32_t position_um, struct pos_target *target)
+{
+    aim(frame, frame->zero_step, position_um - frame->zero_um, target);
 }
 
 void pos_frame_limit(const struct pos_frame *frame, struct pos_target *target, int64_t min_um, int64_t max_um)

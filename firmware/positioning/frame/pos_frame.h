@@ -57,9 +57,12 @@ void pos_frame_follow(struct pos_frame *frame, int64_t motor_steps);
 /* The absolute position of a step, micrometres. */
 int64_t pos_frame_position_um(const struct pos_frame *frame, int64_t step);
 
-/* The target of a way, or of a position, micrometres. False: M would be out of its bounds. */
-bool pos_frame_aim(const struct pos_frame *frame, int64_t way_um, struct pos_target *target);
-bool pos_frame_aim_at(const struct pos_frame *frame, int64_t position_um, struct pos_target *target);
+/* Whether M stays in its bounds with a way, micrometres. */
+bool pos_frame_may_aim(const struct pos_frame *frame, int32_t way_um);
+
+/* The target of a way that may be aimed, or of a position, micrometres. */
+void pos_frame_aim(const struct pos_frame *frame, int32_t way_um, struct pos_target *target);
+void pos_frame_aim_at(const struct pos_frame *frame, int32_t position_um, struct pos_target *target);
 
 /* Cuts a target at the last step inside of the limits, micrometres, that lies on the way. Who is outside may go
  * inwards. */
