@@ -97,9 +97,10 @@ void pos_axis_release(struct pos_axis *axis)
 {
     axis->state = (uint8_t)POS_FREE;
     axis->error = (uint16_t)POS_OK;
-    pos_axis_mark(axis, POS_CNT_RESET, POS_CNT_MP);
+    pos_axis_mark(axis, 0, (unsigned)POS_CNT_MP | (unsigned)POS_CNT_RESET);
     pos_axis_give_up(axis, false);
     axis->control = &axis->own;
+    pos_axis_mark(axis, POS_CNT_RESET, 0);
 }
 
 /* Whether the order is a measure that needs no motion. */
@@ -175,9 +176,7 @@ enum pos_error pos_axis_order(struct pos_axis *axis, struct pos_control_record *
     if (error != POS_OK) {
         return refuse(axis, error);
     }
-    if (control != NULL) {
-        axis->control = control;
-    }
+    axis->control = control != NULL ? control : &axis->own;
     axis->state = (uint8_t)(pos_axis_is_busy(axis) ? POS_WAITING : POS_READY);
     axis->order = *order;
     axis->waits = true;

@@ -16,6 +16,7 @@
 #include "base_tick.h"
 #include "epoch.h"
 #include "host_machine.h"
+#include "modbus_crc.h"
 #include "positioning.h"
 
 enum {
@@ -147,6 +148,33 @@ static inline void rig_expect(const char *request, const char *answer)
         (void)snprintf(&heard[3U * i], 4, "%02X ", rig_heard[i]);
     }
     TEST_ASSERT_EQUAL_STRING_MESSAGE(wanted, heard, request);
+}
+
+/* Sends a request whose CRC is added, and hears its answer out. The exception; 0: none. */
+static inline unsigned rig_ask(const char *request)
+{
+    uint8_t bytes[RIG_FRAME];
+    char text[3 * RIG_FRAME] = "";
+    uint32_t count = rig_bytes_of(request, bytes);
+    uint16_t crc = MODBUS_CRC_START;
+    for (uint32_t i = 0; i < count; i++) {
+        crc = modbus_crc_append(crc, bytes[i]);
+    }
+    bytes[count++] = (uint8_t)(crc & 0xFFU);
+    bytes[count++] = (uint8_t)(crc >> 8U);
+    for (uint32_t i = 0; i < count; i++) {
+        (void)snprintf(&text[3U * i], 4, "%02X ", bytes[i]);
+    }
+    rig_send(text);
+    rig_run_ticks(20 * TICKS_PER_MS + 80U * (uint64_t)machine.line.byte_ticks);
+    TEST_ASSERT_GREATER_THAN_UINT32_MESSAGE(0, rig_heard_count, request);
+    return (rig_heard[1] & 0x80U) != 0U ? rig_heard[2] : 0U;
+}
+
+/* A register of the answer. */
+static inline unsigned rig_word(unsigned index)
+{
+    return (unsigned)rig_heard[3U + 2U * index] << 8U | rig_heard[4U + 2U * index];
 }
 
 /* What an axis shows. */

@@ -211,3 +211,41 @@ void test_leds_show_pulses_and_errors(void)
     }
     TEST_ASSERT_EQUAL_UINT(10, lit);
 }
+
+void test_only_the_first_edge_of_its_own_input_is_captured(void)
+{
+    set(CAPTURE, 5, false);
+    host_machine_set_input(&machine, 5, true);
+    rig_run_ms(2);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_capture(&unit, 1));
+    host_machine_set_input(&machine, 6, true);
+    rig_run_ms(2);
+    TEST_ASSERT_EQUAL_UINT16(0, rig_values(1).captures);
+    host_machine_set_input(&machine, 5, false);
+    rig_run_ms(2);
+    host_machine_set_input(&machine, 6, false);
+    rig_run_ms(2);
+    TEST_ASSERT_EQUAL_UINT16(0, rig_values(1).captures);
+    host_machine_set_input(&machine, 5, true);
+    rig_run_ms(2);
+    TEST_ASSERT_EQUAL_UINT16(1, rig_values(1).captures);
+    TEST_ASSERT_EQUAL_HEX(POS_FLAG_CAPTURE, rig_values(1).flags);
+}
+
+void test_an_edge_elsewhere_while_a_limit_stops_the_axis_changes_nothing(void)
+{
+    set(LIMIT_PLUS, 1, false);
+    take();
+    mode(10000);
+    rig_run_ms(200);
+    host_machine_set_input(&machine, 1, true);
+    int64_t before = rig_position[0];
+    rig_run_ms(5);
+    host_machine_set_input(&machine, 6, true);
+    rig_run_ms(100);
+    host_machine_set_input(&machine, 6, false);
+    rig_run_ms(2);
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_LIMIT, rig_values(1).error);
+    TEST_ASSERT_INT64_WITHIN(2, before + 28, rig_position[0]);
+    TEST_ASSERT_EQUAL_HEX(0x0005, rig_status(1));
+}

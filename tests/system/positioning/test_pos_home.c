@@ -216,3 +216,156 @@ void test_another_limit_input_ends_homing(void)
     TEST_ASSERT_EQUAL_UINT16(POS_ERROR_LIMIT, rig_values(1).error);
     TEST_ASSERT_EQUAL_HEX(0x0005, rig_status(1));
 }
+
+/* ---- a fast way off the switch, which has to be come back to ---------------------------------------------------- */
+
+static void set_up_fast(void)
+{
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));
+    rig_run_ms(2);
+    set(152, FEED(1000), true);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+}
+
+/* Runs until homing is in a part of it, and moves. */
+static void run_until(enum pos_phase phase)
+{
+    for (unsigned i = 0; i < 5000 && unit.axes[0].phase != (uint8_t)phase; i++) {
+        run_ms(1);
+    }
+    TEST_ASSERT_EQUAL_UINT8(phase, unit.axes[0].phase);
+}
+
+void test_an_axis_that_has_gone_past_the_edge_comes_back_to_it(void)
+{
+    set_up_fast();
+    home(19, 40);
+    run_until(POS_PHASE_RETURN);
+    TEST_ASSERT_TRUE(rig_position[0] < 299);
+    TEST_ASSERT_EQUAL_HEX(0x0103, rig_status(1) & 0xFDFFU);
+    TEST_ASSERT_EQUAL_INT32(0, rig_values(1).way_left_um);
+    run_ms(100);
+    assert_home(40);
+    TEST_ASSERT_EQUAL_INT64(299, rig_position[0]);
+}
+
+static void hold_in(enum pos_phase phase)
+{
+    run_until(phase);
+    run_ms(4);
+    (void)pos_control(&unit, NULL, FEED(1000), 0, 1);
+    run_ms(200);
+    TEST_ASSERT_EQUAL_HEX(0x0003, rig_status(1) & 0xFDFFU);
+    TEST_ASSERT_EQUAL_UINT8(phase, unit.axes[0].phase);
+    (void)pos_control(&unit, NULL, FEED(1000), 1, 1);
+}
+
+void test_each_part_of_homing_is_held_and_goes_on(void)
+{
+    set_up_fast();
+    home(19, 0);
+    hold_in(POS_PHASE_FIND);
+    hold_in(POS_PHASE_LEAVE);
+    hold_in(POS_PHASE_RETURN);
+    run_ms(500);
+    assert_home(0);
+    TEST_ASSERT_EQUAL_INT64(299, rig_position[0]);
+}
+
+/* It brakes, as the switch has been found, when the permit goes. */
+void test_homing_that_is_held_between_two_parts_stands_and_goes_on(void)
+{
+    home(19, 0);
+    for (unsigned i = 0; i < 5000 && !unit.axes[0].found; i++) {
+        run_ms(1);
+    }
+    (void)pos_control(&unit, NULL, FEED(1000), 0, 1);
+    run_ms(200);
+    TEST_ASSERT_EQUAL_UINT8(POS_PHASE_LEAVE, unit.axes[0].phase);
+    TEST_ASSERT_EQUAL_HEX(0x0003, rig_status(1));
+    (void)pos_control(&unit, NULL, FEED(1000), 1, 1);
+    run_ms(5000);
+    assert_home(0);
+    TEST_ASSERT_EQUAL_INT64(299, rig_position[0]);
+}
+
+void test_homing_goes_no_faster_than_the_feed(void)
+{
+    home(19, 0);
+    (void)pos_control(&unit, NULL, FEED(60), 1, 1);
+    run_ms(200);
+    TEST_ASSERT_UINT32_WITHIN(FEED(1), FEED(60), rig_values(1).speed);
+    (void)pos_control(&unit, NULL, FEED(6000), 1, 1);
+    run_ms(200);
+    TEST_ASSERT_UINT32_WITHIN(FEED(1), FEED(600), rig_values(1).speed);
+}
+
+void test_another_input_that_changes_does_not_end_the_way_off_the_switch(void)
+{
+    home(19, 0);
+    run_until(POS_PHASE_LEAVE);
+    run_ms(10);
+    host_machine_set_input(&machine, 7, true);
+    run_ms(10);
+    TEST_ASSERT_FALSE(unit.axes[0].found);
+    run_ms(3000);
+    assert_home(0);
+    TEST_ASSERT_EQUAL_INT64(299, rig_position[0]);
+}
+
+void test_a_limit_of_the_same_input_the_other_way_round_is_the_switch_too(void)
+{
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));
+    rig_run_ms(2);
+    set(147, (uint32_t)-SWITCH, false);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+    home(19, 0);
+    run_ms(3000);
+    assert_home(0);
+}
+
+void test_a_way_of_homing_below_a_step_is_a_fault_at_once(void)
+{
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));
+    rig_run_ms(2);
+    set(154, 4, true);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+    home(19, 0);
+    run_ms(10);
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_HOME, rig_values(1).error);
+    TEST_ASSERT_EQUAL_UINT(0, rig_pulses[0]);
+}
+
+/* The tick interrupt, between the resume and the look at what it has found. */
+static void find_now(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
+{
+    (void)context;
+    (void)tick;
+    (void)motor;
+    (void)value;
+    if (event == HAL_TRACE_SPEED) {
+        switch_from = rig_position[0];
+        if (pos_axis_sense_isr(&unit.axes[0], 1U << (SWITCH - 1U))) {
+            hal_run_plan();
+        }
+    }
+}
+
+void test_a_switch_that_is_found_in_the_moment_of_a_resume_stops_the_axis(void)
+{
+    home(19, 0);
+    run_ms(100);
+    (void)pos_control(&unit, NULL, FEED(1000), 0, 1);
+    run_ms(5);
+    int64_t found = rig_position[0];
+    machine.listener.trace = find_now;
+    (void)pos_control(&unit, NULL, FEED(1000), 1, 1);
+    rig_run_ticks(1);
+    machine.listener.trace = NULL;
+    TEST_ASSERT_TRUE(unit.axes[0].watch.reference_hit);
+    run_until(POS_PHASE_LEAVE);
+    TEST_ASSERT_TRUE(rig_position[0] < found + 15);
+    run_ms(3000);
+    assert_home(0);
+    TEST_ASSERT_EQUAL_INT64(found - 1, rig_position[0]);
+}

@@ -185,4 +185,20 @@ void test_after_many_measures_the_motor_stands_where_their_sum_is(void)
     int64_t double_steps = 2 * sum_um * 3200 + 37000;
     int64_t steps = double_steps >= 0 ? double_steps / 74000 : -((-double_steps + 73999) / 74000);
     TEST_ASSERT_EQUAL_INT64(steps, rig_position[0]);
+
+/* 600 mm/min are 1000 steps/s, 100 mm/s^2 10 000 steps/s^2: 0.1 s and 50 steps. */
+void test_what_is_above_the_highest_feed_and_acceleration_counts_as_these(void)
+{
+    static const uint16_t highest[] = {100, 600, 0};
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));
+    TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, positioning_write(&unit, 135, 3, highest));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+    mode(10000);
+    control(FEED(1000), 1);
+    rig_run_ms(200);
+    TEST_ASSERT_UINT32_WITHIN(FEED(1), FEED(600), rig_values(1).speed);
+    rig_run_ms(2000);
+    TEST_ASSERT_EQUAL_UINT64(84000, rig_tick[0][61] - rig_tick[0][60]);
+    TEST_ASSERT_UINT64_WITHIN(TICKS_PER_MS, 100 * TICKS_PER_MS,
+                              rig_tick[0][49] + machine.epoch - unit.axes[0].start_tick);
 }

@@ -107,3 +107,26 @@ void test_a_change_of_the_scale_makes_the_present_place_zero(void)
     TEST_ASSERT_EQUAL_INT32(0, rig_values(1).position_um);
     TEST_ASSERT_EQUAL_HEX(0, rig_values(1).flags);
 }
+
+/* STEPS, MICROMETRES, INVERT and BACKLASH, each alone; what is written once more changes nothing. */
+void test_a_change_of_the_axis_itself_makes_the_present_place_zero_and_the_same_once_more_does_not(void)
+{
+    static const struct {
+        uint32_t number;
+        uint32_t count;
+        uint16_t values[2];
+    } writes[] = {{130, 2, {0, 2}}, {132, 2, {0, 30}}, {134, 1, {1}}, {141, 1, {20}}};
+    for (unsigned i = 0; i < 4; i++) {
+        for (unsigned again = 0; again < 2; again++) {
+            TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+            TEST_ASSERT_EQUAL_INT(POS_OK, pos_home(&unit, NULL, 37, 1000, 0, 1));
+            rig_run_ms(2);
+            TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));
+            TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE,
+                                  positioning_write(&unit, writes[i].number, writes[i].count, writes[i].values));
+            TEST_ASSERT_EQUAL_INT32(again != 0 ? 1000 : 0, rig_values(1).position_um);
+            TEST_ASSERT_EQUAL_HEX(again != 0 ? POS_FLAG_REFERENCED : 0, rig_values(1).flags);
+        }
+    }
+    TEST_ASSERT_TRUE(machine.turned[0]);
+}

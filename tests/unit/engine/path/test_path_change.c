@@ -444,6 +444,17 @@ void test_a_stop_with_its_own_acceleration_that_is_too_weak_does_not_come_to_res
     TEST_ASSERT_TRUE(path_can_rest(&rig.path, &place));
 }
 
+void test_a_stop_with_its_own_acceleration_between_steps_has_the_way_from_the_next_step_on(void)
+{
+    start();
+    all_pulses(UINT64_MAX);
+    const uint32_t own = rig.ring[0].vector.accel;
+    const struct path_wish wish = {.tick = 1000 + 2940000 + 4200, .accel = own / 7U};
+    TEST_ASSERT_TRUE(path_find(&rig.path, &wish, &place));
+    TEST_ASSERT_TRUE(place.entry.place.low % (PATH_GRAINS_PER_ACCEL * place.accel) != 0);
+    TEST_ASSERT_TRUE(path_can_rest(&rig.path, &place));
+}
+
 /* From 0 with 1 000 000 steps/s^2 to 10 000 steps/s at step 50. */
 void test_the_speed_at_a_step_is_that_of_the_plan(void)
 {

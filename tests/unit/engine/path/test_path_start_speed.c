@@ -235,6 +235,23 @@ void test_vectors_that_come_later_are_a_chain_of_their_own(void)
     TEST_ASSERT_EQUAL_UINT(100, pulses(UINT64_MAX));
 }
 
+/* From 3000 to 1000 steps/s in the 500 steps that are left: 8000 steps/s^2 at least. */
+void test_a_stop_with_its_own_acceleration_may_rest_at_the_start_speed(void)
+{
+    (void)rig_add(&rig, 1000, 0, 3000, 10000);
+    start(1000);
+    (void)pulses(UINT64_MAX);
+    const struct path_vector slow = rig_vector(1000, 0, 500, 10000);
+    TEST_ASSERT_TRUE(path_add(&rig.path, &slow));
+    struct path_wish wish = {.tick = 16800000 + 28000 * 100, .patience_ticks = UINT64_MAX / 2U};
+    wish.accel = 8100 * STEP_ACCEL_PER_ACCEL;
+    TEST_ASSERT_TRUE(path_find(&rig.path, &wish, &place));
+    TEST_ASSERT_TRUE(path_can_rest(&rig.path, &place));
+    wish.accel = 7900 * STEP_ACCEL_PER_ACCEL;
+    TEST_ASSERT_TRUE(path_find(&rig.path, &wish, &place));
+    TEST_ASSERT_FALSE(path_can_rest(&rig.path, &place));
+}
+
 void test_vectors_that_come_later_and_go_straight_on_join(void)
 {
     struct path_vector vector = rig_vector(1000, 0, 3000, 10000);

@@ -1,0 +1,206 @@
+/* The unit as a whole: what it tells of itself, its line under load, when it is idle. */
+#include "pos_rig.h"
+
+#include "hal_board.h"
+
+#define FEED(mm_per_min) ((uint32_t)(mm_per_min) << 16U)
+
+enum {
+    ACCEL = 500,
+    CONDITION_DAMAGED = 2,
+    CONDITION_OTHER = 4,
+    STORE = 40,
+};
+
+void setUp(void)
+{
+    rig_set_up();
+    rig_run_ms(10);
+}
+
+void tearDown(void)
+{
+}
+
+static void restart(void)
+{
+    host_machine_restart(&machine);
+    rig_begin();
+    rig_run_ms(10);
+}
+
+static unsigned read(const char *number)
+{
+    char request[32];
+    (void)snprintf(request, sizeof request, "01 04 %s 00 01", number);
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask(request));
+    return rig_word(0);
+}
+
+static void move(unsigned axis, int32_t len_um)
+{
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, axis, 0));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_mode(&unit, NULL, len_um, ACCEL, axis));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, FEED(1000), 1, axis));
+}
+
+/* ---- what it tells --------------------------------------------------------------------------------------------- */
+
+void test_the_cause_of_the_start_is_told(void)
+{
+    for (unsigned cause = HAL_BOARD_CAUSE_POWER; cause <= HAL_BOARD_CAUSE_FAULT; cause++) {
+        machine.faults.start_cause = (enum hal_board_cause)cause;
+        TEST_ASSERT_EQUAL_UINT(cause, read("00 03"));
+    }
+}
+
+void test_a_setting_that_is_not_stored_shows_in_condition(void)
+{
+    TEST_ASSERT_EQUAL_HEX(0, read("00 04"));
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 06 00 87 00 05"));
+    TEST_ASSERT_EQUAL_HEX(CONDITION_OTHER, read("00 04"));
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 06 00 87 FF FF"));
+    TEST_ASSERT_EQUAL_HEX(0, read("00 04"));
+}
+
+static void assert_damaged(void)
+{
+    TEST_ASSERT_EQUAL_HEX(CONDITION_DAMAGED | CONDITION_OTHER, read("00 04"));
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 06 00 87 00 05"));
+    TEST_ASSERT_EQUAL_HEX(CONDITION_DAMAGED | CONDITION_OTHER, read("00 04"));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+    TEST_ASSERT_EQUAL_INT(POS_ERROR_SETTINGS, pos_mode(&unit, NULL, 1, ACCEL, 1));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_home(&unit, NULL, 37, 0, 0, 1));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 06 00 28 00 01"));
+    TEST_ASSERT_EQUAL_HEX(0, read("00 04"));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_mode(&unit, NULL, 1, ACCEL, 1));
+    restart();
+    TEST_ASSERT_EQUAL_HEX(0, read("00 04"));
+    TEST_ASSERT_EQUAL_UINT32(5, unit.registers.axes[0][POS_AXIS_HIGHEST_ACCEL]);
+}
+
+void test_stored_settings_whose_bits_have_changed_are_never_used(void)
+{
+    static const uint16_t one = 1;
+    TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, positioning_write(&unit, STORE, 1, &one));
+    uint32_t at = unit.settings.store.image[POS_SETTINGS_SLOT];
+    machine.flash[unit.settings.store.area][at + 40U] ^= 4U;
+    restart();
+    assert_damaged();
+}
+
+void test_a_text_of_another_unit_is_no_settings(void)
+{
+    uint8_t text[600] = "1 program";
+    TEST_ASSERT_EQUAL_INT(STORE_OK, store_save(&unit.settings.store, POS_SETTINGS_SLOT, text, 10));
+    restart();
+    assert_damaged();
+}
+
+void test_a_text_of_another_version_is_no_settings(void)
+{
+    uint8_t text[600];
+    static const uint16_t one = 1;
+    TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, positioning_write(&unit, STORE, 1, &one));
+    uint32_t length = store_load(&unit.settings.store, POS_SETTINGS_SLOT, text);
+    TEST_ASSERT_LESS_THAN(sizeof text, length);
+    text[3]++;
+    TEST_ASSERT_EQUAL_INT(STORE_OK, store_save(&unit.settings.store, POS_SETTINGS_SLOT, text, length));
+    restart();
+    assert_damaged();
+}
+
+/* ---- the line -------------------------------------------------------------------------------------------------- */
+
+void test_a_long_answer_goes_out_while_axes_move(void)
+{
+    move(1, 10000);
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 04 02 80 00 20"));
+    TEST_ASSERT_EQUAL_UINT32(69, rig_heard_count);
+    TEST_ASSERT_EQUAL_HEX(0x0103, rig_word(0));
+    rig_run_ms(1000);
+    TEST_ASSERT_EQUAL_INT64(1000, rig_position[0]);
+}
+
+void test_reads_are_refused_where_a_register_is_not_there(void)
+{
+    TEST_ASSERT_EQUAL_UINT(2, rig_ask("01 03 00 6C 00 01"));
+    TEST_ASSERT_EQUAL_UINT(2, rig_ask("01 04 00 64 00 01"));
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 03 00 64 00 08"));
+}
+
+static uint64_t be_late(void *context)
+{
+    (void)context;
+    return TICK_NEVER;
+}
+
+/* The bytes come on time, and main only when all of them are there. */
+static void send_unheard(const char *text, uint64_t gap_ticks)
+{
+    uint8_t bytes[RIG_FRAME];
+    uint32_t count = rig_bytes_of(text, bytes);
+    uint64_t tick = machine.now;
+    for (uint32_t i = 0; i < count; i++) {
+        tick += machine.line.byte_ticks;
+        tick += i % 8U == 0U ? gap_ticks : 0U;
+        rig_script[i] = (struct host_line_byte){.tick = tick, .value = bytes[i]};
+    }
+    rig_heard_count = 0;
+    host_machine_set_line(&machine, rig_script, count);
+    host_machine_run(&machine, tick + 1U, be_late, NULL, NULL);
+}
+
+void test_requests_that_main_finds_at_once_are_executed_one_after_the_other(void)
+{
+    send_unheard("01 06 00 64 01 01 08 45 01 06 00 6A 01 F4 A9 C1 01 06 00 64 03 01 09 25", 5 * TICKS_PER_MS);
+    rig_run_ms(100);
+    TEST_ASSERT_EQUAL_HEX32(3, unit.server.counts[MODBUS_COUNT_FRAMES] + unit.server.counts[MODBUS_COUNT_CRC]);
+    TEST_ASSERT_EQUAL_HEX(1, rig_status(1));
+}
+
+void test_more_bytes_than_a_pass_hears_are_heard_in_the_next_ones(void)
+{
+    char text[3 * 100] = "";
+    for (unsigned i = 0; i < 99; i++) {
+        (void)snprintf(&text[3U * i], 4, "%02X ", i + 16U);
+    }
+    send_unheard(text, 0);
+    rig_run_ms(50);
+    TEST_ASSERT_EQUAL_UINT32(1, unit.server.counts[MODBUS_COUNT_CRC]);
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 06 00 64 01 01"));
+}
+
+/* ---- idle ------------------------------------------------------------------------------------------------------ */
+
+void test_the_unit_is_idle_when_nothing_moves_waits_or_is_sent(void)
+{
+    TEST_ASSERT_TRUE(positioning_is_idle(&unit));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 4, 0));
+    TEST_ASSERT_TRUE(positioning_is_idle(&unit));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_mode(&unit, NULL, 100, ACCEL, 4));
+    TEST_ASSERT_FALSE(positioning_is_idle(&unit));
+    rig_run_ms(2);
+    TEST_ASSERT_TRUE(positioning_is_idle(&unit));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, FEED(1000), 1, 4));
+    TEST_ASSERT_FALSE(positioning_is_idle(&unit));
+    rig_run_ms(5);
+    TEST_ASSERT_FALSE(positioning_is_idle(&unit));
+    rig_run_ms(1000);
+    TEST_ASSERT_TRUE(positioning_is_idle(&unit));
+}
+
+void test_the_unit_is_not_idle_while_an_answer_is_sent(void)
+{
+    rig_send("01 04 02 80 00 20 F1 82");
+    rig_run_ms(2);
+    TEST_ASSERT_TRUE(modbus_is_sending(&unit.server));
+    TEST_ASSERT_FALSE(positioning_is_idle(&unit));
+    rig_run_ms(20);
+    TEST_ASSERT_FALSE(modbus_is_sending(&unit.server));
+    TEST_ASSERT_FALSE(positioning_is_idle(&unit));
+    rig_run_ms(100);
+    TEST_ASSERT_TRUE(positioning_is_idle(&unit));
+}
