@@ -132,7 +132,7 @@ static bool is_too_long(const struct pos_axis *axis, const struct pos_order *ord
 /* Why the state of the axis forbids a measure. */
 static enum pos_error check_state(const struct pos_axis *axis)
 {
-    static const uint8_t errors[] = {
+    static const uint8_t errors[POS_FAULT + 1] = {
         [POS_FREE] = POS_ERROR_NOT_TAKEN, [POS_TAKEN] = POS_OK,   [POS_WAITING] = POS_ERROR_MOVES, [POS_READY] = POS_OK,
         [POS_MOVING] = POS_ERROR_MOVES,   [POS_REACHED] = POS_OK, [POS_FAULT] = POS_ERROR_FAULT,
     };

@@ -74,7 +74,7 @@ struct pos_axis {
     struct pos_drive drive;
     struct pos_frame frame;
     struct pos_watch watch;
-    const uint32_t *settings; /* values of the axis' registers, by enum pos_axis_register */
+    const uint32_t *settings;           /* values of the axis' registers, by enum pos_axis_register */
     struct pos_control_record own;      /* the bits as they are, but MP */
     struct pos_control_record *control; /* the one in use: MP is taken from it, the other bits are written to it */
     struct pos_order order;

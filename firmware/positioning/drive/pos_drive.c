@@ -145,8 +145,7 @@ uint64_t pos_drive_end_tick(const struct pos_drive *drive)
 {
     uint64_t rest_tick = group_end_tick(&drive->group);
     uint64_t pulse_tick = tick_extend(step_channel_end_tick(&drive->channel), rest_tick);
-    bool later = pulse_tick == rest_tick + 1U && step_channel_pulses(&drive->channel) != 0U;
-    return later ? pulse_tick : rest_tick;
+    return pulse_tick == rest_tick + 1U ? pulse_tick : rest_tick;
 }
 
 bool pos_drive_is_busy(const struct pos_drive *drive)

@@ -193,7 +193,6 @@ void test_a_fault_brakes_with_its_own_acceleration_also_while_it_is_held(void)
     TEST_ASSERT_INT64_WITHIN(20, before + 50, position);
 }
 
-/* The channel's last pulse counts from 0 as long as there was none: that is no pulse one tick after the rest. */
 void test_a_motion_that_is_held_before_its_first_pulse_ends_at_its_start(void)
 {
     begin(UINT64_C(0x1FFFFFFFF) - START_TICKS);
