@@ -369,3 +369,18 @@ void test_a_switch_that_is_found_in_the_moment_of_a_resume_stops_the_axis(void)
     assert_home(0);
     TEST_ASSERT_EQUAL_INT64(found - 1, rig_position[0]);
 }
+
+/* It brakes, as the switch has been found, when the permit goes and comes back. */
+void test_a_hold_that_ends_before_the_stand_at_the_switch_changes_nothing(void)
+{
+    home(19, 0);
+    for (unsigned i = 0; i < 5000 && !unit.axes[0].found; i++) {
+        run_ms(1);
+    }
+    (void)pos_control(&unit, NULL, FEED(1000), 0, 1);
+    run_ms(3);
+    (void)pos_control(&unit, NULL, FEED(1000), 1, 1);
+    run_ms(3000);
+    assert_home(0);
+    TEST_ASSERT_EQUAL_INT64(299, rig_position[0]);
+}
