@@ -185,6 +185,7 @@ void test_after_many_measures_the_motor_stands_where_their_sum_is(void)
     int64_t double_steps = 2 * sum_um * 3200 + 37000;
     int64_t steps = double_steps >= 0 ? double_steps / 74000 : -((-double_steps + 73999) / 74000);
     TEST_ASSERT_EQUAL_INT64(steps, rig_position[0]);
+}
 
 /* 600 mm/min are 1000 steps/s, 100 mm/s^2 10 000 steps/s^2: 0.1 s and 50 steps. */
 void test_what_is_above_the_highest_feed_and_acceleration_counts_as_these(void)
