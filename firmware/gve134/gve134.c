@@ -12,7 +12,7 @@
 enum {
     HEARD_MAX = 64,                   /* bytes in one pass, */
     SERVED_MAX = 16,                  /* and requests, */
-    SERVE_TICKS = 100 * TICKS_PER_US, /* begun in so long */
+    SERVE_TICKS = 100 * TICKS_PER_US, /* begun in so long after the first one */
     OWN_AXIS = 3,
     DIRECTION_BITS = 4, /* bits of the directions in the byte of polarities begin there */
 };
@@ -123,16 +123,16 @@ static bool may_hear(const struct gve134 *unit)
 /* Returns when to call again at the latest. */
 static uint64_t hear(struct gve134 *unit, uint64_t now)
 {
-    struct hal_line_byte byte;
-    for (unsigned count = 0; may_hear(unit); count++) {
-        if (count == (unsigned)HEARD_MAX) {
+    struct hal_line_run run;
+    for (uint32_t count = 0; may_hear(unit); count += run.count) {
+        if (count >= (uint32_t)HEARD_MAX) {
             return now;
         }
-        if (!hal_line_read(&byte)) {
+        if (!hal_line_read_run(&run, GVE_LINE_END)) {
             return gve_line_poll(&unit->line, now);
         }
         gve_outputs_note_data(&unit->outputs, now);
-        gve_line_take(&unit->line, &byte);
+        gve_line_take_run(&unit->line, &run);
     }
     return TICK_NEVER;
 }
@@ -191,12 +191,18 @@ static void serve_command(struct gve134 *unit, const struct gve_request *request
         if (!reply->later) {
             answer(unit, reply->code, &reply->values);
         }
+        if (reply->changes) {
+            gve134_change(unit, &request->command);
+        }
     }
 }
 
 static void serve(struct gve134 *unit, const struct gve_request *request)
 {
-    struct gve134_reply reply = {.code = GVE_DONE};
+    struct gve134_reply reply;
+    reply.code = GVE_DONE;
+    reply.later = false;
+    reply.changes = false;
     text_init(&reply.values, reply.bytes, sizeof reply.bytes);
     if (is_of_packet(unit, request)) {
         serve_packet(unit, request, &reply);
@@ -258,13 +264,15 @@ static bool serve_next(struct gve134 *unit)
 /* One request, or as many of a packet as there is time for: these only wait for its end. True: there may be more. */
 static bool serve_some(struct gve134 *unit)
 {
+    bool more = serve_next(unit);
+    if (!more || !unit->packet.open) {
+        return more;
+    }
     uint64_t until = hal_time_now() + SERVE_TICKS;
-    bool served = serve_next(unit);
-    bool more = served;
     for (unsigned count = 1; more && unit->packet.open && count < (unsigned)SERVED_MAX; count++) {
         more = hal_time_now() < until && serve_next(unit);
     }
-    return served;
+    return true;
 }
 
 /* ---- main ------------------------------------------------------------------------------------------------------ */

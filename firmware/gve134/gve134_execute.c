@@ -85,6 +85,20 @@ static void set_four(uint32_t values[PATH_AXES], const int32_t numbers[])
     }
 }
 
+void gve134_change(struct gve134 *unit, const struct gve_command *command)
+{
+    struct gve_queue *queue = &unit->queue;
+    if (command->opcode == (uint8_t)GVE_CHANGE_UP) {
+        gve_queue_change(queue, gve_factor_up(queue->factor), false);
+    } else if (command->opcode == (uint8_t)GVE_CHANGE_DOWN) {
+        gve_queue_change(queue, gve_factor_down(queue->factor), false);
+    } else if (command->opcode == (uint8_t)GVE_CHANGE_TO) {
+        gve_queue_change(queue, (uint32_t)command->numbers[0] * GVE_FACTOR_PER_CENT, true);
+    } else {
+        gve_queue_change(queue, GVE_FACTOR_ONE, true);
+    }
+}
+
 /* ---- stops ----------------------------------------------------------------------------------------------------- */
 
 static void halt(struct gve134 *unit, struct gve134_reply *reply)
@@ -365,29 +379,22 @@ static enum gve_code execute_stopping(struct gve134 *unit, const struct gve_comm
 static enum gve_code execute_acting(struct gve134 *unit, const struct gve_command *command, struct gve134_reply *reply)
 {
     const int32_t *numbers = command->numbers;
-    struct gve_queue *queue = &unit->queue;
     switch (command->opcode) {
     case GVE_LINE:
         return enter(unit, numbers);
     case GVE_CONTINUE:
         return enter_joining(unit, numbers);
     case GVE_CHANGE_ALL:
-        gve_queue_change(queue, GVE_FACTOR_ONE, true);
-        break;
     case GVE_CHANGE_UP:
-        gve_queue_change(queue, gve_factor_up(queue->factor), false);
-        break;
     case GVE_CHANGE_DOWN:
-        gve_queue_change(queue, gve_factor_down(queue->factor), false);
-        break;
     case GVE_CHANGE_TO:
-        gve_queue_change(queue, (uint32_t)numbers[0] * GVE_FACTOR_PER_CENT, true);
+        reply->changes = true;
         break;
     case GVE_ZERO:
         zero_positions(unit);
         break;
     case GVE_SET_POSITION:
-        gve_queue_set_position(queue, (unsigned)numbers[0], numbers[1]);
+        gve_queue_set_position(&unit->queue, (unsigned)numbers[0], numbers[1]);
         break;
     case GVE_WRITE_STATUS:
         write_status(unit, (unsigned)numbers[0], (unsigned)numbers[1]);

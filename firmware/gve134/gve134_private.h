@@ -13,7 +13,9 @@ struct gve134_reply {
     enum gve_code code;
     struct text values;
     uint8_t bytes[GVE_ANSWER_VALUES_MAX];
-    bool later; /* no answer in this pass */
+    bool later;   /* no answer in this pass */
+    bool changes; /* after the answer gve134_change is to be called: with many vectors it takes as long as an answer may
+                   */
 };
 
 /* No motion is made after a fault, or without the crystal. */
@@ -30,6 +32,9 @@ void gve134_abort(struct gve134 *unit);
 
 /* Executes a command that has come whole and is not of a packet. */
 void gve134_execute(struct gve134 *unit, const struct gve_request *request, struct gve134_reply *reply);
+
+/* Executes an X command that has been answered. */
+void gve134_change(struct gve134 *unit, const struct gve_command *command);
 
 /* Whether a parameter of an axis that is coupled makes a command wrong. */
 bool gve134_is_coupled_out(const struct gve134 *unit, const struct gve_command *command);

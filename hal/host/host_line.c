@@ -116,6 +116,32 @@ bool hal_line_read(struct hal_line_byte *byte)
     return true;
 }
 
+/* Whether the next byte goes on with a run. */
+static bool goes_on(const struct host_line *line, const struct hal_line_run *run, uint8_t last)
+{
+    const struct hal_line_byte *heard = &line->heard[line->heard_first];
+    return line->heard_count != 0 && run->count < (uint32_t)HAL_LINE_RUN_MAX && !run->broken && !heard->broken &&
+           heard->tick == run->tick && run->bytes[run->count - 1U] != last;
+}
+
+bool hal_line_read_run(struct hal_line_run *run, uint8_t last)
+{
+    const struct host_line *line = &host_current()->line;
+    struct hal_line_byte byte;
+    if (!hal_line_read(&byte)) {
+        return false;
+    }
+    run->tick = byte.tick;
+    run->count = 1;
+    run->bytes[0] = byte.value;
+    run->broken = byte.broken;
+    while (goes_on(line, run, last)) {
+        (void)hal_line_read(&byte);
+        run->bytes[run->count++] = byte.value;
+    }
+    return true;
+}
+
 bool hal_line_write(uint8_t byte)
 {
     struct host_machine *machine = host_current();

@@ -19,6 +19,18 @@ struct hal_line_byte {
     bool broken; /* a parity, framing or noise error in this byte, or bytes after it were lost in an overrun */
 };
 
+enum {
+    HAL_LINE_RUN_MAX = 32,
+};
+
+/* Bytes that came within a millisecond. */
+struct hal_line_run {
+    uint64_t tick; /* of the last one, as above */
+    uint32_t count;
+    uint8_t bytes[HAL_LINE_RUN_MAX];
+    bool broken; /* it is one, and as above */
+};
+
 /* Parity, none, even or odd, and stop bits. */
 enum hal_line_format {
     HAL_LINE_8E1,
@@ -32,6 +44,10 @@ void hal_line_set(uint32_t rate_bd, enum hal_line_format format);
 
 /* Takes the oldest received byte; false if there is none. */
 bool hal_line_read(struct hal_line_byte *byte);
+
+/* Takes the oldest received bytes as long as they came together, none after one that is `last`; or one that is broken.
+ * False: there is none, or what there is came after the bytes of the call before it. */
+bool hal_line_read_run(struct hal_line_run *run, uint8_t last);
 
 /* Gives a byte to be sent; false if there is no room now: then main gets a pass when there is. */
 bool hal_line_write(uint8_t byte);

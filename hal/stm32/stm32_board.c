@@ -85,13 +85,12 @@ uint32_t hal_board_late_steps(void)
     return stm32_late_steps;
 }
 
-/* The look at the line lets the bus go where the transmitter raises no interrupt (an emulator). */
 void hal_board_idle(uint64_t wake_tick)
 {
     uint64_t look_tick = hal_time_now() + stm32_line_look_ticks();
     uint64_t end_tick = wake_tick < look_tick ? wake_tick : look_tick;
     stm32_watchdog_main_lives();
-    (void)hal_line_is_idle();
+    stm32_line_look();
     while (!stm32_event_take()) {
         uint64_t now = hal_time_now();
         if (now >= end_tick) {

@@ -33,7 +33,7 @@ enum {
     PRIORITY_PLACE = 4,    /* four bits of priority, at the top of a byte; PM0214 4.3.7 */
 
     /* Main looks at the line so often; an answer begins a millisecond after its command at the latest. */
-    LOOK_TICKS = 250 * TICKS_PER_US,
+    LOOK_TICKS = 300 * TICKS_PER_US,
     ROUND_TICKS = HEARD_MAX * BITS * (TICK_HZ / IMAGE_LINE_BD),
 };
 static_assert(ROUND_TICKS > 2 * TICKS_PER_MS, "the ring has room for what comes between two ticks");
@@ -59,6 +59,7 @@ static struct {
     uint16_t heard[HEARD_MAX]; /* DR is read by half-words, 30.6 */
     uint32_t fetched;
     uint32_t fetched_tick;
+    bool looked;           /* main has had what was there */
     bool lost;             /* bytes before the next one are missing */
     volatile bool refused; /* main waits for room */
 } full;
@@ -124,11 +125,15 @@ static void start_stream(void)
 static void keep(uint32_t end, uint32_t tick, bool broken)
 {
     const volatile uint16_t *heard = full.heard;
-    while (full.fetched != end) {
-        stm32_line_keep(tick, (uint8_t)heard[full.fetched], broken || full.lost);
+    uint32_t next = full.fetched;
+    uint32_t in = stm32_line.received_in;
+    while (next != end) {
+        in = stm32_line_keep(in, tick, (uint8_t)heard[next], broken || full.lost);
         full.lost = false;
-        full.fetched = (full.fetched + 1U) % HEARD_MAX;
+        next = (next + 1U) % HEARD_MAX;
     }
+    full.fetched = next;
+    stm32_line.received_in = in;
 }
 
 /* Fetches what has come; tells what SR was. The stream counts a byte some cycles before it is in memory, so a look at a
@@ -186,6 +191,19 @@ bool hal_line_read(struct hal_line_byte *byte)
     return stm32_line_take(byte);
 }
 
+/* One look at the stream serves all that main takes in a pass: each byte that it waited for would cost as much. */
+bool hal_line_read_run(struct hal_line_run *run, uint8_t last)
+{
+    if (stm32_line.received_out == stm32_line.received_in) {
+        full.looked = !full.looked;
+        if (!full.looked) {
+            return false;
+        }
+        (void)fetch();
+    }
+    return stm32_line_take_run(run, last);
+}
+
 bool hal_line_write(uint8_t byte)
 {
     if (stm32_line.sending_in - stm32_line.sending_out == (uint32_t)SENDING_MAX) {
@@ -208,6 +226,10 @@ bool hal_line_is_idle(void)
 void stm32_line_tick(void)
 {
     (void)fetch();
+}
+
+void stm32_line_look(void)
+{
 }
 
 uint32_t stm32_line_look_ticks(void)

@@ -19,7 +19,8 @@ static struct {
 static void receive(uint32_t status)
 {
     uint8_t value = (uint8_t)USART_DR(STM32_LINE_BASE); /* also ends the errors, RM0090 30.6.1 */
-    stm32_line_keep(TIM2_CNT, value, (status & (USART_SR_PE | USART_SR_FE | USART_SR_NF | USART_SR_ORE)) != 0);
+    bool broken = (status & (USART_SR_PE | USART_SR_FE | USART_SR_NF | USART_SR_ORE)) != 0;
+    stm32_line.received_in = stm32_line_keep(stm32_line.received_in, TIM2_CNT, value, broken);
 }
 
 static void let_go(void)
@@ -75,6 +76,11 @@ bool hal_line_read(struct hal_line_byte *byte)
     return stm32_line_take(byte);
 }
 
+bool hal_line_read_run(struct hal_line_run *run, uint8_t last)
+{
+    return stm32_line_take_run(run, last);
+}
+
 /* Serves the transmitter too, so that a byte goes out where the transmitter raises no interrupts (an emulator). */
 bool hal_line_write(uint8_t byte)
 {
@@ -113,6 +119,11 @@ void stm32_line_tick(void)
         let_go();
     }
     stm32_unmask(mask);
+}
+
+void stm32_line_look(void)
+{
+    (void)hal_line_is_idle();
 }
 
 uint32_t stm32_line_look_ticks(void)

@@ -20,14 +20,13 @@ enum {
     SENDING_MAX = 64
 };
 
-struct stm32_received {
-    uint32_t tick;
-    uint8_t value;
-    bool broken;
+enum {
+    RECEIVED_BROKEN = 0x100,
 };
 
 struct stm32_line {
-    struct stm32_received received[RECEIVED_MAX];
+    uint32_t received_tick[RECEIVED_MAX];
+    uint16_t received[RECEIVED_MAX]; /* a byte, and whether it is broken */
     uint8_t sending[SENDING_MAX];
     volatile uint32_t received_in;
     volatile uint32_t received_out;
@@ -39,19 +38,21 @@ extern struct stm32_line stm32_line;
 /* What BRR holds: clocks of the bus in a bit, of which there are 16 samples (RM0090 30.3.4). */
 #define STM32_LINE_DIVIDER(hz, bd) (((hz) + (bd) / 2U) / (bd))
 
-/* Keeps a byte. One too many is lost, and the one before it broken. */
-static inline void stm32_line_keep(uint32_t tick, uint8_t value, bool broken)
+/* Keeps a byte as number `in`; returns the number of the next one. One too many is lost, and the one before it broken.
+ */
+static inline uint32_t stm32_line_keep(uint32_t in, uint32_t tick, uint8_t value, bool broken)
 {
-    if (stm32_line.received_in - stm32_line.received_out == (uint32_t)RECEIVED_MAX) {
-        stm32_line.received[(stm32_line.received_in - 1U) % RECEIVED_MAX].broken = true;
-        return;
+    if (in - stm32_line.received_out == (uint32_t)RECEIVED_MAX) {
+        stm32_line.received[(in - 1U) % RECEIVED_MAX] |= (uint16_t)RECEIVED_BROKEN;
+        return in;
     }
-    stm32_line.received[stm32_line.received_in % RECEIVED_MAX] =
-        (struct stm32_received){.tick = tick, .value = value, .broken = broken};
-    stm32_line.received_in++;
+    stm32_line.received_tick[in % RECEIVED_MAX] = tick;
+    stm32_line.received[in % RECEIVED_MAX] = (uint16_t)(value | (broken ? (unsigned)RECEIVED_BROKEN : 0U));
+    return in + 1U;
 }
 
-/* The oldest one, for hal_line_read. */
+/* The oldest ones, for hal_line_read and hal_line_read_run. */
 bool stm32_line_take(struct hal_line_byte *byte);
+bool stm32_line_take_run(struct hal_line_run *run, uint8_t last);
 
 #endif

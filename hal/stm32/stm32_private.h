@@ -120,6 +120,8 @@ void stm32_line_interrupt(void);
 /* Every millisecond. Half duplex: lets the bus go when a transmission does not come to its end; full duplex: fetches
  * what has come. */
 void stm32_line_tick(void);
+/* Main has nothing to do. Half duplex: lets the bus go where the transmitter raises no interrupt (an emulator). */
+void stm32_line_look(void);
 /* Main is to look at the line so many ticks after its last look at the latest; UINT32_MAX: what comes wakes it. */
 uint32_t stm32_line_look_ticks(void);
 

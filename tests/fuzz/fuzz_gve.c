@@ -3,8 +3,8 @@
  * with a right checksum is a command, and exactly what it finds damaged is told; each command is one of the table, and
  * its own text is read as the same; an answer has the right checksum; the index counts.
  *
- * Input: bytes of the line. FC: 1 s of silence, FD: 100 ms, FE: the next byte has a framing error. The mutator puts
- * commands of the table into it, as chance alone makes no checksum.
+ * Input: bytes of the line. FB: as many as the next byte says come together. FC: 1 s of silence, FD: 100 ms, FE: the
+ * next byte has a framing error. The mutator puts commands of the table into it, as chance alone makes no checksum.
  */
 #include <stdio.h>
 #include <string.h>
@@ -17,6 +17,7 @@
 
 enum {
     INPUT_MAX = 4096,
+    TOGETHER = 0xFB,
     GAP = 0xFC,
     SILENCE = 0xFD,
     BROKEN = 0xFE,
@@ -269,6 +270,22 @@ static void bench_take(struct bench *bench, uint8_t value, bool broken)
     drain(bench);
 }
 
+/* They end with a line, as those of the seam do. */
+static void bench_take_run(struct bench *bench, struct fuzz_stream *stream)
+{
+    struct hal_line_run run = {.count = 0};
+    uint32_t most = 1U + fuzz_take_byte(stream) % (uint32_t)HAL_LINE_RUN_MAX;
+    while (run.count < most && !fuzz_stream_is_over(stream) && (run.count == 0 || run.bytes[run.count - 1U] != '\r')) {
+        run.bytes[run.count] = fuzz_take_byte(stream);
+        reader_take(&bench->reader, run.bytes[run.count], false);
+        run.count++;
+    }
+    bench->tick += BYTE_TICKS;
+    run.tick = bench->tick;
+    gve_line_take_run(&bench->line, &run);
+    drain(bench);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static struct bench bench;
@@ -283,6 +300,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         uint8_t value = fuzz_take_byte(&stream);
         if (value == GAP || value == SILENCE) {
             bench_wait(&bench, value == GAP ? 1000 : 100);
+        } else if (value == TOGETHER) {
+            bench_take_run(&bench, &stream);
         } else if (value == BROKEN) {
             bench_take(&bench, fuzz_take_byte(&stream), true);
         } else {

@@ -12,13 +12,18 @@ enum {
     NO_DIGIT = 16,
 };
 
-#define NUMBER_TOO_LONG INT64_C(10000000000) /* what no number of the table reaches */
+#define DECIMAL_TOO_LONG UINT32_MAX /* what no decimal of the table reaches */
+#define DECIMAL_GOES_ON                                                                                                \
+    (UINT32_C(1) << 28) /* below it another digit is counted; from it on there would be too many                       \
+                         */
 
 static_assert((uint32_t)GVE_TEXT_BYTES_MAX <= (uint32_t)GVE_FLOAT_READ_BYTES_MAX,
               "all of a command can be read as a single");
 
 #define P(name, form, min, max)                                                                                        \
-    static_assert((min) <= (max) && (max) < NUMBER_TOO_LONG, #name " has numbers that can be read");
+    static_assert((min) <= (max) && ((max) < (int64_t)DECIMAL_GOES_ON * 10 || GVE_FORM_##form > GVE_FORM_NONZERO) &&   \
+                      -(min) < (int64_t)DECIMAL_GOES_ON * 10,                                                          \
+                  #name " has numbers that can be read");
 #include "gve_commands.def"
 #undef P
 
@@ -59,7 +64,8 @@ static unsigned find_opcode(struct parser *parser, enum gve_address address)
 {
     unsigned found = GVE_OPCODES;
     uint8_t first = parser->length != 0 ? upper(parser->text[0]) : 0;
-    for (unsigned opcode = 0; opcode < (unsigned)GVE_OPCODES; opcode++) {
+    struct gve_opcodes some = gve_opcodes_of(first);
+    for (unsigned opcode = some.first; opcode < some.past; opcode++) {
         const struct gve_row *row = gve_row(opcode);
         uint32_t length = (uint8_t)row->text[0] == first ? match_length(row, parser) : 0;
         if (length == 0 || length < parser->next) {
@@ -79,18 +85,21 @@ static unsigned find_opcode(struct parser *parser, enum gve_address address)
 
 static enum gve_fault read_decimal(struct token token, int64_t *value)
 {
-    bool negative = token.length != 0 && token.text[0] == '-';
-    uint32_t first = negative ? 1 : 0;
-    int64_t number = 0;
-    for (uint32_t i = first; i < token.length; i++) {
-        if (token.text[i] < '0' || token.text[i] > '9') {
+    const uint8_t *next = token.text;
+    const uint8_t *end = token.text + token.length;
+    bool negative = token.length != 0 && *next == '-';
+    uint32_t number = 0;
+    next += negative ? 1 : 0;
+    bool none = next == end;
+    for (; next != end; next++) {
+        uint32_t digit = (uint32_t)*next - '0';
+        if (digit > 9U) {
             return GVE_FAULT_NO_DECIMAL;
         }
-        number = number * 10 + (token.text[i] - '0');
-        number = number > NUMBER_TOO_LONG ? NUMBER_TOO_LONG : number;
+        number = number < DECIMAL_GOES_ON ? number * 10U + digit : DECIMAL_TOO_LONG;
     }
-    *value = negative ? -number : number;
-    return token.length > first ? GVE_FAULT_NONE : GVE_FAULT_NO_DECIMAL;
+    *value = negative ? -(int64_t)number : (int64_t)number;
+    return none ? GVE_FAULT_NO_DECIMAL : GVE_FAULT_NONE;
 }
 
 static uint32_t hex_digit(uint8_t character)
@@ -174,15 +183,25 @@ static enum gve_fault read_value(struct token token, const struct gve_kind *kind
     return GVE_FAULT_NONE;
 }
 
+#define X(name, text, address, packet, states, least, p1, p2, p3, p4, p5, example, answer)                             \
+    static_assert(GVE_PARAMETER_##p2 != GVE_PARAMETER_AXIS && GVE_PARAMETER_##p3 != GVE_PARAMETER_AXIS &&              \
+                      GVE_PARAMETER_##p4 != GVE_PARAMETER_AXIS && GVE_PARAMETER_##p5 != GVE_PARAMETER_AXIS,            \
+                  #name " has its axis first, where there is a character");
+#include "gve_commands.def"
+#undef X
+
 /* The parameter that begins here. After the letter of an axis the next one may begin at once. */
 static struct token parser_take_token(struct parser *parser, enum gve_form form)
 {
-    uint32_t begin = parser->next;
-    uint32_t longest = form == GVE_FORM_AXIS ? 1 : GVE_TEXT_BYTES_MAX;
-    while (parser->next < parser->length && parser->next - begin < longest && parser->text[parser->next] != ',') {
-        parser->next++;
+    const uint8_t *begin = &parser->text[parser->next];
+    const uint8_t *end = form == GVE_FORM_AXIS ? begin + 1 : &parser->text[parser->length];
+    const uint8_t *next = begin;
+    while (next != end && *next != ',') {
+        next++;
     }
-    return (struct token){.text = &parser->text[begin], .length = parser->next - begin};
+    uint32_t length = (uint32_t)(next - begin);
+    parser->next += length;
+    return (struct token){.text = begin, .length = length};
 }
 
 /* Goes past the comma after a parameter; after an axis there need not be one. */

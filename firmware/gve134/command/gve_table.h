@@ -5,6 +5,7 @@
 #ifndef GVE_TABLE_H
 #define GVE_TABLE_H
 
+#include <assert.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -92,9 +93,30 @@ struct gve_row {
     uint8_t packet;                      /* enum gve_packet */
 };
 
+/* The opcodes from `first` to the one before `past`. */
+struct gve_opcodes {
+    uint8_t first;
+    uint8_t past;
+};
+
+/* Among which all commands are that begin with a character, in upper case; others may be there too. */
+struct gve_opcodes gve_opcodes_of(uint8_t character);
+
 /* The row of an opcode below GVE_OPCODES; the kind of a parameter below GVE_PARAMETERS. */
-const struct gve_row *gve_row(unsigned opcode);
-const struct gve_kind *gve_kind(unsigned parameter);
+extern const struct gve_row gve_rows[GVE_OPCODES];
+extern const struct gve_kind gve_kinds[GVE_PARAMETERS];
+
+static inline const struct gve_row *gve_row(unsigned opcode)
+{
+    assert(opcode < (unsigned)GVE_OPCODES);
+    return &gve_rows[opcode];
+}
+
+static inline const struct gve_kind *gve_kind(unsigned parameter)
+{
+    assert(parameter < (unsigned)GVE_PARAMETERS);
+    return &gve_kinds[parameter];
+}
 
 /* What the table has for people and tools; an image that does not ask for it does not hold it. */
 struct gve_words {

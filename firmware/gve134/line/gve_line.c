@@ -139,18 +139,15 @@ static void keep_command(struct gve_line *line)
 
 static void keep_received(struct gve_line *line, enum gve_received received)
 {
-    switch (received) {
-    case GVE_RECEIVED_LINE:
+    if (received == GVE_RECEIVED_NOTHING) {
+        return;
+    }
+    if (received == GVE_RECEIVED_LINE) {
         keep_command(line);
-        break;
-    case GVE_RECEIVED_DAMAGE:
+    } else if (received == GVE_RECEIVED_DAMAGE) {
         keep_damage(line);
-        break;
-    case GVE_RECEIVED_BAD_LINE:
+    } else {
         keep_bad_line(line);
-        break;
-    case GVE_RECEIVED_NOTHING:
-        break;
     }
 }
 
@@ -158,6 +155,20 @@ void gve_line_take(struct gve_line *line, const struct hal_line_byte *byte)
 {
     keep_received(line, gve_receiver_poll(&line->receiver, byte->tick));
     keep_received(line, gve_receiver_take(&line->receiver, byte));
+}
+
+void gve_line_take_run(struct gve_line *line, const struct hal_line_run *run)
+{
+    const uint8_t *next = run->bytes;
+    const uint8_t *end = &run->bytes[run->count];
+    if (run->broken) {
+        gve_line_take(line, &(struct hal_line_byte){.tick = run->tick, .value = *next, .broken = true});
+        return;
+    }
+    keep_received(line, gve_receiver_poll(&line->receiver, run->tick));
+    while (next != end) {
+        keep_received(line, gve_receiver_take_run(&line->receiver, &next, end, run->tick));
+    }
 }
 
 uint64_t gve_line_poll(struct gve_line *line, uint64_t now_ticks)

@@ -55,6 +55,9 @@ void gve_line_init(struct gve_line *line, unsigned interpolator, unsigned spindl
 /* Takes a byte. */
 void gve_line_take(struct gve_line *line, const struct hal_line_byte *byte);
 
+/* Takes bytes that came together. */
+void gve_line_take_run(struct gve_line *line, const struct hal_line_run *run);
+
 /* Sees silence. Returns when to call again at the latest; TICK_NEVER: not before the next byte. All bytes that have
  * come must have been taken. */
 uint64_t gve_line_poll(struct gve_line *line, uint64_t now_ticks);

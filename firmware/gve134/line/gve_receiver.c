@@ -13,7 +13,7 @@ enum receiver_state {
 
 enum {
     CHARACTER_BEGIN = '!',
-    CHARACTER_END = '\r',
+    CHARACTER_END = GVE_LINE_END,
     CHARACTER_IGNORED = '\n',
     SUM_CHARACTERS = 3, /* comma and two digits */
     ADDRESS_CHARACTERS = 1,
@@ -43,6 +43,7 @@ static void begin_line(struct gve_receiver *receiver)
     receiver->state = STATE_INSIDE;
     receiver->address = 0;
     receiver->count = 0;
+    receiver->sum = CHARACTER_BEGIN;
     receiver->too_long = false;
 }
 
@@ -107,6 +108,7 @@ static void take_character(struct gve_receiver *receiver, uint8_t value)
         receiver->address = value == receiver->digits[0] ? (uint8_t)GVE_ADDRESS_INTERPOLATOR : spindle;
     }
     receiver->line[receiver->count] = value;
+    receiver->sum = (uint8_t)(receiver->sum + value);
     receiver->count++;
 }
 
@@ -122,14 +124,11 @@ static uint32_t hex_digit(uint8_t character)
 /* Whether the line ends with a comma and the sum of all up to it. */
 static bool has_right_sum(const struct gve_receiver *receiver)
 {
-    uint32_t sum = CHARACTER_BEGIN;
     if (receiver->too_long || receiver->count < SUM_CHARACTERS) {
         return false;
     }
     const uint8_t *end = &receiver->line[receiver->count - SUM_CHARACTERS];
-    for (const uint8_t *next = receiver->line; next <= end; next++) {
-        sum += *next;
-    }
+    uint32_t sum = (uint32_t)receiver->sum - end[1] - end[2];
     uint32_t high = hex_digit(end[1]);
     uint32_t low = hex_digit(end[2]);
     return *end == ',' && high != NO_DIGIT && low != NO_DIGIT && ((high << HEX_BITS) | low) == (sum & UINT8_MAX);
@@ -202,26 +201,64 @@ static enum gve_received take_broken(struct gve_receiver *receiver)
     return hurts ? damage(receiver, is_of_us(receiver)) : GVE_RECEIVED_NOTHING;
 }
 
-enum gve_received gve_receiver_take(struct gve_receiver *receiver, const struct hal_line_byte *byte)
+static enum gve_received take_value(struct gve_receiver *receiver, uint8_t value)
 {
-    receiver->tick = byte->tick;
-    if (byte->broken) {
-        return take_broken(receiver);
-    }
-    if (byte->value == CHARACTER_IGNORED) {
+    if (value == CHARACTER_IGNORED) {
         return GVE_RECEIVED_NOTHING;
     }
     switch ((enum receiver_state)receiver->state) {
     case STATE_OUTSIDE:
-        return take_outside(receiver, byte->value);
+        return take_outside(receiver, value);
     case STATE_INSIDE:
-        return take_inside(receiver, byte->value);
+        return take_inside(receiver, value);
     case STATE_SKIPPING:
-        return take_skipping(receiver, byte->value);
+        return take_skipping(receiver, value);
     case STATE_THROWING:
         break;
     }
     return GVE_RECEIVED_NOTHING;
+}
+
+enum gve_received gve_receiver_take(struct gve_receiver *receiver, const struct hal_line_byte *byte)
+{
+    receiver->tick = byte->tick;
+    return byte->broken ? take_broken(receiver) : take_value(receiver, byte->value);
+}
+
+/* All that is more than the begin of a line is no control character either. */
+static_assert((unsigned)CHARACTER_END < (unsigned)CHARACTER_BEGIN && (unsigned)CHARACTER_IGNORED < CHARACTER_BEGIN,
+              "a compare tells plain characters");
+
+/* Takes what does nothing but go on with a line of which the address is known. Returns what comes after it. */
+static const uint8_t *take_plain(struct gve_receiver *receiver, const uint8_t *next, const uint8_t *end)
+{
+    const uint8_t *room_end = &receiver->line[GVE_LINE_CHARACTERS_MAX];
+    uint8_t *place = &receiver->line[receiver->count];
+    uint32_t sum = receiver->sum;
+    if (receiver->state != (uint8_t)STATE_INSIDE || receiver->count == 0) {
+        return next;
+    }
+    while (next != end && *next > (uint8_t)CHARACTER_BEGIN && place != room_end) {
+        sum += *next;
+        *place++ = *next++;
+    }
+    receiver->count = (uint8_t)(place - receiver->line);
+    receiver->sum = (uint8_t)sum;
+    return next;
+}
+
+enum gve_received gve_receiver_take_run(struct gve_receiver *receiver, const uint8_t **next, const uint8_t *end,
+                                        uint64_t tick_ticks)
+{
+    enum gve_received received = GVE_RECEIVED_NOTHING;
+    receiver->tick = tick_ticks;
+    while (received == GVE_RECEIVED_NOTHING && *next != end) {
+        *next = take_plain(receiver, *next, end);
+        if (*next != end) {
+            received = take_value(receiver, *(*next)++);
+        }
+    }
+    return received;
 }
 
 const uint8_t *gve_receiver_text(const struct gve_receiver *receiver)

@@ -17,6 +17,7 @@
 
 enum {
     GVE_LINE_CHARACTERS_MAX = 80, /* between ! and CR */
+    GVE_LINE_END = '\r',
 };
 
 enum gve_received {
@@ -37,6 +38,7 @@ struct gve_receiver {
     uint8_t address;                       /* of the line: enum gve_address; 0: of another unit, or not known yet */
     uint8_t count;                         /* characters of the line so far */
     uint8_t length;                        /* after a line: of `text` */
+    uint8_t sum;                           /* of them and the !, modulo 256 */
     uint8_t line[GVE_LINE_CHARACTERS_MAX]; /* from the address on */
 };
 
@@ -51,6 +53,11 @@ uint64_t gve_receiver_wake(const struct gve_receiver *receiver);
 
 /* Takes one byte. A line and its text hold until the next one. */
 enum gve_received gve_receiver_take(struct gve_receiver *receiver, const struct hal_line_byte *byte);
+
+/* Takes bytes that came at one tick, none of them broken, up to one with which something is received. *next goes past
+ * what was taken; `end` is the end of all. A line and its text hold until the next byte. */
+enum gve_received gve_receiver_take_run(struct gve_receiver *receiver, const uint8_t **next, const uint8_t *end,
+                                        uint64_t tick_ticks);
 
 /* The text of a line: the command without its address and its checksum. */
 const uint8_t *gve_receiver_text(const struct gve_receiver *receiver);

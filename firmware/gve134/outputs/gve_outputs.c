@@ -143,11 +143,12 @@ static void set_output(const struct gve_outputs *outputs, unsigned output, bool 
 
 static void show_leds(struct gve_outputs *outputs, unsigned leds)
 {
-    for (unsigned led = 0; led < (unsigned)HAL_IO_LEDS; led++) {
-        bool on = (leds >> led & 1U) != 0;
-        if (((unsigned)outputs->leds >> led & 1U) != (on ? 1U : 0U)) {
-            hal_io_set_led(led, on);
+    unsigned changed = leds ^ outputs->leds;
+    for (unsigned led = 0; changed != 0; led++) {
+        if ((changed & 1U) != 0) {
+            hal_io_set_led(led, (leds >> led & 1U) != 0);
         }
+        changed >>= 1U;
     }
     outputs->leds = (uint8_t)leds;
 }

@@ -39,6 +39,18 @@ static inline void take(const char *bytes)
     }
 }
 
+/* They come together, as many as fit. */
+static inline void take_together(const char *bytes)
+{
+    while (*bytes != '\0') {
+        struct hal_line_run run = {.tick = ++tick};
+        while (*bytes != '\0' && run.count < (uint32_t)HAL_LINE_RUN_MAX) {
+            run.bytes[run.count++] = (uint8_t)*bytes++;
+        }
+        gve_line_take_run(&line, &run);
+    }
+}
+
 static inline void wait(uint64_t ticks)
 {
     tick += ticks;

@@ -90,6 +90,43 @@ void test_a_byte_makes_a_pass_of_main(void)
     TEST_ASSERT_EQUAL_UINT(1 + 3, passes);
 }
 
+void test_bytes_of_one_tick_come_together_up_to_the_end_of_a_line(void)
+{
+    struct hal_line_run run;
+    run_until(5000);
+    plan(1000, 1, 40);
+    run_until(5001);
+    TEST_ASSERT_TRUE(hal_line_read_run(&run, 2));
+    TEST_ASSERT_EQUAL_UINT32(3, run.count);
+    TEST_ASSERT_EQUAL_UINT64(EPOCH + 5000, run.tick);
+    TEST_ASSERT_EQUAL_HEX8(2, run.bytes[2]);
+    TEST_ASSERT_TRUE(hal_line_read_run(&run, 2));
+    TEST_ASSERT_EQUAL_UINT32(HAL_LINE_RUN_MAX, run.count);
+    TEST_ASSERT_EQUAL_HEX8(3, run.bytes[0]);
+    TEST_ASSERT_TRUE(hal_line_read_run(&run, 2));
+    TEST_ASSERT_EQUAL_UINT32(40 - 3 - HAL_LINE_RUN_MAX, run.count);
+    TEST_ASSERT_FALSE(hal_line_read_run(&run, 2));
+}
+
+void test_bytes_of_different_ticks_and_broken_ones_come_apart(void)
+{
+    struct hal_line_run run;
+    script[0] = (struct host_line_byte){.tick = 5, .value = 7};
+    script[1] = (struct host_line_byte){.tick = 6, .value = 8, .broken = true};
+    script[2] = (struct host_line_byte){.tick = 6, .value = 9};
+    script[3] = (struct host_line_byte){.tick = 6, .value = 10, .broken = true};
+    host_machine_set_line(&machine, script, 4);
+    run_until(10);
+    for (uint8_t i = 0; i < 4; i++) {
+        TEST_ASSERT_TRUE(hal_line_read_run(&run, 0));
+        TEST_ASSERT_EQUAL_UINT32(1, run.count);
+        TEST_ASSERT_EQUAL_HEX8(7 + i, run.bytes[0]);
+        TEST_ASSERT_EQUAL(i % 2U != 0, run.broken);
+        TEST_ASSERT_EQUAL_UINT64(EPOCH + (i == 0 ? 5U : 6U), run.tick);
+    }
+    TEST_ASSERT_FALSE(hal_line_read_run(&run, 0));
+}
+
 static void wake_after_byte(void *context, uint64_t tick, uint8_t value)
 {
     (void)context;

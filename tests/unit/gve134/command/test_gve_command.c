@@ -314,6 +314,19 @@ void test_each_state_refuses_what_the_table_of_states_says(void)
     }
 }
 
+void test_each_command_is_among_those_of_its_first_character(void)
+{
+    for (unsigned opcode = 0; opcode < GVE_OPCODES; opcode++) {
+        struct gve_opcodes some = gve_opcodes_of((uint8_t)gve_row(opcode)->text[0]);
+        TEST_ASSERT_TRUE_MESSAGE(some.first <= opcode && opcode < some.past, gve_words(opcode)->name);
+    }
+    for (unsigned character = 0; character <= UINT8_MAX; character++) {
+        struct gve_opcodes some = gve_opcodes_of((uint8_t)character);
+        TEST_ASSERT_TRUE(some.past <= GVE_OPCODES);
+        TEST_ASSERT_TRUE(some.first == some.past || gve_row(some.first)->text[0] == (char)character);
+    }
+}
+
 void test_each_fault_and_kind_has_a_text(void)
 {
     for (unsigned fault = 0; fault < GVE_FAULTS_TOTAL; fault++) {

@@ -72,6 +72,45 @@ void test_the_examples_with_checksums_are_read_and_answered_byte_for_byte(void)
     assert_answer("0\r", 0, "");
 }
 
+void test_bytes_that_come_together_are_read_as_one_by_one(void)
+{
+    take_together("x!0L1000,0,0\r!1V5\r!0SW8,F1\r!0%+\r\n!0C100,\n20,0,3B\r!1V200000,F6\r!7V300,6D\r");
+    assert_next(GVE_LINE);
+    answer(0, "");
+    TEST_ASSERT_EQUAL_STRING("0\r", sent());
+    assert_next_fault(GVE_FAULT_BOUNDS);
+    answer(5, "");
+    TEST_ASSERT_EQUAL_STRING("5\r", sent());
+    assert_next(GVE_SUMS_ON);
+    assert_answer("0,5C\r", 0, "");
+    assert_next(GVE_CONTINUE);
+    assert_answer("1,5D\r", 1, "");
+    assert_next(GVE_SPINDLE);
+    assert_answer("0,5C\r", 0, "");
+    assert_nothing();
+}
+
+void test_a_long_line_and_damage_in_bytes_that_come_together_are_told(void)
+{
+    take_together("!0L1,2,3,4,0000000000000000000000000000000000000000000000000000000000000000000000000000\r!0PF\r");
+    assert_next_fault(GVE_FAULT_TOO_LONG);
+    answer(4, "");
+    TEST_ASSERT_EQUAL_STRING("4\r", sent());
+    assert_next(GVE_POSITION_3);
+    assert_answer("0\r", 0, "");
+    take_together("!0P!0PF\r!0P\r");
+    assert_nothing();
+    wait(SILENCE_TICKS);
+    assert_next_kind(GVE_REQUEST_DAMAGE);
+    assert_answer("2\r", 2, "");
+    take_together("!0P");
+    gve_line_take_run(&line, &(struct hal_line_run){.tick = ++tick, .count = 1, .bytes = {'F'}, .broken = true});
+    wait(SILENCE_TICKS);
+    assert_next_kind(GVE_REQUEST_DAMAGE);
+    assert_answer("2\r", 2, "");
+    assert_nothing();
+}
+
 void test_sums_are_counted_on_the_characters_as_they_came_and_line_feeds_are_ignored(void)
 {
     switch_sums_on();
