@@ -33,6 +33,7 @@ HOST = (
     "tools/master/*.c",
     "tools/unit_host/*.c",
     "tools/unit_serve/*.c",
+    "tools/unit_serve/posix/*.c",
     "tools/simulator/*.c",
     "tools/simulator/wasm/*.c",
     "tools/gve134_host/*.c",

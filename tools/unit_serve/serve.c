@@ -1,16 +1,10 @@
-/* ppoll: sleeping to less than a millisecond. */
-#define _GNU_SOURCE
-
 #include "serve.h"
 
+#include <assert.h>
 #include <errno.h>
-#include <fcntl.h>
-#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-#include <unistd.h>
 
 #include "base_tick.h"
 #include "json.h"
@@ -18,6 +12,7 @@
 #include "serve_line.h"
 #include "serve_port.h"
 #include "serve_signal.h"
+#include "serve_socket.h"
 #include "serve_talk.h"
 #include "serve_units.h"
 #include "units.h"
@@ -33,14 +28,13 @@ enum {
     CHUNK_BYTES = 1024,
 };
 
+static_assert((unsigned)SLOTS <= (unsigned)SOCKET_SLOTS_MAX, "all are waited for at once");
+
 /* While motors run the units are looked at this often, not at every pulse. */
 #define REST_NS UINT64_C(1000000)
 
 /* So long units may run before clients are looked at again. */
 #define BUSY_NS UINT64_C(5000000)
-
-#define MS_PER_SECOND 1000
-#define NS_PER_MS 1000000
 
 /* So much they run at a time. */
 #define SLICE_TICKS ((uint64_t)TICKS_PER_MS)
@@ -55,7 +49,7 @@ struct serve {
     struct serve_talk talk;
     struct serve_clock clock;
     uint64_t rested_ns; /* real time at which the units caught up last */
-    struct pollfd slots[SLOTS];
+    struct socket_slot slots[SLOTS];
     bool touched; /* bytes or inputs have come that the units have not seen yet */
     bool over;    /* standard input has ended, and this is to end with it */
 };
@@ -181,7 +175,7 @@ static void hear_control(struct serve *serve, unsigned client)
 static void hear_user(struct serve *serve)
 {
     char bytes[CHUNK_BYTES];
-    ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
+    ptrdiff_t count = socket_read(serve->slots[SLOT_USER].fd, bytes, sizeof bytes);
     if (count > 0) {
         serve_talk_user(&serve->talk, bytes, (size_t)count);
         serve->touched = true;
@@ -193,23 +187,23 @@ static void hear_user(struct serve *serve)
 
 static void hear_all(struct serve *serve)
 {
-    const struct pollfd *line = &serve->slots[SLOT_LINE];
-    const struct pollfd *control = &serve->slots[SLOT_CONTROL];
-    if (serve->slots[SLOT_USER].revents != 0) {
+    const struct socket_slot *line = &serve->slots[SLOT_LINE];
+    const struct socket_slot *control = &serve->slots[SLOT_CONTROL];
+    if (serve->slots[SLOT_USER].ready) {
         hear_user(serve);
     }
     for (unsigned i = 0; i < SERVE_CLIENTS_MAX; i++) {
-        if (line[1U + i].revents != 0) {
+        if (line[1U + i].ready) {
             hear_line(serve, i);
         }
-        if (control[1U + i].revents != 0) {
+        if (control[1U + i].ready) {
             hear_control(serve, i);
         }
     }
-    if (line->revents != 0) {
+    if (line->ready) {
         (void)serve_port_accept(&serve->line_port);
     }
-    if (control->revents != 0) {
+    if (control->ready) {
         int client = serve_port_accept(&serve->control_port);
         if (client >= 0) {
             serve_talk_begin(&serve->talk, (unsigned)client);
@@ -217,61 +211,43 @@ static void hear_all(struct serve *serve)
     }
 }
 
-static void fill_slots(struct pollfd *slots, const struct serve_port *port, bool reads)
+static void fill_slots(struct socket_slot *slots, const struct serve_port *port, bool reads)
 {
-    slots[0] = (struct pollfd){.fd = port->listener, .events = POLLIN};
+    slots[0] = (struct socket_slot){.fd = port->listener};
     for (unsigned i = 0; i < SERVE_CLIENTS_MAX; i++) {
-        slots[1U + i] = (struct pollfd){.fd = reads ? port->clients[i] : -1, .events = POLLIN};
+        slots[1U + i] = (struct socket_slot){.fd = reads ? port->clients[i] : -1};
     }
 }
 
 /* How long there is nothing to do. False: without end. */
-static bool find_rest(struct serve *serve, struct timespec *rest)
+static bool find_rest(const struct serve *serve, uint64_t *rest_ns)
 {
-    uint64_t rest_ns = 0;
+    *rest_ns = 0;
     if (serve->options->milli_speed == 0) {
-        if (!serve_units_have_work(&serve->units) && serve->units.now >= silence_end(serve)) {
-            return false;
-        }
-    } else {
-        uint64_t next = serve_units_next_tick(&serve->units);
-        if (next == TICK_NEVER) {
-            return false;
-        }
-        uint64_t due_ns = serve_clock_ns(&serve->clock, next);
-        uint64_t soon_ns = serve->rested_ns + REST_NS;
-        uint64_t now_ns = units_real_ns();
-        due_ns = due_ns < soon_ns ? soon_ns : due_ns;
-        rest_ns = due_ns > now_ns ? due_ns - now_ns : 0;
+        return serve_units_have_work(&serve->units);
     }
-    rest->tv_sec = (time_t)(rest_ns / NS_PER_SECOND);
-    rest->tv_nsec = (long)(rest_ns % NS_PER_SECOND);
+    uint64_t next = serve_units_next_tick(&serve->units);
+    if (next == TICK_NEVER) {
+        return false;
+    }
+    uint64_t due_ns = serve_clock_ns(&serve->clock, next);
+    uint64_t soon_ns = serve->rested_ns + REST_NS;
+    uint64_t now_ns = units_real_ns();
+    due_ns = due_ns < soon_ns ? soon_ns : due_ns;
+    *rest_ns = due_ns > now_ns ? due_ns - now_ns : 0;
     return true;
-}
-
-static int poll_for(struct pollfd *slots, const struct timespec *rest)
-{
-#ifdef __linux__
-    return ppoll(slots, SLOTS, rest, NULL);
-#else
-    return poll(slots, SLOTS, rest != NULL ? (int)(rest->tv_sec * MS_PER_SECOND + rest->tv_nsec / NS_PER_MS + 1) : -1);
-#endif
 }
 
 /* False: the end has been asked for. */
 static bool wait_for_something(struct serve *serve)
 {
-    struct timespec rest;
-    bool limited = find_rest(serve, &rest);
+    uint64_t rest_ns = 0;
+    bool limited = find_rest(serve, &rest_ns);
     fill_slots(&serve->slots[SLOT_LINE], &serve->line_port, serve_line_room(&serve->line, serve->units.now) > 0);
     fill_slots(&serve->slots[SLOT_CONTROL], &serve->control_port, true);
     serve_units_hear(&serve->units, &serve->line);
-    if (poll_for(serve->slots, limited ? &rest : NULL) <= 0) {
-        for (unsigned i = 0; i < SLOTS; i++) {
-            serve->slots[i].revents = 0;
-        }
-    }
-    return serve->slots[SLOT_SIGNAL].revents == 0 && !serve->over;
+    socket_wait(serve->slots, SLOTS, limited ? &rest_ns : NULL);
+    return !serve->slots[SLOT_SIGNAL].ready && !serve->over;
 }
 
 static void serve_for_ever(struct serve *serve)
@@ -289,25 +265,15 @@ static void serve_for_ever(struct serve *serve)
     }
 }
 
-/* Descriptors 0 to 2 must be there, or sockets would take their numbers. */
-static void hold_standard_descriptors(void)
-{
-    int fd = open("/dev/null", O_RDWR);
-    while (fd >= 0 && fd <= STDERR_FILENO) {
-        fd = open("/dev/null", O_RDWR);
-    }
-    if (fd >= 0) {
-        (void)close(fd);
-    }
-}
-
 static enum exit_status begin(struct serve *serve)
 {
-    hold_standard_descriptors();
+    if (!socket_start()) {
+        return EXIT_REFUSED;
+    }
     serve_line_init(&serve->line, &serve->line_port, serve->kind->byte_ticks, serve->options);
     serve_talk_init(&serve->talk, &serve->units, &serve->line, &serve->control_port);
-    serve->slots[SLOT_SIGNAL] = (struct pollfd){.fd = serve_signal_catch(), .events = POLLIN};
-    serve->slots[SLOT_USER] = (struct pollfd){.fd = STDIN_FILENO, .events = POLLIN};
+    serve->slots[SLOT_SIGNAL] = (struct socket_slot){.fd = serve_signal_catch()};
+    serve->slots[SLOT_USER] = (struct socket_slot){.fd = socket_user()};
     if (serve->slots[SLOT_SIGNAL].fd < 0) {
         return EXIT_REFUSED;
     }

@@ -1,17 +1,13 @@
-/* flock, dirname */
+/* strdup, stat */
 #define _DEFAULT_SOURCE
 
 #include "serve_flash.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <libgen.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "base_crc32.h"
 #include "infile.h"
@@ -22,7 +18,6 @@ enum {
     CRC_BYTES = 4,
     FLASH_BYTES = HAL_FLASH_AREAS * HAL_FLASH_AREA_BYTES,
     IMAGE_BYTES = FLASH_BYTES + MARK_BYTES + CRC_BYTES,
-    FILE_MODE = 0666, /* less what the umask takes */
 };
 
 static void put_end(uint8_t end[MARK_BYTES + CRC_BYTES], const uint8_t *flash, const char *mark)
@@ -62,25 +57,13 @@ static void put_bytes(struct outfile *file, const uint8_t *bytes, uint32_t lengt
 }
 
 /* False after a complaint. */
-static bool sync_file(int fd, const char *path)
+static bool sync_file(const struct serve_hold *hold, const struct outfile *file)
 {
-    if (fsync(fd) == 0) {
+    if (serve_hold_sync(hold, file->part)) {
         return true;
     }
-    complain("%s: cannot be brought to the disk (%s); name a file on another one", path, strerror(errno));
+    complain("%s: cannot be brought to the disk (%s); name a file on another one", file->path, strerror(errno));
     return false;
-}
-
-/* Brings a new name in a folder to the disk. */
-static void sync_folder(const char *path)
-{
-    char *copy = strdup(path);
-    int fd = copy == NULL ? -1 : open(dirname(copy), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (fd >= 0) {
-        (void)fsync(fd);
-        (void)close(fd);
-    }
-    free(copy);
 }
 
 static void write_content(struct outfile *file, const struct host_machine *machine, const char *mark)
@@ -92,67 +75,31 @@ static void write_content(struct outfile *file, const struct host_machine *machi
     put_bytes(file, end, sizeof end);
 }
 
-/* The new file is locked before it is in place, so that there is no moment without a lock. */
 bool serve_flash_save(struct serve_flash *flash, const struct host_machine *machine)
 {
     struct outfile file;
     if (!outfile_open(&file, flash->path)) {
         return false;
     }
-    int fd = fcntl(fileno(file.stream), F_DUPFD_CLOEXEC, 0);
-    (void)flock(fd, LOCK_EX | LOCK_NB);
+    serve_hold_next(&flash->hold, file.stream);
     write_content(&file, machine, flash->kind->flash_mark);
-    bool good = outfile_close(&file) && sync_file(fd, flash->path) && outfile_publish(&file);
+    bool good = outfile_close(&file) && sync_file(&flash->hold, &file) && outfile_publish(&file);
     outfile_discard(&file);
-    if (good) {
-        sync_folder(flash->path);
-    }
-    int old = good ? flash->fd : fd;
-    flash->fd = good ? fd : flash->fd;
-    if (old >= 0) {
-        (void)close(old);
-    }
+    serve_hold_end(&flash->hold, flash->path, good);
     return good;
 }
 
 void serve_flash_init(struct serve_flash *flash, const struct serve_kind *kind)
 {
-    *flash = (struct serve_flash){.kind = kind, .fd = -1};
+    *flash = (struct serve_flash){.kind = kind};
+    serve_hold_init(&flash->hold);
 }
 
-static enum exit_status complain_of_open(const char *path, int error)
+enum exit_status serve_hold_complain(const char *path, int error)
 {
     complain("%s: cannot be opened (%s); name a file in a folder that exists and may be written", path,
              strerror(error));
     return EXIT_USAGE;
-}
-
-static bool is_in_place(int fd, const char *path)
-{
-    struct stat opened;
-    struct stat named;
-    return fstat(fd, &opened) == 0 && stat(path, &named) == 0 && opened.st_dev == named.st_dev &&
-           opened.st_ino == named.st_ino;
-}
-
-/* A file that another program has just replaced is locked in vain: then again. */
-static enum exit_status lock_file(struct serve_flash *flash)
-{
-    for (;;) {
-        flash->fd = open(flash->path, O_RDONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, FILE_MODE);
-        if (flash->fd < 0) {
-            return complain_of_open(flash->path, errno);
-        }
-        if (flock(flash->fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-            complain("%s: another %s serve uses it; end that one, or name another file", flash->path,
-                     flash->kind->tool);
-            return EXIT_USAGE;
-        }
-        if (is_in_place(flash->fd, flash->path)) {
-            return EXIT_DONE;
-        }
-        (void)close(flash->fd);
-    }
 }
 
 static enum exit_status load_file(const struct serve_flash *flash, struct host_machine *machine)
@@ -180,28 +127,26 @@ enum exit_status serve_flash_open(struct serve_flash *flash, struct host_machine
     }
     flash->path = strdup(path);
     if (flash->path == NULL) {
-        return complain_of_open(path, ENOMEM);
+        return serve_hold_complain(path, ENOMEM);
     }
-    enum exit_status locked = lock_file(flash);
-    if (locked != EXIT_DONE) {
-        return locked;
+    enum exit_status held = serve_hold_take(&flash->hold, path, flash->kind->tool);
+    if (held != EXIT_DONE) {
+        return held;
     }
-    bool plain = fstat(flash->fd, &status) == 0 && S_ISREG(status.st_mode);
-    if (plain && status.st_size == 0) {
-        return serve_flash_save(flash, machine) ? EXIT_DONE : EXIT_USAGE;
-    }
-    if (!plain) {
+    bool there = stat(path, &status) == 0;
+    if (there && !S_ISREG(status.st_mode)) {
         complain("%s: not a plain file; name another one", path);
         return EXIT_USAGE;
+    }
+    if (!there || status.st_size == 0) {
+        return serve_flash_save(flash, machine) ? EXIT_DONE : EXIT_USAGE;
     }
     return load_file(flash, machine);
 }
 
 void serve_flash_close(struct serve_flash *flash)
 {
-    if (flash->fd >= 0) {
-        (void)close(flash->fd);
-    }
+    serve_hold_release(&flash->hold);
     free(flash->path);
     serve_flash_init(flash, flash->kind);
 }

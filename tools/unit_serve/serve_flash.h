@@ -3,8 +3,8 @@
  * bytes, low byte first.
  *
  * Whenever the program ends, by a kill or with the machine's power too, the file has the old bytes or the new ones:
- * they are written beside it, brought to the disk, and put in its place. The file that is in place is locked (flock),
- * so that no other program of this kind uses it.
+ * they are written beside it, brought to the disk, and put in its place. The file that is in place is locked, so
+ * that no other program of this kind uses it.
  */
 #ifndef SERVE_FLASH_H
 #define SERVE_FLASH_H
@@ -13,12 +13,13 @@
 
 #include "complain.h"
 #include "host_machine.h"
+#include "serve_hold.h"
 #include "serve_kind.h"
 
 struct serve_flash {
     const struct serve_kind *kind;
-    char *path; /* null: no file */
-    int fd;     /* the file that is in place, locked; -1: none */
+    char *path;             /* null: no file */
+    struct serve_hold hold; /* of the file that is in place */
 };
 
 /* No file. */

@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "complain.h"
+#include "serve_pty.h"
 
 enum {
     SERVE_CLIENTS_MAX = 16,
@@ -21,10 +22,8 @@ struct serve_port {
     int listener;                   /* a descriptor; -1: a pty, or not open */
     int clients[SERVE_CLIENTS_MAX]; /* descriptors; -1: free; the first one may be the pty */
     uint64_t dropped;               /* bytes that clients did not take */
-    int terminal;                   /* the pty's other side, so that it stays open; -1: none */
-    const char *link;               /* to the pty; null: none */
+    struct serve_pty pty;           /* if it is one */
     char name[SERVE_NAME_BYTES];    /* for clients: socket://ADDRESS:PORT or the link */
-    char device[SERVE_NAME_BYTES];  /* what the link leads to */
 };
 
 /* Not open: closing and writing do nothing. */
@@ -34,8 +33,7 @@ void serve_port_init(struct serve_port *port);
  * EXIT_CONNECTION after a complaint. */
 enum exit_status serve_port_listen(struct serve_port *port, const char *option, const char *address, uint16_t number);
 
-/* Makes a pty and the link to it. A link that leads to a pty which is no more is replaced, anything else of this name
- * is not. EXIT_DONE, or EXIT_CONNECTION after a complaint. */
+/* Makes a pty and the link to it, as serve_pty_open does. EXIT_DONE, or another after a complaint. */
 enum exit_status serve_port_open_pty(struct serve_port *port, const char *link);
 
 /* Takes a new client in if there is one; those above the limit are sent away. Its index; -1: none. */

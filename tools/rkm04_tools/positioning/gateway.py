@@ -137,8 +137,9 @@ async def _run(options: argparse.Namespace, passed_on: serve.Passed) -> int:
     if not ready:
         return await unit.wait()
     loop = asyncio.get_running_loop()
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        loop.add_signal_handler(number, _end, unit)
+    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+        with suppress(AttributeError, NotImplementedError):  # Windows: Ctrl-C reaches the unit, too
+            loop.add_signal_handler(getattr(signal, name), _end, unit)
     told = json.loads(ready)
     place, _, line = told["listening"].removeprefix("socket://").rpartition(":")
     gateway = Gateway(*await asyncio.open_connection(place, int(line)), max(1.0, 1 / (speed or 1)))
