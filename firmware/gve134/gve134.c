@@ -10,9 +10,8 @@
 #include "hal_time.h"
 
 enum {
-    HEARD_MAX = 64,                   /* bytes in one pass, */
-    SERVED_MAX = 16,                  /* and requests, */
-    SERVE_TICKS = 100 * TICKS_PER_US, /* begun in so long after the first one */
+    HEARD_MAX = 64,                   /* bytes in one pass */
+    SERVE_TICKS = 100 * TICKS_PER_US, /* of a packet no request is begun later after the first one */
     OWN_AXIS = 3,
     DIRECTION_BITS = 4, /* bits of the directions in the byte of polarities begin there */
 };
@@ -269,8 +268,11 @@ static bool serve_some(struct gve134 *unit)
         return more;
     }
     uint64_t until = hal_time_now() + SERVE_TICKS;
-    for (unsigned count = 1; more && unit->packet.open && count < (unsigned)SERVED_MAX; count++) {
-        more = hal_time_now() < until && serve_next(unit);
+    while (more && unit->packet.open) {
+        if (hal_time_now() >= until) {
+            break;
+        }
+        more = serve_next(unit);
     }
     return true;
 }

@@ -62,7 +62,10 @@ static void feed_until(struct group *group, uint64_t tick, uint64_t end_tick)
     bool fed = true;
     while (fed) {
         fed = false;
-        for (unsigned axis = 0; axis < (unsigned)PATH_AXES && hal_time_now() < end_tick; axis++) {
+        for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
+            if (hal_time_now() >= end_tick) {
+                return;
+            }
             fed = group_feed_axis(group, axis, tick) || fed;
         }
     }

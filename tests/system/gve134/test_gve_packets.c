@@ -218,3 +218,28 @@ void test_a_damaged_line_of_a_packet_with_sums_is_told_at_its_end(void)
     rig_run_ms(1000);
     TEST_ASSERT_EQUAL_INT64(0, rig_position[0]);
 }
+
+/* Puts all bytes on the line at once, as they lie in the ring of a board after a long pass. */
+static void send_at_once(const char *bytes)
+{
+    uint32_t count = (uint32_t)strlen(bytes);
+    for (uint32_t i = 0; i < count; i++) {
+        rig_script[i] = (struct host_line_byte){.tick = machine.now + 1U, .value = (uint8_t)bytes[i]};
+    }
+    host_machine_set_line(&machine, rig_script, count);
+    rig_run_ms(20);
+}
+
+void test_commands_of_a_packet_that_lie_in_the_line_are_taken_together(void)
+{
+    char bytes[250] = "!0*S\r";
+    rig_heard_count = 0;
+    for (unsigned i = 0; i < 25; i++) {
+        (void)strcat(bytes, "!0C1\r");
+    }
+    send_at_once(bytes);
+    send_at_once("!0C2\r!0*E26\r!0P1\r");
+    rig_run_ms(1000);
+    TEST_ASSERT_EQUAL_STRING_LEN("0,26\r", rig_heard, 5);
+    TEST_ASSERT_EQUAL_INT64(27, rig_position[0]);
+}
