@@ -49,9 +49,6 @@ bool group_add(struct group *group, const struct path_vector *vector)
 {
     hal_run_hold_plan();
     bool added = path_add(&group->path, vector);
-    for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
-        group->axes |= (uint8_t)(vector->steps[axis] != 0 ? 1U << axis : 0U);
-    }
     hal_run_release_plan();
     return added;
 }
@@ -190,9 +187,9 @@ static void end(struct group *group)
 static bool feed(struct group *group, uint64_t until_tick)
 {
     bool fed = false;
-    for (unsigned left = group->axes; left != 0; left &= left - 1U) {
+    for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
         hal_run_hold_plan();
-        fed = group_feed_axis(group, group_lowest(left), until_tick) || fed;
+        fed = group_feed_axis(group, axis, until_tick) || fed;
         hal_run_release_plan();
     }
     return fed;
@@ -256,7 +253,6 @@ void group_forget(struct group *group)
     assert(!group_is_busy(group));
     path_init(&group->path, group->path.ring, group->path.size, group->path.turn_us);
     path_set_start_speed(&group->path, group->manner.start_speed);
-    group->axes = 0;
 }
 
 uint32_t group_speed_at(struct group *group, uint32_t section, uint32_t step)

@@ -54,7 +54,6 @@ struct group {
     struct step_channel *channel[UNIT_MOTORS]; /* NULL: the motor is not of the group */
     uint8_t axis[UNIT_MOTORS];                 /* of the path, that the motor follows */
     uint8_t motors[PATH_AXES];                 /* that follow the axis: a bit each */
-    uint8_t axes;                              /* that vectors of the path have moved: a bit each */
     _Atomic unsigned state;                    /* enum axis_state */
     _Atomic unsigned cause; /* enum axis_cause, of the present or last motion; set once, by what stops it */
 };

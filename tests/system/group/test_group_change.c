@@ -320,3 +320,19 @@ void test_a_change_between_two_slow_steps_takes_effect_at_once(void)
     run_us(2000);
     TEST_ASSERT_TRUE(group_take_end(&group));
 }
+
+void test_an_axis_that_has_never_moved_stays_in_step_with_the_others(void)
+{
+    uint32_t speed = 15000;
+    add(200, 0, 0, 0, 20000);
+    start();
+    for (unsigned i = 0; i < 3 * RING; i++) {
+        add(200, 0, 0, 0, 20000);
+        run_us(9000);
+    }
+    add(2000, 0, 0, 0, 20000);
+    run_us(3000);
+    group_set_speeds(&group, &(struct group_speeds){.of = slow, .context = &speed});
+    run_to_the_end();
+    assert_arrived();
+}
