@@ -153,7 +153,7 @@ void hal_line_set(uint32_t rate_bd, enum hal_line_format format)
     USART_CR1(STM32_LINE_BASE) = 0;
     bus.format = formats[format];
     USART_BRR(STM32_LINE_BASE) = STM32_LINE_DIVIDER(bus.clock_hz, rate_bd);
-    USART_CR2(STM32_LINE_BASE) = format == HAL_LINE_8N2 ? USART_CR2_STOP_2 : 0;
+    USART_CR2(STM32_LINE_BASE) = format == HAL_LINE_8N2 ? 2U * USART_CR2_STOP : 0;
     USART_CR1(STM32_LINE_BASE) = bus.format | LISTENING;
     stm32_unmask(mask);
 }

@@ -226,7 +226,7 @@
 #define USART_CR1_PCE (1U << 10)
 #define USART_CR1_M (1U << 12)
 #define USART_CR1_UE (1U << 13)
-#define USART_CR2_STOP_2 (2U << 12)
+#define USART_CR2_STOP (1U << 12) /* two bits; 2: two stop bits */
 #define USART_CR3_EIE (1U << 0)
 #define USART_CR3_DMAR (1U << 6)
 

@@ -104,7 +104,8 @@ def test_a_change_or_stop_of_a_move_is_one_of_a_chain() -> None:
     pairs = [with_change(rng, move, one.ticks) for move, one in zip(moves, made, strict=True)]
     pulses, others = differences([move for move, _ in pairs], [chain for _, chain in pairs])
     print(f"{pulses} pulses, {others} rounded the other way")
-    assert others < pulses / 500
+    # Nearly always some ten; but a cruise may come just between two ticks all the way.
+    assert others < pulses / 100
 
 
 @pytest.mark.parametrize("batch", range(5))

@@ -285,7 +285,7 @@ def test_a_host_that_is_killed_leaves_whole_packets_only(
     served.until(lambda state: state["positions"][0] > 500)
     process.kill()
     process.communicate(timeout=PATIENCE_S)
-    served.until(lambda state: not any(state["moving"]))
+    served.until(lambda state: state["idle"] and not any(state["moving"]))
 
     at = gve("position", "--json").json
     assert (at["Y"], at["Z"]) == (2 * at["X"], -at["X"] // 10)

@@ -224,7 +224,7 @@ static bool find_rest(const struct serve *serve, uint64_t *rest_ns)
 {
     *rest_ns = 0;
     if (serve->options->milli_speed == 0) {
-        return serve_units_have_work(&serve->units);
+        return serve_units_have_work(&serve->units) || serve->units.now < silence_end(serve);
     }
     uint64_t next = serve_units_next_tick(&serve->units);
     if (next == TICK_NEVER) {
