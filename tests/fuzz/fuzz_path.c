@@ -347,7 +347,8 @@ static void set_speeds(struct fuzz_stream *stream, uint32_t first)
     bench.slower = true;
     bool all = (fuzz_take_byte(stream) & 1U) != 0;
     for (uint32_t i = first; i != (all ? bench.path.end : first + 1U); i++) {
-        path_set_speed(&bench.path, i, speed);
+        path_ready_speed(&bench.path, i, speed);
+        path_take_speed(&bench.path, i);
         bench.vector[i].speed = speed;
     }
 }

@@ -149,7 +149,7 @@ ONLY_MODELLED = {
     "step_channel_brake", "step_channel_find_pulse", "step_channel_follow", "step_channel_freeze",
     "step_channel_halt", "step_channel_keep_nothing", "step_channel_lay_isr",
     "step_channel_look_ahead", "step_channel_recall", "step_channel_replace",
-    "step_channel_replace_brake", "step_channel_thaw", "step_channel_thaw_held",
+    "step_channel_replace_brake", "step_channel_thaw_held",
     "step_channel_turn_over",
 }  # fmt: skip
 

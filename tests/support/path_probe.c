@@ -302,7 +302,8 @@ static void set_speeds(struct probe *probe, const struct change *change, uint32_
     for (uint32_t i = section; i != probe->path.end; i++) {
         bool there = i == section;
         if (change->kind == KIND_SPEED || change->kind == (there ? KIND_SECTION : KIND_LATER)) {
-            path_set_speed(&probe->path, i, (uint32_t)change->value);
+            path_ready_speed(&probe->path, i, (uint32_t)change->value);
+            path_take_speed(&probe->path, i);
         }
     }
 }

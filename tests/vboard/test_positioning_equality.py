@@ -213,3 +213,36 @@ def test_a_master_with_another_format_is_not_answered(run, other):
     made = run(f"50 {read(0, 1).hex()}\n", 150, line_format=other)
 
     assert made.said == b""
+
+
+FULL_SPEED = 60_000
+"""mm/min, which is 100 000 steps/s as delivered."""
+
+
+def feeds(chance: random.Random) -> bytes:
+    """A request of the fast image (function 23) with another feed for each axis."""
+    words = []
+    for _ in AXES:
+        words += [1, chance.randint(FULL_SPEED // 2, FULL_SPEED), 0]
+    head = struct.pack(">BBHHHHB", 1, 23, 520, 16, 500, len(words), 2 * len(words))
+    return sealed(head + struct.pack(f">{len(words)}H", *words))
+
+
+def test_new_feeds_for_four_fast_axes_every_15_ms_make_no_pulse_late(run, tmp_path):
+    chance = random.Random(1)
+    flash = ("--flash", str(tmp_path / "flash.bin"))
+    run(f"50 {write(31, [1152, 0]).hex()}\n150 {write(40, [1]).hex()}\n", 3500, *flash)
+    far = Measure(2**31 - 1, 20_000, FULL_SPEED << 16)
+    begin = [
+        write(FULL_OUT, [word for _ in AXES for word in far.words(code, code)])
+        for code in (TAKE, MODE)
+    ]
+    asks = [(50.0, begin[0]), (65.0, begin[1])]
+    asks += [(185.0 + 15 * index, feeds(chance)) for index in range(88)]
+    line = "".join(f"{at:.3f} {ask.hex()}\n" for at, ask in asks)
+    made = run(line, 1600, *flash, "--baud", "115200", "--measure-from", "200")
+
+    assert made.summary["watch"]["stm32_late_steps"] == 0
+    assert made.said.count(bytes([1, 23, 32])) == 88
+    assert made.summary["load"] <= 0.5
+    assert min(motor["pulses"] for motor in made.summary["motors"]) > 100_000

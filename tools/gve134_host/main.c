@@ -4,17 +4,12 @@
  * (complain.h).
  */
 #include <limits.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "complain.h"
+#include "commands.h"
 #include "gve_check.h"
 #include "gve_plan.h"
 #include "gve_serve.h"
 #include "gve_sim.h"
-#include "parent.h"
 
 static const char usage[] =
     "usage: gve134-host sim FILE [--inputs FILE] [--for SECONDS] [--baud N]\n"
@@ -42,20 +37,9 @@ static const char usage[] =
     "\n"
     "example: gve134-host sim part.gve --for 2.5 --steps steps.csv\n";
 
-static bool is_help(const char *argument)
-{
-    return strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0;
-}
-
-static enum exit_status print_text(const char *text)
-{
-    (void)fputs(text, stdout);
-    return finish_output();
-}
-
 static enum exit_status serve(int count, char *const arguments[])
 {
-    return count == 1 && is_help(arguments[0]) ? print_text(gve_serve_usage) : gve_serve(count, arguments);
+    return count == 1 && commands_is_help(arguments[0]) ? commands_print(gve_serve_usage) : gve_serve(count, arguments);
 }
 
 static enum exit_status check(int count, char *const arguments[])
@@ -76,39 +60,20 @@ static enum exit_status commands(int count, char *const arguments[])
     return gve_check_commands();
 }
 
-static enum exit_status help(int count, char *const arguments[])
-{
-    (void)count;
-    (void)arguments;
-    return print_text(usage);
-}
-
-static const struct command {
-    const char *name;
-    int least; /* arguments after it */
-    int most;
-    enum exit_status (*run)(int count, char *const arguments[]);
-} list[] = {
+static const struct command list[] = {
     {"sim", 0, INT_MAX, gve_sim}, {"serve", 0, INT_MAX, serve},
     {"check", 1, 1, check},       {"plan", GVE_PLAN_SCALES, GVE_PLAN_SCALES + 1, plan},
-    {"commands", 0, 0, commands}, {"--help", 0, INT_MAX, help},
-    {"-h", 0, INT_MAX, help},
+    {"commands", 0, 0, commands},
 };
-
-static enum exit_status run_command(const char *name, int count, char *const arguments[])
-{
-    for (size_t i = 0; i < sizeof list / sizeof list[0]; i++) {
-        if (strcmp(name, list[i].name) == 0 && count >= list[i].least && count <= list[i].most) {
-            return list[i].run(count, arguments);
-        }
-    }
-    complain("write gve134-host sim, serve, check FILE (- is standard input), plan X Y Z, commands, or --help");
-    return EXIT_USAGE;
-}
 
 int main(int argc, char *argv[])
 {
-    parent_bind();
-    complain_as(argc > 0 ? argv[0] : "gve134-host");
-    return (int)run_command(argc > 1 ? argv[1] : "", argc - 2, argv + 2);
+    static const struct commands all = {
+        .program = "gve134-host",
+        .usage = usage,
+        .hint = "write gve134-host sim, serve, check FILE (- is standard input), plan X Y Z, commands, or --help",
+        .list = list,
+        .count = sizeof list / sizeof list[0],
+    };
+    return commands_main(&all, argc, argv);
 }

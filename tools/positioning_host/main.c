@@ -4,13 +4,8 @@
  * (complain.h).
  */
 #include <limits.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "complain.h"
-#include "parent.h"
+#include "commands.h"
 #include "pos_serve.h"
 #include "pos_sim.h"
 
@@ -35,20 +30,9 @@ static const char usage[] =
     "\n"
     "example: positioning-host sim moves.csv --for 2.5 --steps steps.csv\n";
 
-static bool is_help(const char *argument)
-{
-    return strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0;
-}
-
-static enum exit_status print_text(const char *text)
-{
-    (void)fputs(text, stdout);
-    return finish_output();
-}
-
 static enum exit_status serve(int count, char *const arguments[])
 {
-    return count == 1 && is_help(arguments[0]) ? print_text(pos_serve_usage) : pos_serve(count, arguments);
+    return count == 1 && commands_is_help(arguments[0]) ? commands_print(pos_serve_usage) : pos_serve(count, arguments);
 }
 
 static enum exit_status check(int count, char *const arguments[])
@@ -57,37 +41,20 @@ static enum exit_status check(int count, char *const arguments[])
     return pos_sim_check(arguments[0]);
 }
 
-static enum exit_status help(int count, char *const arguments[])
-{
-    (void)count;
-    (void)arguments;
-    return print_text(usage);
-}
-
-static const struct command {
-    const char *name;
-    int least; /* arguments after it */
-    int most;
-    enum exit_status (*run)(int count, char *const arguments[]);
-} list[] = {
-    {"sim", 0, INT_MAX, pos_sim}, {"serve", 0, INT_MAX, serve}, {"check", 1, 1, check},
-    {"--help", 0, INT_MAX, help}, {"-h", 0, INT_MAX, help},
+static const struct command list[] = {
+    {"sim", 0, INT_MAX, pos_sim},
+    {"serve", 0, INT_MAX, serve},
+    {"check", 1, 1, check},
 };
-
-static enum exit_status run_command(const char *name, int count, char *const arguments[])
-{
-    for (size_t i = 0; i < sizeof list / sizeof list[0]; i++) {
-        if (strcmp(name, list[i].name) == 0 && count >= list[i].least && count <= list[i].most) {
-            return list[i].run(count, arguments);
-        }
-    }
-    complain("write positioning-host sim FILE, serve, check FILE (- is standard input), or --help");
-    return EXIT_USAGE;
-}
 
 int main(int argc, char *argv[])
 {
-    parent_bind();
-    complain_as(argc > 0 ? argv[0] : "positioning-host");
-    return (int)run_command(argc > 1 ? argv[1] : "", argc - 2, argv + 2);
+    static const struct commands all = {
+        .program = "positioning-host",
+        .usage = usage,
+        .hint = "write positioning-host sim FILE, serve, check FILE (- is standard input), or --help",
+        .list = list,
+        .count = sizeof list / sizeof list[0],
+    };
+    return commands_main(&all, argc, argv);
 }

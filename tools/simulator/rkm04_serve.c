@@ -15,19 +15,8 @@ const char rkm04_serve_usage[] =
     "--pty PATH        makes a pty and the link PATH to it\n"
     "--node N          a unit of address 1 to 16; may be repeated (1)\n"
     "--flash FILE      keeps stored programs; with several units in FILE.nodeN\n"
-    "--speed X         times real time, 0.001 to 1000; 0: as fast as possible (1)\n"
-    "--unpaced         bytes take no time on the line\n"
-    "--control PORT    takes the lines of standard input by TCP too; 0 takes any free port\n"
-    "--address ADDRESS listens there, for others to connect (127.0.0.1: only this machine)\n"
-    "--noise N         a bad line: so many bytes of a million come changed, on both ways (0)\n"
-    "--loss N          and so many are lost (0)\n"
-    "--seed N          others are changed and lost with another one (0)\n"
-    "--json            says where it listens as a JSON object\n"
-    "--until-eof       ends when standard input does, as it does when the program that writes there ends\n"
-    "\n"
-    "Lines on standard input: 3=1 sets input 3, 2.3=1 that of unit 2, ? prints the state of all\n"
-    "units. Each is answered by JSON: the state by a line per unit, the others by one line.\n"
-    "\n"
+    "--speed X         times real time, 0.001 to 1000; 0: as fast as possible (1)\n" SERVE_HELP_OF_ALL
+    "\n" SERVE_HELP_OF_NODES "\n"
     "example: rkm04-host serve --node 1 --node 2 --flash units.flash\n";
 
 static const struct serve_kind kind = {

@@ -15,6 +15,20 @@ enum {
     SERVE_TCP_PORT = 5000, /* where it listens unless told otherwise */
 };
 
+/* What the help of every `serve` says of the options that all have, and of orders to units with addresses. */
+#define SERVE_HELP_OF_ALL                                                                                              \
+    "--unpaced         bytes take no time on the line\n"                                                               \
+    "--control PORT    takes the lines of standard input by TCP too; 0 takes any free port\n"                          \
+    "--address ADDRESS listens there, for others to connect (127.0.0.1: only this machine)\n"                          \
+    "--noise N         a bad line: so many bytes of a million come changed, on both ways (0)\n"                        \
+    "--loss N          and so many are lost (0)\n"                                                                     \
+    "--seed N          others are changed and lost with another one (0)\n"                                             \
+    "--json            says where it listens as a JSON object\n"                                                       \
+    "--until-eof       ends when standard input does, as it does when the program that writes there ends\n"
+#define SERVE_HELP_OF_NODES                                                                                            \
+    "Lines on standard input: 3=1 sets input 3, 2.3=1 that of unit 2, ? prints the state of all\n"                     \
+    "units. Each is answered by JSON: the state by a line per unit, the others by one line.\n"
+
 struct serve_options {
     const char *pty;      /* the name of the link to a pty; null: TCP */
     const char *address;  /* to listen on */

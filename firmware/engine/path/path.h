@@ -131,18 +131,13 @@ struct path_wish {
  * sections up to the wish, goes back over those of the ring at most, and looks at five steps at most. */
 bool path_find(struct path *path, const struct path_wish *wish, struct path_place *place);
 
-/* Another speed for a section, from the place on at which the path is changed next, or from the next start on. Nothing
- * may be handed over between this and that. */
-static inline void path_set_speed(const struct path *path, uint32_t section, uint32_t speed)
-{
-    path_section_set_speed(&path->ring[section & (path->size - 1U)], speed);
-}
-
 /* Whether a path that is stopped at a place with an acceleration of its own comes to rest before its end. */
 bool path_can_rest(const struct path *path, const struct path_place *place);
 
-/* The same in two parts, as the first takes time: a speed for a section that changes nothing yet, at any time after the
- * section was added; and it is taken. A section that has been given none takes the speed that it has. */
+/* Another speed for a section, in two parts, as the first takes time: it changes nothing yet, at any time after the
+ * section was added; then it is taken, from the place on at which the path is changed next, or from the next start on.
+ * Nothing may be handed over between the second part and that. A section that has been given none takes the speed that
+ * it has. */
 static inline void path_ready_speed(const struct path *path, uint32_t section, uint32_t speed)
 {
     path_section_ready_speed(&path->ring[section & (path->size - 1U)], speed);

@@ -110,17 +110,17 @@ bool step_channel_replace(struct step_channel *channel, const struct step_cursor
                           const struct step_segment *segments, unsigned count);
 
 /* Takes back what is laid of the last `back` pulses that have been pushed, and lays none of them until
- * step_channel_thaw. False, and all goes on, if it is too late. Not while the motor brakes. */
+ * step_channel_thaw_held. False, and all goes on, if it is too late. Not while the motor brakes. */
 bool step_channel_freeze(struct step_channel *channel, uint64_t back);
 
 /* Drops the last `back` pulses that have been pushed, as they were frozen; `segment` comes instead, which goes backward
- * or not; NULL: none. More may be pushed after it, and none of that is laid before step_channel_thaw. */
+ * or not; NULL: none. More may be pushed after it, and none of that is laid before step_channel_thaw_held.
+ */
 void step_channel_recall(struct step_channel *channel, uint64_t back, const struct step_segment *segment,
                          bool backward);
 
-/* Goes on: as if nothing had been frozen, or with what has been recalled and pushed. `_held`: while hal_step_hold is in
- * force, so that some channels go on together. */
-void step_channel_thaw(struct step_channel *channel);
+/* Goes on: as if nothing had been frozen, or with what has been recalled and pushed. While hal_step_hold is in force,
+ * so that some channels go on together. */
 void step_channel_thaw_held(struct step_channel *channel);
 
 /* Takes back what is laid and ends the move at once, or after the pulse for which it is too late; at rest, drops what

@@ -237,13 +237,6 @@ bool step_channel_freeze(struct step_channel *channel, uint64_t back)
     return in_time;
 }
 
-void step_channel_thaw(struct step_channel *channel)
-{
-    hal_step_hold();
-    step_channel_thaw_held(channel);
-    hal_step_release();
-}
-
 void step_channel_recall(struct step_channel *channel, uint64_t back, const struct step_segment *segment, bool backward)
 {
     hal_step_hold();

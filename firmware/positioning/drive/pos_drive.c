@@ -153,11 +153,6 @@ bool pos_drive_is_busy(const struct pos_drive *drive)
     return group_is_busy(&drive->group);
 }
 
-bool pos_drive_is_stopping(const struct pos_drive *drive)
-{
-    return group_is_stopping(&drive->group);
-}
-
 static uint64_t made(const struct pos_drive *drive)
 {
     int64_t way = pos_drive_steps(drive) - drive->origin_steps;

@@ -96,9 +96,6 @@ uint64_t pos_drive_end_tick(const struct pos_drive *drive);
 /* Whether a motion has begun whose end has not been taken. */
 bool pos_drive_is_busy(const struct pos_drive *drive);
 
-/* Whether it is coming to rest before its end. */
-bool pos_drive_is_stopping(const struct pos_drive *drive);
-
 /* Pulses of the measure that have not been made. */
 uint64_t pos_drive_left(const struct pos_drive *drive);
 

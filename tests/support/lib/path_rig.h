@@ -43,6 +43,13 @@ static inline bool rig_add(struct path_rig *rig, int32_t x, int32_t y, uint32_t 
     return path_add(&rig->path, &vector);
 }
 
+/* Another speed for a section, from the next change or start on. */
+static inline void rig_set_speed(struct path *path, uint32_t section, uint32_t speed)
+{
+    path_ready_speed(path, section, speed);
+    path_take_speed(path, section);
+}
+
 /* Plans anew from a place, or stops there; false if that is too early. */
 static inline bool rig_change(struct path_rig *rig, const struct path_place *place, uint64_t back[PATH_AXES])
 {

@@ -104,7 +104,9 @@ static void recall(struct step_channel *channel, const struct act *act)
     const struct step_segment segment = {
         .slope = act->slope, .tick = act->tick, .pace_ticks = act->pace_ticks, .steps = act->steps};
     step_channel_recall(channel, frozen, act->steps != 0 ? &segment : NULL, act->what >> 16 != 0);
-    step_channel_thaw(channel);
+    hal_step_hold();
+    step_channel_thaw_held(channel);
+    hal_step_release();
 }
 
 static void rest(const struct step_channel *channel)

@@ -163,7 +163,7 @@ void test_before_a_path_leaves_its_stand_it_is_changed_and_stopped_there(void)
     all_pulses(2000000);
     TEST_ASSERT_TRUE(find(1000, UINT64_MAX / 2U));
     assert_found(0, 0);
-    path_set_speed(&rig.path, 0, 256);
+    rig_set_speed(&rig.path, 0, 256);
     TEST_ASSERT_TRUE(rig_change(&rig, &place, back));
     TEST_ASSERT_TRUE(find(0, UINT64_MAX / 2U));
     TEST_ASSERT_TRUE(rig_stop(&rig, &place, back));
@@ -299,7 +299,7 @@ void test_a_change_of_speed_takes_effect_at_its_place(void)
     all_pulses(2940000);
     TEST_ASSERT_TRUE(find(1000 + 2940000, UINT64_MAX / 2U));
     all_pulses(2950000);
-    path_set_speed(&rig.path, 0, 20000 * PATH_SPEED_UNITS);
+    rig_set_speed(&rig.path, 0, 20000 * PATH_SPEED_UNITS);
     TEST_ASSERT_TRUE(rig_change(&rig, &place, back));
     /* 150 steps of ramp to 20 000, which takes 0.01 s. */
     TEST_ASSERT_EQUAL_UINT(700, pulses(0, UINT64_MAX));
@@ -319,7 +319,7 @@ void test_what_is_too_fast_after_a_change_brakes_through_several_vectors(void)
     TEST_ASSERT_TRUE(find(1000 + 8400000 + 8400 * 400, UINT64_MAX / 2U));
     assert_found(0, 900);
     for (uint32_t i = 0; i < 5; i++) {
-        path_set_speed(&rig.path, i, 5000 * PATH_SPEED_UNITS);
+        rig_set_speed(&rig.path, i, 5000 * PATH_SPEED_UNITS);
     }
     TEST_ASSERT_TRUE(rig_change(&rig, &place, back));
     TEST_ASSERT_EQUAL_UINT(900, pulses(0, UINT64_MAX));

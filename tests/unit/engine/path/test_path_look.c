@@ -109,7 +109,7 @@ void test_a_vector_that_joins_a_path_that_is_too_fast_leaves_the_plan_that_a_new
         struct path_place place = {.section = 1, .entry = path.next};
         uint32_t slow = 1U + draw_size(20);
         for (uint32_t i = 1; i < 20; i++) {
-            path_set_speed(&path, i, slow);
+            rig_set_speed(&path, i, slow);
         }
         path_lay_begin(&path, &place);
         for (unsigned i = 0; i < 10; i++) {

@@ -119,7 +119,7 @@ void test_a_change_takes_speeds_up_to_the_start_speed_at_once(void)
     (void)rig_add(&rig, 1000, 0, 100, 10000);
     start(1000);
     (void)pulses(8400000 + 2);
-    path_set_speed(&rig.path, 0, 1000 * PATH_SPEED_UNITS);
+    rig_set_speed(&rig.path, 0, 1000 * PATH_SPEED_UNITS);
     change_at(8400000, false);
     TEST_ASSERT_EQUAL_UINT(990, pulses(UINT64_MAX));
     TEST_ASSERT_EQUAL_UINT64(8400000 + 84000, ticks[0]);
@@ -135,7 +135,7 @@ static void start_with_turn(void)
     (void)path_add(&rig.path, &back_again);
     start(200000);
     (void)pulses(1);
-    path_set_speed(&rig.path, 1, 200000 * PATH_SPEED_UNITS);
+    rig_set_speed(&rig.path, 1, 200000 * PATH_SPEED_UNITS);
 }
 
 static void change_after_turn(uint64_t steps)
@@ -186,7 +186,7 @@ void test_a_change_falls_from_the_start_speed_at_once(void)
     (void)rig_add(&rig, 1000, 0, 3000, 10000);
     start(1000);
     change_at(16800000 + 28000 * 50, false);
-    path_set_speed(&rig.path, 0, 100 * PATH_SPEED_UNITS);
+    rig_set_speed(&rig.path, 0, 100 * PATH_SPEED_UNITS);
     TEST_ASSERT_TRUE(rig_change(&rig, &place, back));
     TEST_ASSERT_EQUAL_UINT(550, pulses(UINT64_MAX));
     uint64_t slow = 2 * 16800000 + 28000 * 50;
@@ -200,7 +200,7 @@ void test_a_change_below_the_start_speed_falls_at_once_when_it_is_slow_already(v
     (void)rig_add(&rig, 1000, 0, 900, 10000);
     start(1000);
     change_at(84000000 - 10, false);
-    path_set_speed(&rig.path, 0, 100 * PATH_SPEED_UNITS);
+    rig_set_speed(&rig.path, 0, 100 * PATH_SPEED_UNITS);
     TEST_ASSERT_TRUE(rig_change(&rig, &place, back));
     TEST_ASSERT_EQUAL_UINT(100, pulses(UINT64_MAX));
     TEST_ASSERT_EQUAL_UINT64(84000000 + 840000, ticks[0]);
@@ -214,7 +214,7 @@ void test_what_is_too_fast_for_a_slower_vector_to_come_brakes_into_it(void)
     (void)rig_add(&rig, 20000, 0, 500, 10);
     start(1000);
     (void)pulses(1);
-    path_set_speed(&rig.path, 1, PATH_SPEED_UNITS);
+    rig_set_speed(&rig.path, 1, PATH_SPEED_UNITS);
     change_at(168000 * 50 - 10, false);
     TEST_ASSERT_EQUAL_UINT(50 + 20000, pulses(UINT64_MAX));
     TEST_ASSERT_EQUAL_UINT64((500 * 500 - 2 * 10 * 50) * UINT64_C(65536), rig.ring[1].enter2);

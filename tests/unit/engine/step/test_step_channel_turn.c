@@ -20,6 +20,13 @@ static const struct {
 
 static int64_t position[TOTAL + 1]; /* after pulse k */
 
+static void thaw(void)
+{
+    hal_step_hold();
+    step_channel_thaw_held(&channel);
+    hal_step_release();
+}
+
 static void begin_pieces(unsigned ahead)
 {
     uint32_t pulse = 0;
@@ -96,7 +103,7 @@ void test_a_move_may_begin_the_other_way_than_it_was_readied_for(void)
         push(0, 4);
         step_channel_run(&channel);
         TEST_ASSERT_TRUE(step_channel_freeze(&channel, 4));
-        step_channel_thaw(&channel);
+        thaw();
         make_pulses(1);
         TEST_ASSERT_EQUAL_INT64(-1, step_channel_position(&channel));
         (void)run_to_the_end();
@@ -111,7 +118,7 @@ static void freeze_and_thaw(unsigned ahead, uint32_t made, uint64_t back)
     TEST_ASSERT_TRUE(step_channel_freeze(&channel, back));
     TEST_ASSERT_LESS_OR_EQUAL_UINT(TOTAL - back, laid.laid);
     TEST_ASSERT_EQUAL_INT64(position[made], step_channel_position(&channel));
-    step_channel_thaw(&channel);
+    thaw();
     assert_pulses(made + 1U, TOTAL);
     TEST_ASSERT_FALSE(step_channel_is_running(&channel));
 }
@@ -135,7 +142,7 @@ void test_while_frozen_only_what_stays_is_made(void)
     assert_pulses(3, 4);
     TEST_ASSERT_EQUAL_UINT(0, laid_waiting());
     TEST_ASSERT_TRUE(step_channel_is_running(&channel));
-    step_channel_thaw(&channel);
+    thaw();
     assert_pulses(5, TOTAL);
 }
 
@@ -151,7 +158,7 @@ void test_while_frozen_the_pulses_that_stay_go_on_being_laid(void)
             TEST_ASSERT_EQUAL_UINT(0, laid_waiting());
             TEST_ASSERT_TRUE(step_channel_is_running(&channel));
             step_channel_recall(&channel, TOTAL - stays, &segment, true);
-            step_channel_thaw(&channel);
+            thaw();
             for (uint32_t k = 1; k <= NEW_STEPS; k++) {
                 TEST_ASSERT_EQUAL_UINT32(START + (stays + k) * INTERVAL, laid_make_pulse());
                 TEST_ASSERT_EQUAL_INT64(position[stays] - (int64_t)k, step_channel_position(&channel));
@@ -169,7 +176,7 @@ static void recall(unsigned ahead, uint32_t made, uint32_t back, bool backward)
     assert_pulses(1, made);
     TEST_ASSERT_TRUE(step_channel_freeze(&channel, back));
     step_channel_recall(&channel, back, &segment, backward);
-    step_channel_thaw(&channel);
+    thaw();
     assert_pulses(made + 1U, stays);
     for (uint32_t k = 1; k <= NEW_STEPS; k++) {
         int64_t way = backward ? -(int64_t)k : (int64_t)k;
@@ -200,7 +207,7 @@ static void end_early(unsigned ahead, uint32_t made, uint32_t back)
     assert_pulses(1, made);
     TEST_ASSERT_TRUE(step_channel_freeze(&channel, back));
     step_channel_recall(&channel, back, NULL, false);
-    step_channel_thaw(&channel);
+    thaw();
     assert_pulses(made + 1U, stays);
     TEST_ASSERT_FALSE(step_channel_is_running(&channel));
     TEST_ASSERT_EQUAL_UINT32(START + stays * INTERVAL, step_channel_end_tick(&channel));
@@ -224,7 +231,7 @@ void test_what_cannot_be_taken_back_any_more_is_not_frozen(void)
         begin_pieces(AHEAD);
         laid.too_late = late;
         TEST_ASSERT_TRUE(step_channel_freeze(&channel, TOTAL - late));
-        step_channel_thaw(&channel);
+        thaw();
         TEST_ASSERT_FALSE(step_channel_freeze(&channel, TOTAL - late + 1U));
         TEST_ASSERT_FALSE(step_channel_freeze(&channel, TOTAL));
         assert_pulses(1, TOTAL);
@@ -246,7 +253,7 @@ void test_a_channel_at_rest_takes_what_replaces_nothing(void)
     assert_pulses(1, TOTAL);
     TEST_ASSERT_TRUE(step_channel_freeze(&channel, 0));
     step_channel_recall(&channel, 0, &segment, true);
-    step_channel_thaw(&channel);
+    thaw();
     (void)run_to_the_end();
     TEST_ASSERT_EQUAL_INT64(position[TOTAL] - NEW_STEPS, step_channel_position(&channel));
 }
@@ -256,7 +263,7 @@ void test_a_channel_at_rest_may_be_frozen_and_thawed(void)
     begin_pieces(AHEAD);
     assert_pulses(1, TOTAL);
     TEST_ASSERT_TRUE(step_channel_freeze(&channel, 0));
-    step_channel_thaw(&channel);
+    thaw();
     TEST_ASSERT_FALSE(step_channel_is_running(&channel));
     TEST_ASSERT_FALSE(step_channel_freeze(&channel, 1));
     TEST_ASSERT_EQUAL_INT64(position[TOTAL], step_channel_position(&channel));
