@@ -52,7 +52,7 @@ def test_a_flag_comes_with_a_capture_and_goes_when_it_is_read(run_image):
         ("WRITE_CAPTURE", "the register of an input can only be read"),
         ("RESERVED_EDGE", "CCxNP without CCxP is reserved"),
         ("EDGE_OF_OUTPUT", "CCxNP must be kept cleared for an output"),
-        ("OTHER_INPUT", "capture of another input"),
+        ("OTHER_INPUT", "capture of a trigger"),
         ("FILTER", "or by a filter"),
         ("OTHER_OSCILLATOR", "write to 40000c50 (TIM5+50)"),
     ],

@@ -71,6 +71,17 @@ static void wire_system(struct board *board)
             .clock = clock, .report = report, .reset = &board->reset, .rcc = &board->rcc, .lsi_hz = options->lsi_hz});
 }
 
+/* Who is told of an edge at a pin. */
+static void note_edge(void *model, struct pin pin, bool level, uint64_t cycle)
+{
+    struct board *board = model;
+    recorder_note_edge(&board->recorder, pin, level, cycle);
+    for (unsigned i = 0; i < TIMERS; i++) {
+        timer_note_pin(&board->timer[i], pin, level, cycle);
+    }
+    wires_note_edge(&board->wires, pin, level, cycle);
+}
+
 static void wire_peripherals(struct board *board)
 {
     struct clock *clock = &board->clock;
@@ -82,7 +93,7 @@ static void wire_peripherals(struct board *board)
     gpio_init(&board->gpio, (struct gpio_wires){.clock = clock,
                                                 .report = report,
                                                 .exti = &board->exti,
-                                                .watcher = {.note = recorder_note_edge, .model = &board->recorder}});
+                                                .watcher = {.note = note_edge, .model = board}});
     for (unsigned i = 0; i < TIMERS; i++) {
         timer_init(&board->timer[i], (struct timer_wires){.number = i,
                                                           .clock = clock,
@@ -95,7 +106,7 @@ static void wire_peripherals(struct board *board)
                                                           .rcc = &board->rcc,
                                                           .lsi_hz = options->lsi_hz});
     }
-    timer_capture_init(&board->timer[TIMERS - 1U]);
+    timer_capture_init(&board->timer[TIMER_TIM5]);
     for (unsigned i = 0; i < DMA_CONTROLLERS; i++) {
         board->requests.listener[i] = (struct request_listener){.model = &board->dma[i], .note = dma_note_request};
         dma_init(&board->dma[i], (struct dma_wires){.number = i,
@@ -125,7 +136,7 @@ static void wire_surroundings(struct board *board)
     const struct options *options = board->options;
     struct rs485_listener client = {.model = &board->tty, .hear = tty_send};
     tty_init(&board->tty, clock, &board->line);
-    lockstep_init(&board->lockstep, clock, &board->line, &board->report);
+    lockstep_init(&board->lockstep, clock, &board->line, &board->wires, &board->report);
     if (options->lockstep) {
         client = (struct rs485_listener){.model = &board->lockstep, .hear = lockstep_hear};
     }
@@ -141,6 +152,7 @@ static void wire_surroundings(struct board *board)
                                                     .timer = &board->timer[options->timer_settings.steps],
                                                     .line = &board->line,
                                                     .ticks_from_timer = options->ticks_from_timer};
+    wires_init(&board->wires, clock, &board->gpio);
     inputs_init(&board->inputs, (struct inputs_wires){.clock = clock, .pins = &board->pins, .gpio = &board->gpio});
     faults_init(&board->faults, (struct faults_wires){.clock = clock,
                                                       .cpu = &board->cpu,
@@ -242,6 +254,9 @@ static bool connect(struct board *board)
     }
     for (unsigned i = 0; i < options->stucks; i++) {
         gpio_set_stuck(&board->gpio, options->stuck[i].pin, options->stuck[i].level);
+    }
+    for (unsigned i = 0; i < options->wires; i++) {
+        wires_connect(&board->wires, &options->wire[i]);
     }
     clock_set_ps(&board->clock, EVENT_END, options->for_ps);
     if (options->crystal_stops_ps != VTIME_NEVER) {

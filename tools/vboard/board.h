@@ -43,6 +43,7 @@
 #include "timer.h"
 #include "tty.h"
 #include "usart.h"
+#include "wires.h"
 
 struct board {
     const struct options *options;
@@ -85,6 +86,7 @@ struct board {
     struct tty tty;
     struct lockstep lockstep;
     struct inputs inputs;
+    struct wires wires;
     struct recorder recorder;
     struct faults faults;
     struct stats stats;

@@ -25,6 +25,7 @@ static void attach_on_apb(struct board *board)
         {"USART2", &usart[1], usart_read, usart_write, NULL, 0x40004400, 2, RCC_APB1ENR, 17},
         {"USART3", &usart[2], usart_read, usart_write, NULL, 0x40004800, 2, RCC_APB1ENR, 18},
         {"PWR", &board->supply, pwr_read, pwr_write, NULL, 0x40007000, 2, RCC_APB1ENR, 28},
+        {"TIM1", &timer[TIMER_TIM1], timer_read, timer_write, timer_register_is_wide, 0x40010000, 2, RCC_APB2ENR, 0},
         {"USART1", &usart[0], usart_read, usart_write, NULL, 0x40011000, 2, RCC_APB2ENR, 4},
         {"ADC1", &board->adc, adc_read, adc_write, NULL, 0x40012000, 1, RCC_APB2ENR, 8},
         {"SYSCFG", &board->syscfg, syscfg_read, syscfg_write, NULL, 0x40013800, 1, RCC_APB2ENR, 14},

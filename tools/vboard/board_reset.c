@@ -83,7 +83,7 @@ static void reset_on_ahb1(struct board *board, unsigned bit)
 
 static void reset_on_apb1(struct board *board, unsigned bit)
 {
-    if (bit < TIMERS) {
+    if (bit < TIMERS_ON_APB1) {
         timer_reset(&board->timer[bit]);
     } else if (bit == 17 || bit == 18) {
         usart_reset(&board->usart[bit - 16U]);
@@ -92,7 +92,9 @@ static void reset_on_apb1(struct board *board, unsigned bit)
 
 static void reset_on_apb2(struct board *board, unsigned bit)
 {
-    if (bit == 4) {
+    if (bit == 0) {
+        timer_reset(&board->timer[TIMER_TIM1]);
+    } else if (bit == 4) {
         usart_reset(&board->usart[0]);
     } else if (bit == 8) { /* all three converters */
         adc_reset(&board->adc);
@@ -144,7 +146,7 @@ static void on_stop(void *model)
 {
     static const enum event clocked[] = {EVENT_TIM2,    EVENT_TIM3,   EVENT_TIM4,   EVENT_TIM5,
                                          EVENT_SYSTICK, EVENT_USART1, EVENT_USART2, EVENT_USART3,
-                                         EVENT_DMA1,    EVENT_DMA2,   EVENT_BUS};
+                                         EVENT_DMA1,    EVENT_DMA2,   EVENT_BUS,    EVENT_TIM1};
     struct board *board = model;
     for (unsigned i = 0; i < sizeof clocked / sizeof *clocked; i++) {
         clock_set(&board->clock, clocked[i], VTIME_NEVER);

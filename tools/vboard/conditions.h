@@ -16,6 +16,7 @@ struct conditions {
     uint32_t pclk1_divider; /* cycles of HCLK in one of APB1, APB2 */
     uint32_t pclk2_divider;
     uint32_t timer1_divider; /* cycles of HCLK in one of the timers' clock on APB1; 0: no clock yet */
+    uint32_t timer2_divider; /* the same on APB2 */
     uint32_t supply_mv;
     unsigned flash_latency; /* of FLASH_ACR */
 };

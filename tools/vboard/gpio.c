@@ -236,6 +236,13 @@ void gpio_set_outside(struct gpio *gpio, struct pin pin, bool level, uint64_t cy
     update(port, cycle);
 }
 
+void gpio_let_go(struct gpio *gpio, struct pin pin, uint64_t cycle)
+{
+    struct port *port = &gpio->port[pin.port];
+    replace_bit(&port->driven, pin.number, false);
+    update(port, cycle);
+}
+
 void gpio_set_stuck(struct gpio *gpio, struct pin pin, bool level)
 {
     struct port *port = &gpio->port[pin.port];

@@ -16,7 +16,7 @@ enum {
     GPIO_PORTS = EXTI_PORTS, /* A to I */
     GPIO_PINS = EXTI_LINES,
     GPIO_FUNCTIONS = 16,
-    GPIO_AF_TIM2 = 1,
+    GPIO_AF_TIM1_TO_2 = 1,
     GPIO_AF_TIM3_TO_5 = 2,
     GPIO_AF_USART1_TO_3 = 7,
 };
@@ -78,6 +78,9 @@ void gpio_drive(struct gpio *gpio, struct pin pin, unsigned function, bool drive
 
 /* Somebody outside drives a pin. */
 void gpio_set_outside(struct gpio *gpio, struct pin pin, bool level, uint64_t cycle);
+
+/* Nobody outside drives a pin any more. */
+void gpio_let_go(struct gpio *gpio, struct pin pin, uint64_t cycle);
 
 void gpio_set_stuck(struct gpio *gpio, struct pin pin, bool level);
 

@@ -50,12 +50,23 @@ static bool go_on(struct lockstep *lockstep, const char *at, const char *end)
     return true;
 }
 
-static bool obey(struct lockstep *lockstep, const char *at, const char *end)
+static bool connect_wire(struct lockstep *lockstep, char *at, char *end)
 {
+    struct wire wire;
+    *end = '\0';
+    return wires_read(at, &wire) && wires_connect(lockstep->wires, &wire);
+}
+
+static bool obey(struct lockstep *lockstep, char *at, char *end)
+{
+    static const char wire_word[] = "wire ";
     static const char say_word[] = "say ";
     static const char until_word[] = "until ";
     if (strncmp(at, say_word, sizeof say_word - 1U) == 0) {
         return say(lockstep, at + sizeof say_word - 1U, end);
+    }
+    if (strncmp(at, wire_word, sizeof wire_word - 1U) == 0) {
+        return connect_wire(lockstep, at + sizeof wire_word - 1U, end);
     }
     return strncmp(at, until_word, sizeof until_word - 1U) == 0 && go_on(lockstep, at + sizeof until_word - 1U, end);
 }
@@ -67,10 +78,10 @@ static bool take_order(struct lockstep *lockstep)
         report_finish(lockstep->report, REPORT_TIME, "");
         return false;
     }
-    const char *end = strchr(lockstep->order, '\n');
+    char *end = strchr(lockstep->order, '\n');
     if (end == NULL || !obey(lockstep, lockstep->order, end)) {
         report_finish(lockstep->report, REPORT_FAILED,
-                      "--lockstep: an order is not `say HEXBYTES`, `until MS` or `end`");
+                      "--lockstep: an order is not `say HEXBYTES`, `until MS`, `wire PIN=PIN` or `end`");
         return false;
     }
     return true;
@@ -96,9 +107,10 @@ void lockstep_hear(void *model, uint8_t value)
     clock_set_ps(lockstep->clock, EVENT_THROTTLE, clock_now_ps(lockstep->clock));
 }
 
-void lockstep_init(struct lockstep *lockstep, struct clock *clock, struct rs485 *line, struct report *report)
+void lockstep_init(struct lockstep *lockstep, struct clock *clock, struct rs485 *line, struct wires *wires,
+                   struct report *report)
 {
-    *lockstep = (struct lockstep){.clock = clock, .line = line, .report = report};
+    *lockstep = (struct lockstep){.clock = clock, .line = line, .wires = wires, .report = report};
 }
 
 void lockstep_open(struct lockstep *lockstep)

@@ -4,6 +4,7 @@
  *   say HEXBYTES   onto the line, back to back, as soon as that is free
  *   until MS       time goes on until then, or until the unit has sent a byte; the reply on standard output is the
  *                  time, in ms, and the bytes that have come, if any
+ *   wire PIN=PIN   a wire, as --wire has it; none=PIN: it is taken off
  *   end            the run ends; so it does with the end of the input
  *
  * While an order is waited for no virtual time passes, so runs repeat whatever else the computer does.
@@ -17,6 +18,7 @@
 #include "clock.h"
 #include "report.h"
 #include "rs485.h"
+#include "wires.h"
 
 enum {
     LOCKSTEP_HEARD_MAX = 16,
@@ -26,6 +28,7 @@ enum {
 struct lockstep {
     struct clock *clock;
     struct rs485 *line;
+    struct wires *wires;
     struct report *report;
     bool asked; /* an `until` has no reply yet */
     unsigned heard;
@@ -33,7 +36,8 @@ struct lockstep {
     char order[LOCKSTEP_ORDER_MAX];
 };
 
-void lockstep_init(struct lockstep *lockstep, struct clock *clock, struct rs485 *line, struct report *report);
+void lockstep_init(struct lockstep *lockstep, struct clock *clock, struct rs485 *line, struct wires *wires,
+                   struct report *report);
 
 /* From now on it is the client that says when. */
 void lockstep_open(struct lockstep *lockstep);

@@ -42,6 +42,17 @@ static bool read_stuck(void *target, const char *text)
     return false;
 }
 
+static bool read_wire(void *target, const char *text)
+{
+    struct options *options = target;
+    if (options->wires < WIRES_MAX && wires_read(text, &options->wire[options->wires])) {
+        options->wires++;
+        return true;
+    }
+    complain("--wire %s: not two pins, or too many; write for example PA0=PB6", text);
+    return false;
+}
+
 /* The number of an operation of the flash, and what follows a colon; null if nothing does. */
 static bool read_operation(const char *text, uint64_t *operation, const char **how)
 {
@@ -326,6 +337,7 @@ static const struct argument rows[] = {
     OTHER("--watch", read_watch),
     OTHER("--set", read_set),
     OTHER("--stuck", read_stuck),
+    OTHER("--wire", read_wire),
     OTHER("--flash-fail", read_flash_failure),
     OTHER("--power-cut", read_cut),
     OTHER("--fault", read_fault),

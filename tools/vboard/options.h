@@ -14,6 +14,7 @@
 #include "supply.h"
 #include "timer_counter.h"
 #include "usart.h"
+#include "wires.h"
 
 enum {
     OPTIONS_WATCHES_MAX = 32,
@@ -46,6 +47,8 @@ struct options {
     unsigned sets;
     struct options_stuck stuck[OPTIONS_STUCK_MAX];
     unsigned stucks;
+    struct wire wire[WIRES_MAX];
+    unsigned wires;
     bool tcp;
     bool lockstep;
     unsigned tcp_port;

@@ -264,6 +264,7 @@ void rcc_reset(struct rcc *rcc, enum reset_cause cause)
     conditions->pclk1_divider = 0;
     conditions->pclk2_divider = 0;
     conditions->timer1_divider = 0;
+    conditions->timer2_divider = 0;
     *rcc = (struct rcc){
         .wires = rcc->wires, .hse_ready_ps = VTIME_NEVER, .pll_ready_ps = VTIME_NEVER, .lsi_ready_ps = VTIME_NEVER};
     rcc->reset_flags = flags;

@@ -67,6 +67,7 @@ void rcc_apply(struct rcc *rcc)
     conditions->pclk1_divider = apb1;
     conditions->pclk2_divider = apb2;
     conditions->timer1_divider = apb1 == 1 ? 1U : apb1 / 2U; /* figure 21: twice APB1 unless it is undivided */
+    conditions->timer2_divider = apb2 == 1 ? 1U : apb2 / 2U;
     clock_set_hclk(rcc->wires.clock, hz);
     rcc->wires.outlet.release(rcc->wires.outlet.board);
     conditions_check(conditions);

@@ -6,10 +6,13 @@ enum {
     SR_UIF = 1 << 0
 };
 
-static const enum nvic_irq irqs[TIMERS] = {NVIC_IRQ_TIM2, NVIC_IRQ_TIM3, NVIC_IRQ_TIM4, NVIC_IRQ_TIM5};
+static const enum nvic_irq irqs[TIMERS_ON_APB1] = {NVIC_IRQ_TIM2, NVIC_IRQ_TIM3, NVIC_IRQ_TIM4, NVIC_IRQ_TIM5};
 
 void timer_update_interrupt(struct timer *timer)
 {
+    if (timer->wires.number == TIMER_TIM1) {
+        return; /* has none that is modelled */
+    }
     nvic_set_line(timer->wires.nvic, irqs[timer->wires.number], (timer->sr & timer->dier & TIMER_DIER_INTERRUPTS) != 0);
 }
 
@@ -104,7 +107,7 @@ static void on_event(void *model, uint64_t cycle)
 
 void timer_hold(struct timer *timer)
 {
-    if (timer->wires.conditions->timer1_divider != 0) {
+    if (timer_clock_divider(timer) != 0) {
         timer_move_anchor(timer, timer->wires.clock->now);
     }
 }
@@ -124,11 +127,11 @@ void timer_reset(struct timer *timer)
         timer->channel[i].pin_driven = true; /* so that the pins are told */
         timer_update_output(timer, i, timer->wires.clock->now);
     }
-    for (unsigned i = 0; i < REQUEST_SOURCES; i++) {
+    for (unsigned i = 0; i < REQUEST_SOURCES && timer->wires.number != TIMER_TIM1; i++) {
         requests_lower(timer->wires.requests, request_line(timer->wires.number, i));
     }
     timer_set_event(timer);
-    if (timer->wires.number == TIMERS - 1U) { /* TIM5 */
+    if (timer->wires.number == TIMER_TIM5) {
         clock_set(timer->wires.clock, EVENT_LSI, VTIME_NEVER);
     }
     timer_update_interrupt(timer);

@@ -2,7 +2,7 @@
 
 bool timer_is_wide(const struct timer *timer)
 {
-    return timer->wires.number == 0 || timer->wires.number == 3; /* TIM2 and TIM5 have 32 bits */
+    return timer->wires.number == 0 || timer->wires.number == TIMER_TIM5; /* TIM2 and TIM5 have 32 bits */
 }
 
 uint32_t timer_width_mask(const struct timer *timer)
@@ -21,9 +21,15 @@ bool timer_is_captured(const struct timer *timer, unsigned channel)
     return (timer->ccmr[channel / 2U] >> 8U * (channel % 2U) & 3U) != 0;
 }
 
+uint32_t timer_clock_divider(const struct timer *timer)
+{
+    const struct conditions *conditions = timer->wires.conditions;
+    return timer->wires.number == TIMER_TIM1 ? conditions->timer2_divider : conditions->timer1_divider;
+}
+
 uint64_t timer_tick_cycles(const struct timer *timer)
 {
-    return (uint64_t)timer->wires.conditions->timer1_divider * (timer->psc_used + 1U);
+    return (uint64_t)timer_clock_divider(timer) * (timer->psc_used + 1U);
 }
 
 static uint64_t ticks_since_anchor(const struct timer *timer, uint64_t cycle)

@@ -17,7 +17,10 @@
 #include "requests.h"
 
 enum {
-    TIMERS = 4,
+    TIMER_TIM5 = 3,
+    TIMER_TIM1 = 4, /* on APB2; only its counter and its inputs are modelled */
+    TIMERS_ON_APB1 = 4,
+    TIMERS,
     TIMER_CHANNELS = 4,
 };
 
@@ -41,7 +44,7 @@ struct timer_settings {
 };
 
 struct timer_wires {
-    unsigned number; /* 0: TIM2 */
+    unsigned number; /* 0: TIM2, up to TIM5; then TIM1 */
     struct clock *clock;
     struct report *report;
     struct nvic *nvic;
@@ -96,6 +99,9 @@ bool timer_runs(const struct timer *timer);
 
 /* Whether a channel is an input (CCxS, section 18.4.7). */
 bool timer_is_captured(const struct timer *timer, unsigned channel);
+
+/* Cycles of HCLK in one of the clock that the timer is given; 0: none yet. */
+uint32_t timer_clock_divider(const struct timer *timer);
 
 /* Cycles of HCLK in one tick. */
 uint64_t timer_tick_cycles(const struct timer *timer);

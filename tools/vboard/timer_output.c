@@ -1,5 +1,7 @@
 #include "timer_output.h"
 
+#include "timer_pins.h"
+
 enum {
     MODE_FROZEN,
     MODE_ACTIVE,   /* at a match */
@@ -9,31 +11,6 @@ enum {
     MODE_FORCE_ACTIVE,
     MODE_PWM1,
     MODE_PWM2,
-    PINS_PER_CHANNEL = 3,
-    NO_PORT = 0xFF,
-};
-
-#define NO_PIN {.port = NO_PORT}
-#define PIN(letter, bit) {.port = (letter) - 'A', .number = (bit)}
-
-/* The data sheet's table of alternate functions. */
-static const struct pin pins[TIMERS][TIMER_CHANNELS][PINS_PER_CHANNEL] = {
-    {{PIN('A', 0), PIN('A', 5), PIN('A', 15)},
-     {PIN('A', 1), PIN('B', 3), NO_PIN},
-     {PIN('A', 2), PIN('B', 10), NO_PIN},
-     {PIN('A', 3), PIN('B', 11), NO_PIN}},
-    {{PIN('A', 6), PIN('B', 4), PIN('C', 6)},
-     {PIN('A', 7), PIN('B', 5), PIN('C', 7)},
-     {PIN('B', 0), PIN('C', 8), NO_PIN},
-     {PIN('B', 1), PIN('C', 9), NO_PIN}},
-    {{PIN('B', 6), PIN('D', 12), NO_PIN},
-     {PIN('B', 7), PIN('D', 13), NO_PIN},
-     {PIN('B', 8), PIN('D', 14), NO_PIN},
-     {PIN('B', 9), PIN('D', 15), NO_PIN}},
-    {{PIN('A', 0), PIN('H', 10), NO_PIN},
-     {PIN('A', 1), PIN('H', 11), NO_PIN},
-     {PIN('A', 2), PIN('H', 12), NO_PIN},
-     {PIN('A', 3), PIN('I', 0), NO_PIN}},
 };
 
 static unsigned output_mode(const struct timer *timer, unsigned channel)
@@ -52,10 +29,10 @@ static void tell_pins(struct timer *timer, unsigned channel, uint64_t cycle)
     }
     at->pin_level = level;
     at->pin_driven = driven;
-    for (unsigned i = 0; i < PINS_PER_CHANNEL; i++) {
-        if (pins[timer->wires.number][channel][i].port != NO_PORT) {
-            unsigned function = timer->wires.number == 0 ? GPIO_AF_TIM2 : GPIO_AF_TIM3_TO_5;
-            gpio_drive(timer->wires.gpio, pins[timer->wires.number][channel][i], function, driven, level, cycle);
+    for (unsigned i = 0; i < TIMER_PINS_PER_CHANNEL; i++) {
+        const struct pin *pin = timer_pin(timer->wires.number, channel, i);
+        if (pin != NULL) {
+            gpio_drive(timer->wires.gpio, *pin, timer_function(timer->wires.number), driven, level, cycle);
         }
     }
 }

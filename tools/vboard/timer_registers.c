@@ -103,7 +103,7 @@ static void write_cr1(struct timer *timer, uint32_t value)
     timer_move_anchor(timer, timer->wires.clock->now);
     if (!timer_runs(timer) && (value & TIMER_CR1_CEN) != 0) {
         /* It begins to count one clock after CEN is set (section 18.3.2). */
-        timer->anchor_cycle = timer->wires.clock->now + timer->wires.conditions->timer1_divider;
+        timer->anchor_cycle = timer->wires.clock->now + timer_clock_divider(timer);
         if (timer->start_cycle == VTIME_NEVER) {
             timer->start_cycle = timer->anchor_cycle;
             timer->count +=
@@ -139,6 +139,12 @@ static void write_dier(struct timer *timer, uint32_t value)
     uint32_t modelled = TIMER_DIER_INTERRUPTS | TIMER_DIER_REQUESTS;
     if ((value & ~modelled) != 0) {
         refuse(timer, "interrupts or DMA by triggers");
+    }
+    if (timer->wires.number == TIMER_TIM1) {
+        if (value != 0) {
+            refuse(timer, "interrupts or DMA of TIM1");
+        }
+        return;
     }
     for (unsigned i = 0; i < REQUEST_SOURCES; i++) {
         if ((value >> TIMER_DIER_REQUESTS_SHIFT & UINT32_C(1) << i) == 0) {

@@ -68,5 +68,8 @@ const char options_usage_more[] =
     "                        reset         the reset pin is pulled low, for a moment\n"
     "                        A PLACE is hexadecimal, or a symbol, or SYMBOL+HEX.\n"
     "  --stuck PIN=LEVEL     a pin is stuck; may be repeated\n"
+    "  --wire PIN=PIN        a wire from the one to the other; may be repeated. :late=NS after it: rising edges come "
+    "so\n"
+    "                        much later; :loses=N: each N-th pulse does not come\n"
     "\n"
     "example: rkm04-vboard --elf rkm04.elf --pins board.pins --line-script send.txt --for 2 --steps steps.csv\n";

@@ -49,7 +49,7 @@ static void do_what_is_forbidden(void)
 #endif
 #ifdef OTHER_INPUT
     TIM_CCER(TIM5) = 0;
-    TIM_CCMR2(TIM5) = 2 << 8;
+    TIM_CCMR2(TIM5) = 3 << 8;
 #endif
 #ifdef FILTER
     TIM_CCMR2(TIM5) = CC4S_OWN | 1 << 12;
