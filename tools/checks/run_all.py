@@ -202,8 +202,11 @@ def sweeps() -> Count:
 
 
 def soak(minutes: int) -> Count:
-    command = [str(BUILD / "host/bin/rkm04-soak"), "--minutes", str(minutes), "--twice"]
-    return Count(passed=1) if succeeds(*command, show=True) else Count(failed=1)
+    count = Count()
+    for program, *more in (("rkm04-soak", "--twice"), ("positioning-soak",)):
+        command = [str(BUILD / "host/bin" / program), "--minutes", str(minutes), *more]
+        count += Count(passed=1) if succeeds(*command, show=True) else Count(failed=1)
+    return count
 
 
 def c_layout() -> Count:
