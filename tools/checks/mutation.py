@@ -103,6 +103,49 @@ MODULES = (
         ("unit/gve134/queue", "system/gve134"),
     ),
     Module("gve-unit", "gve134", ("gve134_execute.c", "gve134_packet.c"), (), ("system/gve134",)),
+    Module("gve-start", "gve134", ("gve134.c",), (), ("system/gve134",)),
+    Module(
+        "gve-command", "gve134/command", ("gve_command.c", "gve_table.c", "gve_words.c"), (),
+        ("unit/gve134/command", "system/gve134"),
+    ),
+    Module(
+        "gve-line", "gve134/line", ("gve_answer.c", "gve_line.c", "gve_receiver.c"), (),
+        ("unit/gve134/line", "system/gve134"),
+    ),
+    Module(
+        "gve-memory", "gve134/memory",
+        ("gve_big.c", "gve_float_put.c", "gve_float_read.c", "gve_memory.c"), (),
+        ("unit/gve134/memory", "system/gve134"),
+    ),
+    Module(
+        "pos-modbus", "positioning/modbus",
+        (
+            "modbus.c", "modbus_crc.c", "modbus_identity.c", "modbus_receiver.c",
+            "modbus_request.c",
+        ), (),
+    ),
+    Module(
+        "pos-registers", "positioning/registers",
+        ("pos_registers.c", "pos_table.c", "pos_write.c"), (),
+    ),
+    Module("pos-measure", "positioning/measure", ("pos_measure.c",), ()),
+    Module("pos-frame", "positioning/frame", ("pos_frame.c",), ()),
+    Module(
+        "pos-drive", "positioning/drive", ("pos_drive.c",), (),
+        ("unit/positioning/drive", "system/positioning"),
+    ),
+    Module(
+        "pos-axis", "positioning/axis",
+        ("pos_axis.c", "pos_axis_home.c", "pos_axis_motion.c", "pos_watch.c"), (),
+        ("system/positioning",),
+    ),
+    Module(
+        "pos-settings", "positioning/settings", ("pos_settings.c",), (), ("system/positioning",)
+    ),
+    Module(
+        "pos-unit", "positioning",
+        ("positioning.c", "positioning_line.c", "positioning_plc.c"), (), ("system/positioning",),
+    ),
     Module("group", "engine/group", ("group.c", "group_change.c"), (), ("system/group",)),
 )  # fmt: skip
 

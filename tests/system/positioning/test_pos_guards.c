@@ -249,3 +249,49 @@ void test_an_edge_elsewhere_while_a_limit_stops_the_axis_changes_nothing(void)
     TEST_ASSERT_INT64_WITHIN(2, before + 28, rig_position[0]);
     TEST_ASSERT_EQUAL_HEX(0x0005, rig_status(1));
 }
+
+static uint64_t be_late(void *context)
+{
+    (void)context;
+    return TICK_NEVER;
+}
+
+/* Both edges come before main has looked. */
+void test_a_second_edge_before_main_has_looked_is_no_capture(void)
+{
+    set(CAPTURE, 5, false);
+    take();
+    mode(10000);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_capture(&unit, 1));
+    rig_run_ms(200);
+    int64_t at = rig_position[0];
+    for (unsigned i = 0; i < 4; i++) {
+        host_machine_set_input(&machine, 5, i % 2U == 0);
+        host_machine_run(&machine, machine.now + TICKS_PER_MS / 2U, be_late, NULL, NULL);
+    }
+    TEST_ASSERT_TRUE(rig_position[0] > at + 1);
+    rig_run_ms(5);
+    struct pos_values values = rig_values(1);
+    TEST_ASSERT_EQUAL_UINT16(1, values.captures);
+    TEST_ASSERT_EQUAL_INT32((int32_t)at, values.captured_steps);
+    TEST_ASSERT_EQUAL_INT32(10 * (int32_t)at, values.captured_um);
+    TEST_ASSERT_EQUAL_HEX(0, values.flags);
+}
+
+void test_a_limit_that_is_active_at_0_acts_when_its_input_goes_to_0(void)
+{
+    set(LIMIT_MINUS, -2, false);
+    host_machine_set_input(&machine, 2, true);
+    rig_run_ms(2);
+    take();
+    mode(-10000);
+    rig_run_ms(200);
+    TEST_ASSERT_EQUAL_HEX(0x0303, rig_status(1));
+    TEST_ASSERT_EQUAL_HEX(0, rig_values(1).flags);
+    host_machine_set_input(&machine, 2, false);
+    int64_t before = rig_position[0];
+    rig_run_ms(100);
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_LIMIT, rig_values(1).error);
+    TEST_ASSERT_EQUAL_HEX(POS_FLAG_LIMIT_MINUS, rig_values(1).flags);
+    TEST_ASSERT_INT64_WITHIN(2, before - 28, rig_position[0]);
+}

@@ -313,6 +313,23 @@ void test_another_input_that_changes_does_not_end_the_way_off_the_switch(void)
     TEST_ASSERT_EQUAL_INT64(299, rig_position[0]);
 }
 
+/* The switch is between, so it comes and goes on the way back. */
+void test_another_input_that_changes_before_a_switch_that_was_passed_does_not_end_the_way_off_it(void)
+{
+    switch_to = 303;
+    home(19, 0);
+    run_until(POS_PHASE_LEAVE);
+    TEST_ASSERT_TRUE(rig_position[0] > switch_to + 2);
+    run_ms(3);
+    host_machine_set_input(&machine, 7, true);
+    run_ms(1);
+    TEST_ASSERT_TRUE(rig_position[0] > switch_to);
+    TEST_ASSERT_FALSE(unit.axes[0].found);
+    run_ms(3000);
+    assert_home(0);
+    TEST_ASSERT_EQUAL_INT64(299, rig_position[0]);
+}
+
 void test_a_limit_of_the_same_input_the_other_way_round_is_the_switch_too(void)
 {
     TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));

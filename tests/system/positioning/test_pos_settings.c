@@ -5,7 +5,10 @@ enum {
     STORE = 40,
     RATE = 31,
     FORMAT = 32,
+    WATCHDOG = 30,
     ACCEL_1 = 135,
+    AXIS_1_SETTINGS = 130,
+    SETTINGS = 26, /* registers with settings of an axis */
 };
 
 void setUp(void)
@@ -45,6 +48,38 @@ void test_settings_that_are_stored_are_there_after_a_start(void)
     TEST_ASSERT_EQUAL_UINT32(1234, unit.registers.axes[0][POS_AXIS_HIGHEST_ACCEL]);
 }
 
+/* Registers 30 to 55 of an axis, in which no value is that of another axis or as delivered. */
+static void put_settings(uint16_t n, uint16_t values[SETTINGS])
+{
+    const uint16_t all[SETTINGS] = {
+        0,  100 + n, 0,       200 + n, n % 2, 300 + n, n, 400 + n, n, 500 + n, 600 + n, 700 + n, (uint16_t)-n,
+        60, n,       800 + n, n,       -n,    n + 1,   8, n,       0, n,       1,       n,       2,
+    };
+    memcpy(values, all, sizeof all);
+}
+
+void test_all_settings_of_all_axes_are_there_after_a_start(void)
+{
+    uint16_t values[SETTINGS];
+    uint16_t read[SETTINGS];
+    TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, set(WATCHDOG, 12345));
+    for (unsigned axis = 1; axis <= POS_AXES; axis++) {
+        put_settings((uint16_t)axis, values);
+        TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE,
+                              positioning_write(&unit, AXIS_1_SETTINGS + 100U * (axis - 1U), SETTINGS, values));
+    }
+    TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, set(STORE, 1));
+    restart();
+    TEST_ASSERT_FALSE(unit.settings.damaged);
+    TEST_ASSERT_FALSE(unit.settings.other);
+    TEST_ASSERT_EQUAL_UINT32(12345, unit.registers.unit[POS_UNIT_WATCHDOG]);
+    for (unsigned axis = 1; axis <= POS_AXES; axis++) {
+        put_settings((uint16_t)axis, values);
+        pos_registers_read(&unit.registers, AXIS_1_SETTINGS + 100U * (axis - 1U), SETTINGS, read);
+        TEST_ASSERT_EQUAL_HEX16_ARRAY(values, read, SETTINGS);
+    }
+}
+
 void test_settings_that_are_not_stored_are_gone_after_a_start(void)
 {
     TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, set(ACCEL_1, 1234));
@@ -73,6 +108,8 @@ void test_settings_of_an_axis_that_is_taken_or_brakes_are_refused(void)
     TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_BUSY, set(ACCEL_1, 1234));
     TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_BUSY, set(STORE, 1));
     TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_BUSY, set(RATE, 96));
+    TEST_ASSERT_EQUAL_UINT32(65535, unit.registers.axes[0][POS_AXIS_HIGHEST_ACCEL]);
+    TEST_ASSERT_EQUAL_UINT32(192, unit.registers.unit[POS_UNIT_RATE]);
     TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, set(ACCEL_1 + 100, 1234));
     TEST_ASSERT_EQUAL_INT(POS_OK, pos_mode(&unit, NULL, 100000, 500, 1));
     TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, UINT32_C(1000) << 16U, 1, 1));
@@ -92,6 +129,46 @@ void test_a_store_that_fails_leaves_what_was_stored(void)
     TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_FAILURE, set(STORE, 1));
     restart();
     TEST_ASSERT_EQUAL_UINT32(1, unit.registers.axes[0][POS_AXIS_HIGHEST_ACCEL]);
+}
+
+static void set_accels(uint16_t accel_mm_s2)
+{
+    for (uint32_t axis = 0; axis < (uint32_t)POS_AXES; axis++) {
+        TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, set(ACCEL_1 + 100U * axis, accel_mm_s2));
+    }
+}
+
+/* Whether all axes have one of two settings, and which. */
+static uint32_t all_accels(void)
+{
+    uint32_t accel_mm_s2 = unit.registers.axes[0][POS_AXIS_HIGHEST_ACCEL];
+    for (unsigned axis = 1; axis < (unsigned)POS_AXES; axis++) {
+        TEST_ASSERT_EQUAL_UINT32(accel_mm_s2, unit.registers.axes[axis][POS_AXIS_HIGHEST_ACCEL]);
+    }
+    return accel_mm_s2;
+}
+
+void test_after_a_power_cut_at_any_word_all_old_settings_are_there_or_all_others(void)
+{
+    uint32_t operations = 1;
+    for (uint32_t cut = 1; cut <= operations; cut++) {
+        for (unsigned done = 0; done <= (unsigned)HOST_FLASH_ALL; done++) {
+            rig_set_up();
+            set_accels(1);
+            TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, set(STORE, 1));
+            set_accels(2);
+            uint32_t before = machine.flash_operations;
+            machine.faults.flash_done = (enum host_flash_done)done;
+            machine.faults.flash_cut_after = before + cut;
+            (void)set(STORE, 1);
+            operations = machine.flash_operations - before;
+            restart();
+            TEST_ASSERT_FALSE(unit.settings.damaged);
+            uint32_t accel_mm_s2 = all_accels();
+            TEST_ASSERT_TRUE(accel_mm_s2 == 1U || (accel_mm_s2 == 2U && cut + 4U > operations));
+        }
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(SETTINGS * 4U / 2U, operations);
 }
 
 void test_a_change_of_the_scale_makes_the_present_place_zero(void)

@@ -67,6 +67,49 @@ void test_a_way_may_not_lead_out_of_what_can_be_counted(void)
     TEST_ASSERT_EQUAL_INT64(-461168601842738790, target.step);
 }
 
+/* What had been reached elsewhere is of no account, also that it was no whole step. */
+void test_a_reference_is_where_the_next_measure_begins(void)
+{
+    go(4);
+    pos_frame_refer(&frame, 7, 1000);
+    follow(7);
+    pos_frame_give_up(&frame);
+    TEST_ASSERT_EQUAL_INT64(7, frame.base_step);
+    TEST_ASSERT_EQUAL_INT64(0, frame.base_um);
+    go(14);
+    TEST_ASSERT_EQUAL_INT64(8, frame.step);
+}
+
+void test_what_was_reached_from_a_reference_counts_from_there(void)
+{
+    pos_frame_refer(&frame, 100, -3);
+    pos_frame_aim_at(&frame, 41, &target);
+    TEST_ASSERT_EQUAL_INT64(104, target.step);
+    follow(104);
+    pos_frame_reach(&frame, &target);
+    pos_frame_give_up(&frame);
+    TEST_ASSERT_EQUAL_INT64(100, frame.base_step);
+    TEST_ASSERT_EQUAL_INT64(44, frame.base_um);
+    go(1);
+    TEST_ASSERT_EQUAL_INT64(105, frame.step);
+}
+
+/* POS_MODE from elsewhere, then a position, which is counted from the reference. */
+void test_what_is_reached_has_its_own_base(void)
+{
+    pos_frame_refer(&frame, 100, 0);
+    follow(200);
+    pos_frame_give_up(&frame);
+    TEST_ASSERT_EQUAL_INT64(200, frame.base_step);
+    pos_frame_aim_at(&frame, 500, &target);
+    follow(target.step);
+    pos_frame_reach(&frame, &target);
+    TEST_ASSERT_EQUAL_INT64(100, frame.base_step);
+    TEST_ASSERT_EQUAL_INT64(500, frame.base_um);
+    go(0);
+    TEST_ASSERT_EQUAL_INT64(150, frame.step);
+}
+
 void test_positions_count_from_the_reference(void)
 {
     follow(12);
@@ -83,12 +126,16 @@ void test_positions_count_from_the_reference(void)
 
 void test_another_scale_makes_the_present_place_zero(void)
 {
+    go(4);
     follow(50);
-    pos_frame_refer(&frame, 50, 1000);
+    pos_frame_refer(&frame, 40, 1000);
+    frame.base_um = 4;
     pos_frame_reset(&frame, &(struct pos_scale){.steps = 500, .micrometres = 1}, 0, 50);
     TEST_ASSERT_FALSE(frame.referenced);
     TEST_ASSERT_EQUAL_INT64(50, frame.step);
     TEST_ASSERT_EQUAL_INT64(0, pos_frame_position_um(&frame, 50));
+    TEST_ASSERT_EQUAL_INT64(50, frame.base_step);
+    TEST_ASSERT_EQUAL_INT64(0, frame.base_um);
     go(-2);
     TEST_ASSERT_EQUAL_INT64(-950, frame.step);
 }
@@ -123,6 +170,24 @@ void test_a_measure_is_cut_at_the_last_step_inside(void)
     assert_limited(-50, -2000, -50, true);
 }
 
+void test_software_limits_are_positions(void)
+{
+    pos_frame_refer(&frame, 10, 200);
+    frame.step = 0;
+    pos_frame_aim_at(&frame, 3000, &target);
+    pos_frame_limit(&frame, &target, -500, 1234);
+    TEST_ASSERT_EQUAL_INT64(113, target.step);
+    pos_frame_aim_at(&frame, -3000, &target);
+    pos_frame_limit(&frame, &target, -500, 1234);
+    TEST_ASSERT_EQUAL_INT64(-60, target.step);
+}
+
+void test_who_is_outside_and_stays_is_not_cut(void)
+{
+    assert_limited(200, 2000, 200, false);
+    assert_limited(-100, -1000, -100, false);
+}
+
 void test_who_is_outside_goes_inwards_as_far_as_he_was_told_and_not_outwards(void)
 {
     assert_limited(200, 1900, 190, false);
@@ -141,6 +206,17 @@ void test_what_is_left_of_a_measure_that_is_cut_ends_at_the_limit(void)
     TEST_ASSERT_EQUAL_INT64(1000, pos_frame_left_um(&frame, &target));
     pos_frame_limit(&frame, &target, -500, 1234);
     TEST_ASSERT_EQUAL_INT64(230, pos_frame_left_um(&frame, &target));
+}
+
+void test_what_is_left_to_a_limit_counts_from_where_the_measure_does(void)
+{
+    follow(40);
+    pos_frame_give_up(&frame);
+    pos_frame_aim(&frame, 2000, &target);
+    pos_frame_limit(&frame, &target, -500, 1234);
+    TEST_ASSERT_EQUAL_INT64(830, pos_frame_left_um(&frame, &target));
+    follow(123);
+    TEST_ASSERT_EQUAL_INT64(0, pos_frame_left_um(&frame, &target));
 }
 
 /* ---- backlash -------------------------------------------------------------------------------------------------- */

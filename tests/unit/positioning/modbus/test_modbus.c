@@ -6,6 +6,7 @@ static const uint16_t values[MODBUS_READ_MAX] = {0x1234, 0xABCD, 0x0001, 0xFF00}
 
 void setUp(void)
 {
+    memset(&server, 0xA5, sizeof server);
     rig_set_up();
 }
 
@@ -203,6 +204,15 @@ void test_the_unit_tells_what_it_is(void)
     assert_only(4, MODBUS_COUNT_FRAMES, 0, MODBUS_COUNTS_TOTAL);
 }
 
+void test_an_identification_keeps_nothing_of_the_answer_before(void)
+{
+    rig_take_sealed("01 03 00 00 00 04");
+    (void)assert_next(0, 0, 0, 4);
+    answer((const uint16_t[]){0xA5A5, 0xA5A5, 0xA5A5, 0xA5A5});
+    assert_sent_sealed("01 03 08 A5 A5 A5 A5 A5 A5 A5 A5");
+    assert_refused("01 2B 0E 04 01", "01 2B 0E 04 81 00 00 01 01 04 50 4F 53 34");
+}
+
 void test_from_an_object_that_is_not_known_all_are_told(void)
 {
     const char *all = "01 2B 0E 02 81 00 00 03 00 0D 6F 70 65 6E 20 66 69 72 6D 77 61 72 65 01 04 50 4F 53 34 02 05 "
@@ -290,6 +300,26 @@ void test_the_last_good_frame_to_this_unit_is_known(void)
     TEST_ASSERT_EQUAL_UINT64(heard, server.heard_tick);
     assert_refused("01 55", "01 D5 01");
     TEST_ASSERT_EQUAL_UINT64(rig_tick - RIG_SILENCE_TICKS - RIG_CHARACTER_TICKS, server.heard_tick);
+}
+
+/* Also what is refused, and what the server answers by itself. */
+void test_a_good_frame_of_any_function_is_heard(void)
+{
+    static const char *const requests[] = {
+        "01 03 00 00 00 01",       "01 04 00 00 00 01",
+        "01 06 00 64 01 01",       "01 10 00 64 00 01 02 01 01",
+        "01 2B 0E 01 00",          "01 17 00 00 00 01 00 64 00 01 02 01 01",
+        "01 10 00 64 00 01 03 01", "01 55",
+    };
+    for (unsigned i = 0; i < sizeof requests / sizeof requests[0]; i++) {
+        rig_take_sealed(requests[i]);
+        TEST_ASSERT_EQUAL_UINT64_MESSAGE(rig_tick - RIG_SILENCE_TICKS - RIG_CHARACTER_TICKS, server.heard_tick,
+                                         requests[i]);
+        (void)modbus_next(&server);
+        modbus_refuse(&server, MODBUS_EXCEPTION_VALUE);
+        (void)rig_poll_in(0);
+        (void)rig_sent();
+    }
 }
 
 void test_every_address_that_the_switch_can_say_is_taken(void)

@@ -1,16 +1,28 @@
 #include "unity.h"
 
+#include <string.h>
+
 #include "pos_registers.h"
 
-static struct pos_registers registers;
+/* What lies around the values is somebody else's. */
+static struct {
+    uint32_t before;
+    struct pos_registers registers;
+    uint32_t after[4];
+} room;
+
+#define registers (room.registers)
 
 void setUp(void)
 {
+    memset(&room, 0xA5, sizeof room);
     pos_registers_init(&registers);
 }
 
 void tearDown(void)
 {
+    TEST_ASSERT_EQUAL_HEX32(0xA5A5A5A5, room.before);
+    TEST_ASSERT_EACH_EQUAL_HEX32(0xA5A5A5A5, room.after, 4);
 }
 
 static uint32_t *axis(unsigned number)
@@ -57,8 +69,10 @@ void test_at_the_start_all_else_is_0(void)
     uint16_t words[30];
     pos_registers_read(&registers, 3, 25, words);
     TEST_ASSERT_EACH_EQUAL_HEX16(0, words, 25);
-    pos_registers_read(&registers, 400, 8, words);
-    TEST_ASSERT_EACH_EQUAL_HEX16(0, words, 8);
+    for (uint32_t number = 100; number <= 400; number += 100) {
+        pos_registers_read(&registers, number, 8, words);
+        TEST_ASSERT_EACH_EQUAL_HEX16(0, words, 8);
+    }
     pos_registers_read(&registers, 410, 18, words);
     TEST_ASSERT_EACH_EQUAL_HEX16(0, words, 18);
     pos_registers_read(&registers, 438, 12, words);
@@ -78,6 +92,19 @@ void test_the_delivered_settings_come_back_and_nothing_else_changes(void)
     TEST_ASSERT_EQUAL_UINT32(88, read_wide(216));
     TEST_ASSERT_EQUAL_UINT32(99, read_wide(206));
     TEST_ASSERT_EQUAL_UINT32(10, read_wide(232));
+}
+
+void test_the_delivered_settings_change_no_other_register(void)
+{
+    memset(&registers, 0x5A, sizeof registers);
+    struct pos_registers before = registers;
+    pos_registers_deliver(&registers);
+    for (uint32_t number = 0; number < 500U; number++) {
+        struct pos_place place;
+        if (pos_find(number, &place) && pos_row(&place)->use != (uint8_t)POS_USE_SETTING) {
+            TEST_ASSERT_EQUAL_HEX32(*pos_registers_at(&before, &place), *pos_registers_at(&registers, &place));
+        }
+    }
 }
 
 void test_a_value_of_two_registers_has_its_high_word_first(void)

@@ -174,6 +174,18 @@ void test_a_factor_that_is_written_alone_must_suit_the_other_one(void)
     TEST_ASSERT_FALSE(take_wide(432, 20000));
 }
 
+/* The request before had more values. */
+void test_factors_of_another_request_are_of_no_account(void)
+{
+    static const uint16_t both[] = {0, 500, 0, 1};
+    TEST_ASSERT_TRUE(take(330, 4, both));
+    TEST_ASSERT_TRUE(take_wide(330, 5000));
+    TEST_ASSERT_FALSE(take_wide(330, 5001));
+    registers.axes[2][POS_AXIS_MICROMETRES] = 1000000;
+    write.written[1].place = (struct pos_place){.axis = 3, .index = POS_AXIS_STEPS};
+    TEST_ASSERT_TRUE(take_one(334, 1));
+}
+
 /* ---- what is staged -------------------------------------------------------------------------------------------- */
 
 void test_a_negative_value_keeps_its_sign(void)
