@@ -19,6 +19,7 @@ import pytest
 from noisy_line import NoisyLine
 from rkm04_tools.gve134.answers import encoded
 from rkm04_tools.gve134.link_errors import LineError
+from rkm04_tools.gve134.probing import BEFORE, WORDS
 from rkm04_tools.gve134.unit import open_unit
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -175,6 +176,22 @@ def test_a_probe_comes_back_to_where_it_was_touched(
     assert "3 vectors" in out or "2 vectors" in out
     assert latched["Z"] < -100
     assert stand["Z"] == latched["Z"] + 10
+
+
+def test_a_unit_and_the_simulator_refuse_a_closed_sensor_in_the_same_words(
+    gve: Tool, served: ServedGve, tmp_path: Path
+) -> None:
+    job = file_of(tmp_path, "SW3,00\nSW1,80\nL0,0,-200\n;@probe\nC0,0,10\n")
+    inputs = tmp_path / "closed.csv"
+    inputs.write_text("0,8,0\n", encoding="utf-8")
+    served.order("8=0")
+
+    sent, simulated = gve("send", job), gve("sim", job, "--inputs", inputs)
+
+    assert (sent.status, simulated.status) == (1, 1)
+    assert WORDS[BEFORE] in sent.err
+    assert WORDS[BEFORE] in simulated.err
+    assert served.order("?")["positions"] == [0, 0, 0, 0]
 
 
 @pytest.mark.parametrize("seed", range(4))

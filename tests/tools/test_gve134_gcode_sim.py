@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,8 +14,10 @@ import pytest
 from gcode_played import good, mill
 from rkm04_tools.gve134 import host
 from rkm04_tools.gve134.gcode.preview import Preview, Previewed
+from rkm04_tools.gve134.probing import WORDS
 
-EXAMPLES = Path(__file__).resolve().parents[2] / "tools" / "examples" / "gve"
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "tools" / "examples" / "gve"
 LEAD_S = 0.001
 """The unit begins a chain at most so long after it has got it; the preview counts T, 1 ms."""
 
@@ -152,14 +155,45 @@ def test_a_probe_goes_back_to_where_it_was_touched(
 
 def test_a_probe_that_touches_nothing_ends_the_file(tmp_path: Path) -> None:
     told = simulate(PROBING, tmp_path)
-    assert [(each["line"], each["refused"]) for each in told["answers"]] == [(6, True)]
+    assert refusals(told) == [(6, "untouched")]
     assert told["axes"][2]["position"] == -4000
+
+
+def refusals(told: dict[str, Any]) -> list[tuple[int, str]]:
+    return [(each["line"], each["reason"]) for each in told["answers"] if each["refused"]]
+
+
+def test_a_sensor_that_is_closed_before_the_probe_moves_is_no_touch(tmp_path: Path) -> None:
+    inputs = tmp_path / "inputs.csv"
+    inputs.write_text("0,8,0\n", encoding="utf-8")
+
+    told = simulate(["L0,0,30", "L0,0,0", *PROBING], tmp_path, "--inputs", inputs)
+
+    assert refusals(told) == [(8, "before")]
+    assert told["axes"][2]["position"] == 30
+
+
+@pytest.mark.parametrize(
+    ("levels", "reason"),
+    [("500,3,0\n", "switch"), ("500,8,0\n530,3,0\n", "switch"), ("500,8,0\n620,3,0\n", "back")],
+)
+def test_a_reference_switch_is_no_touch(tmp_path: Path, levels: str, reason: str) -> None:
+    inputs = tmp_path / "inputs.csv"
+    inputs.write_text(levels, encoding="utf-8")
+
+    told = simulate(["SW0,04", "A10", *PROBING[1:]], tmp_path, "--inputs", inputs)
+
+    assert refusals(told) == [(7, reason)]
+
+
+def test_every_reason_has_its_words() -> None:
+    source = (ROOT / "tools/gve134_host/gve_probing.c").read_text(encoding="utf-8")
+    assert set(re.findall(r'fail\(probing, "([a-z]+)"\)', source)) == set(WORDS)
 
 
 def test_a_halt_is_no_touch(tmp_path: Path) -> None:
     told = simulate([*PROBING, "@1000 H"], tmp_path)
-    refused = [each["line"] for each in told["answers"] if each["refused"]]
-    assert refused == [6]
+    assert refusals(told) == [(6, "halted")]
 
 
 @pytest.mark.parametrize(
@@ -172,5 +206,17 @@ def test_lines_for_a_host_that_knows_more_are_errors(line: str) -> None:
 
 
 def test_lines_for_the_host_are_no_commands() -> None:
-    parsed = host.check("V1000 ; ;@x\n;@wait 1\n;@wait 2.5 \n;@pause\n;@pause a, b\n;@probe\n; ;@x")
-    assert (parsed.commands, parsed.errors) == (1, [])
+    parsed = host.check(
+        "V1000 ; ;@x\n;@wait 1\n;@wait 2.5 \n;@pause\n;@pause a, b\nL1\n@5 H\n;@probe\n; ;@x"
+    )
+    assert (parsed.commands, parsed.errors) == (3, [])
+
+
+@pytest.mark.parametrize(
+    "before",
+    ["", "C1\n", "V1000\n", "L1\n;@wait 1\n", "L1\n;@pause\n", "L1\n;@probe\n", "C1\n@5 L1\n"],
+)
+def test_a_probe_is_for_the_vector_right_before_it(before: str) -> None:
+    (error,) = host.check(f"{before} ;@probe").errors
+    assert (error.line, error.column) == (before.count("\n") + 1, 2)
+    assert error.message == ";@probe stands right after the L that goes to the sensor"

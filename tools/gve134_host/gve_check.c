@@ -20,6 +20,7 @@ struct checker {
     struct gve_file_line line;
     uint32_t commands;
     uint32_t errors;
+    bool after_line;          /* the command before, those with a time aside, is an L */
     bool packet;              /* between *S and *E */
     uint32_t packet_commands; /* that it has had */
     uint32_t packet_line;
@@ -175,6 +176,7 @@ static void check_command(struct checker *checker)
 {
     const struct gve_file_line *line = &checker->line;
     uint32_t column = column_of(checker, line->place);
+    checker->after_line = checker->after_line && line->timed;
     if (line->wrong != NULL) {
         tell(checker, line->number, column, GVE_WRONG_SYNTAX, "%s", line->wrong);
         return;
@@ -190,16 +192,30 @@ static void check_command(struct checker *checker)
         follow_faulty(checker, &reading.command);
     } else if (!line->timed) {
         follow_packet(checker, &reading.command);
+        checker->after_line = reading.command.opcode == GVE_LINE;
     } else {
         /* goes beside the others, in no packet of theirs */
     }
+}
+
+/* What has been before an L is known when it is over, of no other motion. */
+static void check_probe(struct checker *checker)
+{
+    const struct gve_file_line *line = &checker->line;
+    if (!checker->after_line || line->asked) {
+        tell(checker, line->number, column_of(checker, line->place), GVE_WRONG_SYNTAX,
+             ";@probe stands right after the L that goes to the sensor");
+    }
+    checker->after_line = false;
 }
 
 static void check_lines(struct checker *checker)
 {
     struct gve_file lines = gve_file_of(checker->file);
     while (gve_file_next(&lines, &checker->line)) {
-        if (!checker->line.probes) {
+        if (checker->line.probes) {
+            check_probe(checker);
+        } else {
             checker->commands++;
             check_command(checker);
         }

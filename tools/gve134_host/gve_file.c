@@ -119,14 +119,20 @@ static bool take_wait(struct gve_file *file, uint32_t begin, uint32_t end)
         return false;
     }
     file->wait_ns = file->wait_ns + ns > NS_MAX ? NS_MAX : file->wait_ns + ns;
+    file->asks = true;
     return true;
 }
 
-static bool is_pause(const uint8_t *bytes, uint32_t begin, uint32_t end)
+static bool take_pause(struct gve_file *file, uint32_t begin, uint32_t end)
 {
     static const char mark[] = ";@pause";
+    const uint8_t *bytes = file->file->bytes;
     uint32_t after = begin + (uint32_t)sizeof mark - 1U;
-    return begins_with(bytes, begin, end, mark) && (after == end || is_blank(bytes[after]));
+    if (!begins_with(bytes, begin, end, mark) || (after != end && !is_blank(bytes[after]))) {
+        return false;
+    }
+    file->asks = true;
+    return true;
 }
 
 static bool is_probe(const uint8_t *bytes, uint32_t begin, uint32_t end)
@@ -144,7 +150,7 @@ static bool take_comment(struct gve_file *file, uint32_t begin, uint32_t stop, s
     while (end > first && is_blank(bytes[end - 1U])) {
         end--;
     }
-    if (!begins_with(bytes, first, end, ";@") || take_wait(file, first, end) || is_pause(bytes, first, end)) {
+    if (!begins_with(bytes, first, end, ";@") || take_wait(file, first, end) || take_pause(file, first, end)) {
         return false;
     }
     line->place = first - begin;
@@ -153,6 +159,12 @@ static bool take_comment(struct gve_file *file, uint32_t begin, uint32_t stop, s
         line->wrong = "for the host there are ;@wait with seconds, ;@pause with a text, and ;@probe";
     }
     return true;
+}
+
+static void note_asked(struct gve_file *file, struct gve_file_line *line)
+{
+    line->asked = file->asks && !line->timed;
+    file->asks = file->asks && line->timed;
 }
 
 bool gve_file_next(struct gve_file *file, struct gve_file_line *line)
@@ -173,9 +185,11 @@ bool gve_file_next(struct gve_file *file, struct gve_file_line *line)
             line->text = &bytes[first];
             line->wait_ns = line->timed ? 0 : file->wait_ns;
             file->wait_ns = line->timed ? file->wait_ns : 0;
+            note_asked(file, line);
             return true;
         }
         if (take_comment(file, begin, stop, line)) {
+            note_asked(file, line);
             return true;
         }
     }

@@ -21,6 +21,7 @@ struct gve_file {
     const struct infile *file;
     uint32_t next;    /* offset of the next line */
     uint64_t wait_ns; /* for which the lines before it ask */
+    bool asks;        /* they ask for that, or for a pause */
 };
 
 /* What stands in a line. */
@@ -34,6 +35,7 @@ struct gve_file_line {
     bool probes;       /* it is no command, but ;@probe */
     uint64_t ns;       /* of one that is timed: from the start */
     uint64_t wait_ns;  /* for which the host waits before it; of one that is not timed */
+    bool asked;        /* before it the host is asked for a wait or a pause; of one that is not timed */
     const char *wrong; /* what is wrong with it, if it is not the command itself; else null */
     const uint8_t *text;
 };

@@ -122,6 +122,19 @@ static void send_probing(struct gve_player *player, uint64_t wait_ticks)
     player->next_tick = player->machine->now + wait_ticks;
 }
 
+static void begin_probing(struct gve_player *player)
+{
+    if (player->next.line.probes) {
+        gve_probing_begin(&player->probing);
+        send_probing(player, 0);
+    }
+    if (player->next.opcode == GVE_LINE && gve_script_probes_next(&player->script)) {
+        player->approach = player->next;
+        gve_probing_approach(&player->probing);
+        send_probing(player, player->next_tick - player->machine->now);
+    }
+}
+
 static void go_on(struct gve_player *player)
 {
     struct gve_script_place before = player->script.place;
@@ -131,9 +144,8 @@ static void go_on(struct gve_player *player)
     if (player->has_next) {
         player->next_tick += units_ticks_of_ns(player->next.line.wait_ns);
     }
-    if (player->has_next && player->next.line.probes) {
-        gve_probing_begin(&player->probing);
-        send_probing(player, 0);
+    if (player->has_next) {
+        begin_probing(player);
     }
     if (player->has_next && player->next.opcode == GVE_PACKET_BEGIN) {
         player->packet_before = before;
@@ -268,7 +280,8 @@ static void tell(struct gve_player *player, const struct gve_player_waiting *ans
     bool wrong = verdict == VERDICT_WRONG;
     if (wrong || has_values(answered->line.opcode, text)) {
         gve_told_add(&player->told,
-                     &(struct gve_told_answer){.line = answered->line.line, .wrong = wrong, .text = *text});
+                     &(struct gve_told_answer){
+                         .line = answered->line.line, .wrong = wrong, .reason = player->probing.reason, .text = *text});
     }
 }
 
@@ -276,7 +289,7 @@ static void tell(struct gve_player *player, const struct gve_player_waiting *ans
 static void finish_probing(struct gve_player *player, const struct gve_player_waiting *answered, enum verdict verdict,
                            const struct gve_told_text *text)
 {
-    enum gve_probing_result result = GVE_PROBING_WRONG;
+    enum gve_probing_result result = GVE_PROBING_FAILS;
     if (verdict == VERDICT_DONE) {
         result = gve_probing_take(&player->probing, text->bytes, text->length);
     }
@@ -289,13 +302,19 @@ static void finish_probing(struct gve_player *player, const struct gve_player_wa
     case GVE_PROBING_ASKS:
         send_probing(player, REPEAT_TICKS);
         break;
+    case GVE_PROBING_READY:
+        player->next = player->approach;
+        player->next_waits = false;
+        player->next_tick = player->machine->now;
+        break;
     case GVE_PROBING_DONE:
         go_on(player);
         break;
-    case GVE_PROBING_UNTOUCHED:
-    case GVE_PROBING_WRONG:
+    case GVE_PROBING_FAILS:
     default:
+        player->probing.phase = GVE_PROBING_NONE;
         tell(player, answered, VERDICT_WRONG, text);
+        player->probing.reason = NULL;
         player->has_next = false;
         break;
     }
@@ -330,6 +349,7 @@ static void finish_reset(struct gve_player *player)
         struct gve_player_waiting unanswered = take_waiting(player);
         player->silent++;
         if (!unanswered.timed) {
+            player->probing.phase = GVE_PROBING_NONE;
             go_on(player);
         }
     }

@@ -43,7 +43,8 @@ struct gve_player {
     struct host_machine *machine;
     uint32_t byte_ticks; /* 0: bytes take no time */
     struct gve_script script;
-    struct gve_probing probing;                        /* from ;@probe to its end `next` is a command of it */
+    struct gve_probing probing;                        /* in a phase of it `next` is a command of it */
+    struct gve_script_line approach;                   /* the L that comes after a phase before it */
     struct host_line_byte bytes[GVE_PLAYER_BYTES_MAX]; /* of the line on its way to the unit */
 
     struct gve_script_line next; /* of those that follow each other */

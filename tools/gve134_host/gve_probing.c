@@ -28,24 +28,41 @@ static enum gve_probing_result end(struct gve_probing *probing, enum gve_probing
     return result;
 }
 
+static enum gve_probing_result fail(struct gve_probing *probing, const char *reason)
+{
+    probing->reason = reason;
+    return end(probing, GVE_PROBING_FAILS);
+}
+
+void gve_probing_approach(struct gve_probing *probing)
+{
+    (void)ask(probing, GVE_PROBING_RESTS, "F");
+}
+
 void gve_probing_begin(struct gve_probing *probing)
 {
     (void)ask(probing, GVE_PROBING_MOVES, "F");
 }
 
+/* The answer to F, of axes that stand. */
 static enum gve_probing_result take_state(struct gve_probing *probing, uint32_t state)
 {
-    bool waits = probing->phase == GVE_PROBING_MOVES ? (state & (RUN | INTA)) == RUN : (state & RUN) != 0;
-    if (waits) {
-        return GVE_PROBING_ASKS;
+    bool inta = (state & INTA) != 0;
+    if (probing->phase == GVE_PROBING_RESTS) {
+        return ask(probing, GVE_PROBING_BEGINS, "P4");
     }
     if (probing->phase == GVE_PROBING_STANDS) {
-        return end(probing, GVE_PROBING_DONE);
+        return inta ? fail(probing, "back") : end(probing, GVE_PROBING_DONE);
     }
-    if ((state & (INTA | INTCOM)) != INTA) {
-        return end(probing, GVE_PROBING_UNTOUCHED);
+    if ((state & INTCOM) != 0) {
+        return fail(probing, "halted");
     }
-    return ask(probing, GVE_PROBING_OFF, "SW1,00");
+    return inta ? ask(probing, GVE_PROBING_CAUSE, "SR4") : fail(probing, "untouched");
+}
+
+static enum gve_probing_result take_cause(struct gve_probing *probing, uint32_t causes)
+{
+    return causes != 0 ? fail(probing, "switch") : ask(probing, GVE_PROBING_LATCHED, "PL");
 }
 
 static bool read_positions(int64_t positions[GVE_PROBING_AXES], const char *answer, uint32_t length)
@@ -74,31 +91,62 @@ static enum gve_probing_result go_back(struct gve_probing *probing)
     return GVE_PROBING_SENDS;
 }
 
-static enum gve_probing_result wrong(struct gve_probing *probing)
+static enum gve_probing_result take_here(struct gve_probing *probing)
 {
-    return end(probing, GVE_PROBING_WRONG);
+    bool moved = memcmp(probing->latched, probing->begin, sizeof probing->begin) != 0;
+    return moved ? ask(probing, GVE_PROBING_OFF, "SW1,00") : fail(probing, "before");
+}
+
+static enum gve_probing_result take_status(struct gve_probing *probing, const char *answer, uint32_t length)
+{
+    uint32_t status = 0;
+    if (length <= 2 || !line_read_hex(&answer[2], &answer[length], &status)) {
+        return fail(probing, NULL);
+    }
+    if (probing->phase == GVE_PROBING_CAUSE) {
+        return take_cause(probing, status);
+    }
+    return (status & (RUN | INTA)) == RUN ? GVE_PROBING_ASKS : take_state(probing, status);
+}
+
+static enum gve_probing_result take_positions(struct gve_probing *probing, const char *answer, uint32_t length)
+{
+    int64_t positions[GVE_PROBING_AXES];
+    if (!read_positions(positions, answer, length)) {
+        return fail(probing, NULL);
+    }
+    if (probing->phase == GVE_PROBING_BEGINS) {
+        memcpy(probing->begin, positions, sizeof positions);
+        return end(probing, GVE_PROBING_READY);
+    }
+    if (probing->phase == GVE_PROBING_LATCHED) {
+        memcpy(probing->latched, positions, sizeof positions);
+        return ask(probing, GVE_PROBING_HERE, "P4");
+    }
+    memcpy(probing->here, positions, sizeof positions);
+    return take_here(probing);
 }
 
 enum gve_probing_result gve_probing_take(struct gve_probing *probing, const char *answer, uint32_t length)
 {
-    uint32_t state = 0;
     switch (probing->phase) {
+    case GVE_PROBING_RESTS:
     case GVE_PROBING_MOVES:
+    case GVE_PROBING_CAUSE:
     case GVE_PROBING_STANDS:
-        return length > 2 && line_read_hex(&answer[2], &answer[length], &state) ? take_state(probing, state)
-                                                                                : wrong(probing);
-    case GVE_PROBING_OFF:
-        return ask(probing, GVE_PROBING_LATCHED, "PL");
+        return take_status(probing, answer, length);
+    case GVE_PROBING_BEGINS:
     case GVE_PROBING_LATCHED:
-        return read_positions(probing->latched, answer, length) ? ask(probing, GVE_PROBING_HERE, "P4") : wrong(probing);
     case GVE_PROBING_HERE:
-        return read_positions(probing->here, answer, length) ? ask(probing, GVE_PROBING_DROPS, "D") : wrong(probing);
+        return take_positions(probing, answer, length);
+    case GVE_PROBING_OFF:
+        return ask(probing, GVE_PROBING_DROPS, "D");
     case GVE_PROBING_DROPS:
         return go_back(probing);
     case GVE_PROBING_BACK:
         return ask(probing, GVE_PROBING_STANDS, "F");
     case GVE_PROBING_NONE:
     default:
-        return wrong(probing);
+        return fail(probing, NULL);
     }
 }

@@ -76,6 +76,13 @@ bool gve_script_next(struct gve_script *script, struct gve_script_line *line)
     return find_line(&script->place, false, line);
 }
 
+bool gve_script_probes_next(const struct gve_script *script)
+{
+    struct gve_script_place place = script->place;
+    struct gve_script_line line;
+    return find_line(&place, false, &line) && line.line.probes;
+}
+
 uint64_t gve_script_timed_tick(const struct gve_script *script)
 {
     return script->timed_taken == script->timed_count ? TICK_NEVER : script->timed[script->timed_taken].tick;

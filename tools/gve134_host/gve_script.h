@@ -38,6 +38,9 @@ bool gve_script_begin(struct gve_script *script, const struct infile *file);
 /* Takes the next line without a time. False: there is none. */
 bool gve_script_next(struct gve_script *script, struct gve_script_line *line);
 
+/* Whether that will be ;@probe. */
+bool gve_script_probes_next(const struct gve_script *script);
+
 /* The tick of the next line with a time; TICK_NEVER: there is none. */
 uint64_t gve_script_timed_tick(const struct gve_script *script);
 

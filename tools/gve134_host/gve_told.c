@@ -52,7 +52,13 @@ static void print_answer(const struct gve_told_answer *answer)
     json_print_fixed(units_ns_of_ticks(answer->text.tick), MS_DECIMALS);
     (void)printf(",\"answer\":");
     json_print_text(answer->text.bytes, answer->text.length);
-    (void)printf(",\"refused\":%s}", answer->wrong ? "true" : "false");
+    (void)printf(",\"refused\":%s,\"reason\":", answer->wrong ? "true" : "false");
+    if (answer->reason != NULL) {
+        json_print_string(answer->reason);
+    } else {
+        (void)fputs("null", stdout);
+    }
+    (void)putchar('}');
 }
 
 void gve_told_print(const struct gve_told *told)

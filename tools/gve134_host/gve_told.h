@@ -25,6 +25,7 @@ struct gve_told_text {
 struct gve_told_answer {
     struct gve_file_line line; /* that it answers; number 0: none */
     bool wrong;                /* a refusal, or none of an answer's form */
+    const char *reason;        /* why a probing ends with it; else null */
     struct gve_told_text text;
 };
 
@@ -38,7 +39,7 @@ struct gve_told {
 struct gve_told gve_told_none(void);
 void gve_told_add(struct gve_told *told, const struct gve_told_answer *answer);
 
-/* Prints "answers":[{"line","address","command","ms","answer","refused"},...],"answers_more":0,"refused":0 */
+/* Prints "answers":[{"line","address","command","ms","answer","refused","reason"},...],"answers_more":0,"refused":0 */
 void gve_told_print(const struct gve_told *told);
 
 void gve_told_discard(struct gve_told *told);

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from rkm04_tools.gve134.probing import WORDS
 from rkm04_tools.report import numbers_of, times
 from rkm04_tools.table import table, thousands
 
@@ -30,7 +31,10 @@ STUCK = {
 
 @dataclass(frozen=True)
 class Answer:
-    """An answer that is told, and the command of the file; line 0: it was none to a command."""
+    """An answer that is told, and the command of the file; line 0: it was none to a command.
+
+    `reason`: why a probing ends with it.
+    """
 
     line: int
     address: int
@@ -38,12 +42,15 @@ class Answer:
     ms: float
     answer: str
     refused: bool
+    reason: str | None = None
 
     @property
     def text(self) -> str:
         """What was asked and answered, in words where it is a refusal."""
         if not self.refused:
             return f"{self.command}: {self.answer}"
+        if self.reason is not None:
+            return f"error: ;@probe: {WORDS[self.reason]}"
         code = self.answer[:1]
         digit = int(code, 16) if code and code in "0123456789ABCDEF" else -1
         why = MEANINGS.get(digit & CODE) if digit >= 0 else None

@@ -27,6 +27,7 @@ from rkm04_tools.gve134.gcode.directives import Pause, Probe, Wait
 from rkm04_tools.gve134.job import Asked, Command, Job
 from rkm04_tools.gve134.link import MEMORY_SECONDS
 from rkm04_tools.gve134.link_errors import Refused
+from rkm04_tools.gve134.probing import BEFORE, HALTED, UNTOUCHED, WORDS
 from rkm04_tools.gve134.state import INTA, INTCOM, RUN, Flags, Positions, named, positions_text
 from rkm04_tools.gve134.unit import POLL_SECONDS, Unit, is_memory_write
 from rkm04_tools.transport import BITS_PER_BYTE
@@ -259,21 +260,12 @@ class Sender:
         unit = self.unit
         flags = self._wait_until_stands()
         if not flags.has(INTA) or flags.has(INTCOM):
-            raise Failure(
-                f"{self._where(command)}: nothing was touched on the way; the axes stand at "
-                f"{positions_text(unit.positions())}",
-                NOT_SO,
-            )
+            raise self._unprobed(command, HALTED if flags.has(INTCOM) else UNTOUCHED, flags)
         touched, stand = unit.positions(latched=True), unit.positions()
         if int(unit.order("SR4").values, 16):
             raise self.interrupted(self._where(command))
         if touched == self._probes_from:
-            raise Failure(
-                f"{self._where(command)}: the sensor was touched before the axes moved, so nothing "
-                "was probed; look at the sensor, its wire and its active level (ST3), then gve134 "
-                f"delete; the axes stand at {positions_text(stand)}; {flags.text}",
-                NOT_SO,
-            )
+            raise self._unprobed(command, BEFORE, flags)
         unit.order("SW1,00")
         unit.order("D")
         self.inta = False
@@ -283,6 +275,11 @@ class Sender:
             raise self.interrupted(self._where(command))
         if self.executed is not None:
             self.executed.stood(unit.positions())
+
+    def _unprobed(self, command: Command, reason: str, flags: Flags) -> Failure:
+        at = positions_text(self.unit.positions())
+        text = f"{WORDS[reason]}; the axes stand at {at}; the unit is {flags.text}"
+        return Failure(f"{self._where(command)}: {text}", NOT_SO)
 
     @property
     def spindle_text(self) -> str:
