@@ -12,6 +12,7 @@
 enum {
     HEARD_MAX = 64,                   /* bytes in one pass */
     SERVE_TICKS = 100 * TICKS_PER_US, /* of a packet no request is begun later after the first one */
+    OUT_TICKS = 100 * TICKS_PER_US,   /* so often main looks whether an answer is out that others wait for */
     OWN_AXIS = 3,
     DIRECTION_BITS = 4, /* bits of the directions in the byte of polarities begin there */
 };
@@ -248,12 +249,17 @@ static void act_at_once(struct gve134 *unit)
     }
 }
 
+/* A request is there whose turn it is as soon as the answer before it is out. */
+static bool has_turn(const struct gve134 *unit)
+{
+    return waits_for(unit, GVE134_WAITS_NOT) && unit->line.count != 0 && !gve_line_is_sending(&unit->line);
+}
+
 /* True: a request has been served, and there may be more. */
 static bool serve_next(struct gve134 *unit)
 {
     struct gve_request request;
-    bool free = waits_for(unit, GVE134_WAITS_NOT) && !gve_line_is_sending(&unit->line);
-    bool served = free && gve_line_next(&unit->line, &request);
+    bool served = has_turn(unit) && hal_line_is_idle() && gve_line_next(&unit->line, &request);
     if (served) {
         serve(unit, &request);
     }
@@ -289,7 +295,10 @@ static uint64_t poll_queue(struct gve134 *unit)
     uint64_t wake = gve_queue_poll(&unit->queue, io_inputs(&unit->io));
     answer_late(unit);
     act_at_once(unit);
-    return serve_some(unit) ? hal_time_now() : wake;
+    if (serve_some(unit)) {
+        return hal_time_now();
+    }
+    return has_turn(unit) ? earlier(wake, hal_time_now() + (uint64_t)OUT_TICKS) : wake;
 }
 
 /* J: the answer goes out and the last pulses come to an end; then all is as after a reset. */

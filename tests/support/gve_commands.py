@@ -46,7 +46,7 @@ class Commands:
     def execute(self, item: Request, low: int) -> bool:
         """Execute a command; False: its answer comes when the axes stand."""
         unit, command = self.unit, item.command
-        latest = low + unit.late + MS
+        latest = low + MS
         if isinstance(command, int):
             unit.may_stand(low, unit.peek(latest, item.text).begin)
             unit.answer(item, [unit.code(command)], low, latest)
@@ -55,9 +55,7 @@ class Commands:
             latest += WRITE_MS * MS
         waits = command.name in ("H", "W")
         self.low, self.index = low, item.index
-        self.high = (
-            low + unit.late + MS if waits else unit.peek(low + unit.late + MS, item.text).begin
-        )
+        self.high = low + MS if waits else unit.peek(low + MS, item.text).begin
         if unit.done.growing and command.name[0] in "PN":
             unit.motion.verify(self.high)
         if unit.phase == "stop" or command.name in BY_RUN:
@@ -72,17 +70,17 @@ class Commands:
         if texts is None:
             return False
         unit.answer(item, texts, low, latest)
-        unit.note_outputs(low, unit.free_tick)
+        unit.note_outputs(low, unit.ready_tick)
         return True
 
     def _repair(self, item: Request, name: str, low: int) -> None:
         unit = self.unit
         if name == "@":
-            unit.answer(item, [f"{unit.code(0)},{self.index}"], low, low + unit.late + MS)
+            unit.answer(item, [f"{unit.code(0)},{self.index}"], low, low + MS)
         elif unit.last_answer:
-            unit.answer(replace(item, sums=False), [unit.last_answer], low, low + unit.late + MS)
+            unit.answer(replace(item, sums=False), [unit.last_answer], low, low + MS)
         else:
-            unit.answer(item, {"0", unit.code(0)}, low, low + unit.late + MS)
+            unit.answer(item, {"0", unit.code(0)}, low, low + MS)
 
     def _do(self, item: Request, command: Command) -> list[str] | None:
         unit = self.unit
@@ -254,7 +252,7 @@ class Commands:
     def packet(self, item: Packet, low: int) -> None:
         """Execute a packet: all of it or nothing."""
         unit = self.unit
-        self.low, self.high = low, unit.peek(low + unit.late + MS, "a packet").begin
+        self.low, self.high = low, unit.peek(low + MS, "a packet").begin
         unit.may_stand(low, self.high)
         border = unit.state.modal.border
         try:
@@ -263,7 +261,7 @@ class Commands:
         except Refuse as refused:
             unit.state.modal.border = border
             text = f"{unit.code(refused.code)},0"
-        unit.answer(item, [text], low, low + unit.late + MS)
+        unit.answer(item, [text], low, low + MS)
 
     def _take_packet(self, item: Packet) -> int:
         unit, entries = self.unit, []
@@ -318,7 +316,7 @@ class Commands:
         if unit.phase in ("work", "stop"):
             unit.came_from_h = True
             if unit.phase == "work":
-                unit.stop(self.low, self.low + unit.late)
+                unit.stop(self.low, self.low)
             return None
         unit.state.inta = unit.state.intcom = True
         return [unit.code(0)]
@@ -389,7 +387,7 @@ class Commands:
             if any(course.pending for course in unit.motion.courses):
                 raise Unsure("SW6 while the axes are about to start")
             if value & 1 and unit.phase == "work":
-                unit.stop(self.low, self.low + unit.late)
+                unit.stop(self.low, self.low)
             return
         if state.fault:
             raise Unsure("SW6 while no motion is allowed")

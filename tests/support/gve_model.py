@@ -35,12 +35,10 @@ def named(item: Item, *names: str) -> bool:
 class Model:
     """One way through a session."""
 
-    def __init__(
-        self, session: Session, done: Done, chooser: Chooser, allowed: frozenset[str]
-    ) -> None:
+    def __init__(self, session: Session, done: Done, chooser: Chooser) -> None:
         """Switch the unit on."""
         self.session = session
-        self.unit = Unit(done, chooser, allowed)
+        self.unit = Unit(done, chooser)
         self.runner = Runner(self.unit)
         self.commands = Commands(self.unit, self.runner)
         self.items: deque[Item] = deque(read_line(session.line, session.end))
@@ -119,7 +117,7 @@ class Model:
         if not self.unit.done.growing:
             return self._wait_end()
         _, high = self.unit.motion.end()
-        return max(int(high) + MS // 5, self.unit.free_tick)
+        return max(int(high) + MS // 5, self.unit.ready_tick)
 
     def _come(self, tick: int) -> None:
         unit = self.unit
@@ -129,7 +127,7 @@ class Model:
                 self._waited(tick)
             return
         item = self._waited(tick)
-        earliest = unit.free_tick
+        earliest = unit.ready_tick
         if unit.phase == "stop":
             since = tick - MS - 1 if earliest < tick - MS else -FAR
             unit.motion.keep_ended(tick, since=since)
@@ -154,10 +152,9 @@ class Model:
             self.acted.append(item)
             return
         self.items.remove(item)
-        unit.late = max(0, unit.free_tick - tick)
         if isinstance(item, Refusal):
             text = f"{unit.code(2)},0" if item.packet else unit.code(2)
-            high = max(item.latest, unit.free_tick) + MS
+            high = max(item.latest, unit.ready_tick) + MS
             unit.answer(item, [text], max(item.tick, unit.ready_tick), high)
         elif isinstance(item, Packet):
             self.commands.packet(item, tick)
@@ -191,8 +188,8 @@ class Model:
     def _reset(self, item: Request, tick: int) -> None:
         unit = self.unit
         after = "8" if unit.state.reset().inta else "0"
-        unit.answer(item, [after], tick, tick + unit.late + MS)
-        limit = unit.free_tick + MS
+        unit.answer(item, [after], tick, max(tick, unit.ready_tick) + MS)
+        limit = unit.ready_tick + MS
         following = [each.tick for each in self.items] or [FAR]
         record = unit.done.motors
         if record.growing:
@@ -201,10 +198,10 @@ class Model:
         if last > limit:
             raise Mismatch(last, "pulses after J")
         unit.motion.verify(max(tick, last))
-        fresh = Unit(unit.done, unit.chooser, unit.allowed)
+        fresh = Unit(unit.done, unit.chooser)
         fresh.state = unit.state.reset()
         fresh.answered = unit.answered
-        fresh.ready_tick, fresh.free_tick = unit.ready_tick, unit.free_tick
+        fresh.ready_tick = unit.ready_tick
         fresh.changes = unit.changes
         for axis, train in enumerate(record.trains):
             seen = train.count_until(max(tick, last))
@@ -219,7 +216,7 @@ class Model:
         if fresh.state.levels is unit.state.levels:
             fresh.state.levels = dict(unit.state.levels)
         self._set_brake(tick)
-        fresh.note_outputs(tick, fresh.free_tick)
+        fresh.note_outputs(tick, fresh.ready_tick)
 
     # --- the end ---
 
@@ -270,17 +267,14 @@ def check_changes(
         raise Mismatch(tick, f"{what} becomes {got:02X}")
 
 
-def compare(session: Session, done: Done, allowed: frozenset[str] = frozenset()) -> float:
-    """Compare what a unit did in a session; return by how much the worst pulse is off, in ticks.
-
-    It may do what is `allowed` besides the contract.
-    """
+def compare(session: Session, done: Done) -> float:
+    """Compare what a unit did in a session; return by how much the worst pulse is off, in ticks."""
     if done.complaints:
         raise Mismatch(session.end, "; ".join(done.complaints))
     chooser = Chooser()
     worst: Mismatch | None = None
     for _ in range(TRIES_MAX):
-        model = Model(session, done, chooser, allowed)
+        model = Model(session, done, chooser)
         try:
             model.go()
         except Mismatch as mismatch:
@@ -297,7 +291,7 @@ def compare(session: Session, done: Done, allowed: frozenset[str] = frozenset())
 def imagine(session: Session) -> Done:
     """Return what a unit might do in a session: the model's own choices."""
     done = Done(Record(session.end, growing=True), growing=True)
-    model = Model(session, done, Chooser(), frozenset())
+    model = Model(session, done, Chooser())
     model.go()
     for name, wanted in model.unit.changes.items():
         done.signals[name] = [((low + high) // 2, level) for low, high, level in wanted]

@@ -111,33 +111,30 @@ class Motion:
         for course in self.courses:
             course.begin(vectors, at or course.rest, window)
 
-    def add(self, tick: int, vectors: Vectors, pause: int, *, late: int) -> None:
-        """More vectors are known from a tick on, or from a little later.
-
-        A new chain would begin after a pause.
-        """
+    def add(self, tick: int, vectors: Vectors, pause: int) -> None:
+        """More vectors are known from a tick on; a new chain would begin after a pause."""
 
         def add_to(course: Course) -> list[Course]:
             if course.pending:
                 return [replace(course.fork(), vectors=vectors)]
-            places = course.places(tick, tick + late)
+            places = course.places(tick, tick)
             joined = [course.change(step, vectors, stops=False) for step in places[:1]]
             if len(places) > 1 and not same_time(joined[0], places[-1]):
                 joined += [course.change(step, vectors, stops=False) for step in places[1:]]
-            if not places or places[-1].time < tick + late + PATIENCE << ROOT_BITS:
-                joined.append(self._after(course, vectors, tick, late, pause))
+            if not places or places[-1].time < tick + PATIENCE << ROOT_BITS:
+                joined.append(self._after(course, vectors, tick, pause))
             return joined
 
-        self._settled(tick, add_to, PATIENCE + late)
+        self._settled(tick, add_to)
 
     @staticmethod
-    def _after(course: Course, vectors: Vectors, tick: int, late: int, pause: int) -> Course:
+    def _after(course: Course, vectors: Vectors, tick: int, pause: int) -> Course:
         """The course whose path comes to its end, so that the vectors begin a chain."""
         new = course.fork()
         end = math.ceil(course.end_tick())
         new.lay_until(end + 1)
         low = max(tick, end, end + pause - 2)
-        window = low, max(tick + late + MS, end + pause + 1)
+        window = low, max(tick + MS, end + pause + 1)
         new.begin(vectors, (len(course.vectors), Fraction(0)), window)
         return new
 

@@ -177,4 +177,4 @@ class Runner:
             unit.interrupted()
         unit.note_outputs(low, high)
         text = unit.code(BOUNDS if how == NOT_FOUND else 0)
-        unit.answer(run.item, [text], max(low, unit.ready_tick), max(high, unit.free_tick) + MS)
+        unit.answer(run.item, [text], max(low, unit.ready_tick), max(high, unit.ready_tick) + MS)

@@ -8,7 +8,6 @@ in `gve_model.py`.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
@@ -21,16 +20,6 @@ from gve_record import BYTE_TICKS, Answer, Done
 from gve_state import INTA, INTCOM, RUN, STOP, State
 from gve_vector import Entry, path_of
 from gve_words import with_sum
-
-EARLY, CROWDED = "early", "crowded"
-"""What a unit may be allowed to do besides the contract, so that the rest can be compared.
-
-EARLY: a command is executed before the answers to those before it are out. CROWDED: an X command
-takes effect up to 0.54 ms later, not 0.5, where more than CROWDED_VECTORS wait.
-"""
-
-CROWDED_VECTORS = 80
-CROWDED_LATE = MS // 25
 
 SLACK = MS
 """So long after the axes have come to rest the unit may still say that they move."""
@@ -90,9 +79,8 @@ class Kept:
 class Unit:
     """The motion of the unit; times are ticks."""
 
-    def __init__(self, done: Done, chooser: Chooser, allowed: frozenset[str]) -> None:
+    def __init__(self, done: Done, chooser: Chooser) -> None:
         """Nothing has happened yet."""
-        self.allowed = allowed
         self.done = done
         self.chooser = chooser
         self.state = State()
@@ -107,10 +95,8 @@ class Unit:
         self.stood_tick = 0.0
         """When the axes last came to rest."""
         self.answered = 0
-        self.ready_tick = self.free_tick = 0
-        """From when on the next command may be executed, and when the last answer was out."""
-        self.late = 0
-        """So much later a command may be executed that came before the last answer was out."""
+        self.ready_tick = 0
+        """When the last answer was out, and the next command may be executed."""
         self.last_answer = ""
         self.changes: dict[str, list[tuple[int, int, int]]] = {}
         """Of each signal the window and the level of each change."""
@@ -145,9 +131,7 @@ class Unit:
                 f"{what} is answered {got.text} at {got.begin / MS:.3f} ms, "
                 f"not from {low / MS:.3f} to {high / MS:.3f}",
             )
-        self.ready_tick = self.free_tick = got.out
-        if EARLY in self.allowed:
-            self.ready_tick = min(got.begin, math.ceil(low) + 2)
+        self.ready_tick = got.out
         plain = isinstance(item, Request) and getattr(item.command, "name", "") in ("@", ">")
         if not plain:
             self.last_answer = got.text
@@ -210,7 +194,7 @@ class Unit:
     def window(self, low: int, pause_ms: int) -> tuple[int, int]:
         """When a chain may begin that was asked for at a tick."""
         due = self.done.motors.last_before(low) + pause_ms * MS
-        return max(low, due - 1), max(low + MS + self.late, due + 1)
+        return max(low, due - 1), max(low + MS, due + 1)
 
     def begin_chain(self, entries: list[Entry], low: int, high: int) -> None:
         """Vectors that join none before them; one without motion is done at once."""
@@ -245,7 +229,7 @@ class Unit:
         self.vectors += added[-len(new) :]
         self.entries += new
         if self.phase == "work":
-            self.motion.add(low, self.vectors, new[0].pause_ms * MS, late=self.late)
+            self.motion.add(low, self.vectors, new[0].pause_ms * MS)
         for course in self.motion.courses:
             course.vectors = self.vectors
 
@@ -256,16 +240,10 @@ class Unit:
             return
         self.vectors = vectors
         if self.phase == "work":
-            self.motion.change(low, vectors, stops=False, latest=low + self.late + self._crowd(low))
+            self.motion.change(low, vectors, stops=False)
         else:
             for course in self.motion.courses:
                 course.vectors = vectors
-
-    def _crowd(self, tick: int) -> int:
-        """By how much later an X command may take effect."""
-        done, _ = self.motion.vectors_done(tick)
-        many = CROWDED in self.allowed and len(self.entries) - done > CROWDED_VECTORS
-        return CROWDED_LATE if many else 0
 
     def stop(self, low: int, high: int) -> None:
         """Brake down the ramp, for a cause within a window."""

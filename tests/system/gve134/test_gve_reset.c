@@ -202,6 +202,19 @@ void test_commands_that_come_before_an_answer_is_out_are_executed_in_order(void)
     TEST_ASSERT_EQUAL_STRING("8\r8\r8,3\r", rig_heard);
 }
 
+/* The answer of 26 characters is not yet out when the command after it has come. */
+void test_a_command_that_comes_before_an_answer_is_out_is_executed_after_it(void)
+{
+    rig_heard_count = 0;
+    rig_send("!0?\r!0O0,FE\r");
+    while (!rig_has_answer()) {
+        TEST_ASSERT_EQUAL_HEX8(0, rig_outputs);
+        rig_run_ticks(RIG_BYTE_TICKS);
+    }
+    rig_run_ms(1);
+    TEST_ASSERT_NOT_EQUAL_HEX8(0, rig_outputs);
+}
+
 void test_256_bytes_that_come_while_h_waits_are_kept(void)
 {
     static char burst[300];
