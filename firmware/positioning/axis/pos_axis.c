@@ -67,7 +67,6 @@ void pos_axis_take_settings(struct pos_axis *axis, uint8_t inputs)
         set_polarity(axis);
     }
     axis->feed_of_speed = 0;
-    axis->speed_of_feed = 0;
     set_watch(axis, inputs);
 }
 

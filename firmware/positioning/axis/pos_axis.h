@@ -87,7 +87,7 @@ struct pos_axis {
     uint32_t feed;          /* wanted; 1/65 536 mm/min */
     uint32_t feed_of_speed; /* the last one of which the speed was computed, which takes long, */
     uint32_t speed_of_feed; /* and that speed */
-    uint32_t speed;         /* that the drive has; 0: it is held */
+    uint32_t speed;         /* that the drive has, while it moves; 0: it is held */
     uint16_t error;         /* enum pos_error */
     uint16_t captures;
     uint8_t state; /* enum pos_state */

@@ -118,7 +118,6 @@ bool pos_axis_aim(struct pos_axis *axis, int64_t step)
         .backward = way.backward,
     };
     pos_drive_aim(&axis->drive, &measure);
-    axis->speed = 0;
     pos_axis_mark(axis, POS_CNT_CONT, 0);
     return true;
 }
@@ -147,7 +146,6 @@ void pos_axis_give_up(struct pos_axis *axis, bool fault)
     pos_axis_mark(axis, 0, (unsigned)POS_CNT_INIC | (unsigned)POS_CNT_CONT);
     clear_watch(axis);
     if (!pos_axis_is_busy(axis)) {
-        pos_axis_look(axis);
         pos_frame_give_up(&axis->frame);
     } else if (fault) {
         tell(axis, hal_time_now(), HAL_TRACE_STOP, AXIS_CAUSE_FAULT);
@@ -215,7 +213,6 @@ static void end(struct pos_axis *axis, uint8_t inputs)
         return;
     }
     bool left = pos_drive_left(&axis->drive) != 0U;
-    axis->speed = 0;
     if (axis->phase != (uint8_t)POS_PHASE_NONE && (axis->found || !left)) {
         pos_home_follow(axis, inputs);
     } else if (!left) {
@@ -326,7 +323,6 @@ static void watch_limit(struct pos_axis *axis, int8_t input)
 {
     hal_step_hold();
     axis->watch.limit = input;
-    axis->watch.limit_hit = false;
     hal_step_release();
 }
 

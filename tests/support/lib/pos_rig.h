@@ -99,6 +99,17 @@ static inline void rig_run_ms(uint64_t ms)
     rig_run_ticks(ms * TICKS_PER_MS);
 }
 
+static inline uint64_t rig_be_late(void *context)
+{
+    (void)context;
+    return TICK_NEVER;
+}
+
+static inline void rig_run_without_main(uint64_t ticks)
+{
+    host_machine_run(&machine, machine.now + ticks, rig_be_late, NULL, NULL);
+}
+
 /* Runs until an axis stands, or for so long. */
 static inline void rig_run_until_rest(unsigned axis, uint64_t ms)
 {

@@ -18,11 +18,11 @@ static uint64_t poll(void *context)
     return rig_poll(context);
 }
 
-/* The switch follows the motor within 10 us. */
+/* The switch follows the motor within 50 us, before the next pulse. */
 static void run_ms(uint64_t ms)
 {
-    for (uint64_t i = 0; i < ms * 100U; i++) {
-        host_machine_run(&machine, machine.now + TICKS_PER_MS / 100U, poll, NULL, NULL);
+    for (uint64_t i = 0; i < ms * 20U; i++) {
+        host_machine_run(&machine, machine.now + TICKS_PER_MS / 20U, poll, NULL, NULL);
     }
 }
 
@@ -351,6 +351,43 @@ void test_a_way_of_homing_below_a_step_is_a_fault_at_once(void)
     run_ms(10);
     TEST_ASSERT_EQUAL_UINT16(POS_ERROR_HOME, rig_values(1).error);
     TEST_ASSERT_EQUAL_UINT(0, rig_pulses[0]);
+}
+
+/* It has left the switch, comes back to it for a moment, and main is late. */
+void test_the_first_edge_off_the_switch_is_the_reference(void)
+{
+    switch_from = -100000;
+    home(19, 0);
+    run_until(POS_PHASE_LEAVE);
+    run_ms(50);
+    int64_t left = rig_position[0];
+    (void)pos_axis_sense_isr(&unit.axes[0], 0);
+    rig_run_without_main(TICKS_PER_MS);
+    (void)pos_axis_sense_isr(&unit.axes[0], 1U << (SWITCH - 1U));
+    (void)pos_axis_sense_isr(&unit.axes[0], 0);
+    TEST_ASSERT_TRUE(rig_position[0] < left);
+    switch_from = 100000;
+    run_ms(3000);
+    assert_home(0);
+    TEST_ASSERT_EQUAL_INT64(left, rig_position[0]);
+}
+
+void test_a_homing_that_is_given_up_at_the_switch_leaves_no_hold_that_stays(void)
+{
+    home(19, 0);
+    for (unsigned i = 0; i < 5000 && !unit.axes[0].found; i++) {
+        run_ms(1);
+    }
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+    run_ms(100);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_mode(&unit, NULL, 100000, ACCEL, 1));
+    (void)pos_control(&unit, NULL, FEED(1000), 1, 1);
+    run_ms(200);
+    (void)pos_control(&unit, NULL, FEED(1000), 0, 1);
+    run_ms(10);
+    (void)pos_control(&unit, NULL, FEED(1000), 1, 1);
+    run_ms(2);
+    TEST_ASSERT_TRUE(rig_values(1).speed > FEED(600));
 }
 
 /* The tick interrupt, between the resume and the look at what it has found. */
