@@ -31,6 +31,7 @@ INPUT_BYTES_MAX = {
     "message": 250,
     "modbus": 250,
     "path": 200,
+    "pos-unit": 250,
     "program": 96,
     "unit": 250,
 }
