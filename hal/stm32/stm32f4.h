@@ -49,6 +49,7 @@
 #define RCC_APB1ENR_USART2EN (1U << 17)
 #define RCC_APB1ENR_USART3EN (1U << 18)
 #define RCC_APB1ENR_PWREN (1U << 28)
+#define RCC_APB2ENR_TIM1EN (1U << 0)
 #define RCC_APB2ENR_USART1EN (1U << 4)
 #define RCC_APB2ENR_ADC1EN (1U << 8)
 #define RCC_APB2ENR_SYSCFGEN (1U << 14)
@@ -121,12 +122,15 @@
 #define EXTI_FTSR STM32_REGISTER(EXTI_BASE + 0x0CU) /* 12.3.4 */
 #define EXTI_PR STM32_REGISTER(EXTI_BASE + 0x14U)   /* 12.3.6 */
 
-/* The two timers of 32 bits. TIM2 is the unit's time and calls the step interrupt; the STEP pins are channels of both.
+/* TIM1 has 16 bits; the bring-up image captures pulses with it.
+ *
+ * The two timers of 32 bits. TIM2 is the unit's time and calls the step interrupt; the STEP pins are channels of both.
  * TIM5 captures the low-speed oscillator before that. */
 #define TIM2_BASE 0x40000000U
 #define TIM3_BASE 0x40000400U /* of 16 bits: DIR */
-#define TIM4_BASE 0x40000800U /* of 16 bits: PWM */
+#define TIM4_BASE 0x40000800U /* of 16 bits: PWM; captures pulses, too */
 #define TIM5_BASE 0x40000C00U
+#define TIM1_BASE 0x40010000U
 #define TIM_CR1(base) STM32_REGISTER((base) + 0x00U)   /* 18.4.1 */
 #define TIM_DIER(base) STM32_REGISTER((base) + 0x0CU)  /* 18.4.4 */
 #define TIM_SR(base) STM32_REGISTER((base) + 0x10U)    /* 18.4.5 */
@@ -138,6 +142,7 @@
 #define TIM_PSC(base) STM32_REGISTER((base) + 0x28U)   /* 18.4.11 */
 #define TIM_ARR(base) STM32_REGISTER((base) + 0x2CU)   /* 18.4.12 */
 #define TIM_CCR1(base) STM32_REGISTER((base) + 0x34U)  /* 18.4.13 */
+#define TIM_CCR2(base) STM32_REGISTER((base) + 0x38U)  /* 18.4.14 */
 #define TIM2_CNT STM32_REGISTER(TIM2_BASE + 0x24U)     /* 18.4.10 */
 #define TIM2_CCR4 STM32_REGISTER(TIM2_BASE + 0x40U)    /* 18.4.16 */
 #define TIM5_CCMR2 STM32_REGISTER(TIM5_BASE + 0x1CU)   /* 18.4.8 */
@@ -149,16 +154,23 @@
 #define TIM_DIER_CC4IE (1U << 4)
 #define TIM_DIER_CC1DE (1U << 9)
 #define TIM_SR_CC1IF (1U << 1)
+#define TIM_SR_CC2IF (1U << 2)
 #define TIM_SR_CC4IF (1U << 4)
+#define TIM_SR_CC1OF (1U << 9)
+#define TIM_SR_CC2OF (1U << 10)
 #define TIM_EGR_UG (1U << 0)
 #define TIM_EGR_CC1G (1U << 1)
 #define TIM_EGR_CC4G (1U << 4)
+#define TIM_CCMR1_CC1S(n) ((n) << 0)
 #define TIM_CCMR1_OC1PE (1U << 3)
 #define TIM_CCMR1_OC1M(n) ((n) << 4)
+#define TIM_CCMR1_CC2S(n) ((n) << 8)
 #define TIM_CCMR1_OC2PE (1U << 11)
 #define TIM_CCMR1_OC2M(n) ((n) << 12)
 #define TIM_CCER_CC1E (1U << 0)
 #define TIM_CCER_CC1P (1U << 1)
+#define TIM_CCER_CC2E (1U << 4)
+#define TIM_CCER_CC2P (1U << 5)
 #define TIM_CCER_CC4E (1U << 12)
 #define TIM5_CCMR2_CC4S(n) ((n) << 8)
 #define TIM5_CCMR2_IC4PSC(n) ((n) << 10)

@@ -15,12 +15,19 @@
 #include <stdint.h>
 
 #include "hal_run.h"
+#include "hal_step.h"
 
 /* Each answers a command on the line. */
 void bringup_part_tell(void);
 void bringup_clock_tell(void);
 void bringup_inputs_tell(void);
 void bringup_cycles_tell(void);
+
+/* Its own clocks: the unit's time and the processor's cycles, of 32 bits each. */
+void bringup_clock_tell_now(void);
+
+/* The clock of the timers on a bus. */
+uint32_t bringup_timer_hz(uint32_t bus_hz);
 
 /* What the part says of its last reset, which the start of the board clears: taken before that. */
 void bringup_part_take_reset(void);
@@ -40,6 +47,18 @@ void bringup_measure_tell_supply(void);
 
 /* Counts the cycles of each interrupt from now on; the interrupts have been started. */
 void bringup_cycles_start(void);
+
+/* The pin at which pulses are captured rests, an input that is pulled down. */
+void bringup_capture_start(void);
+
+/* The level of that pin; false where the board has none. */
+bool bringup_capture_read(void);
+
+/* Makes pulses of a motor, 1 to 4, and tells what was captured of them. A null answer: done; else why not. */
+const char *bringup_capture_tell(uint32_t number);
+
+/* The pulses of that. Step interrupt. */
+unsigned bringup_capture_lay_isr(void *context, unsigned motor, struct hal_step_room *room);
 
 /* Switches one of the wires of a kind on and all others of all kinds off; number 0: all off. A null answer: done, and
  * the levels that the pins have now were told; else why not. */

@@ -15,6 +15,18 @@ static void tell(const char *name, uint32_t value)
     say_line_end();
 }
 
+/* Twice that of the bus where that is divided (RM0090 7.2). */
+uint32_t bringup_timer_hz(uint32_t bus_hz)
+{
+    return bus_hz == stm32_board_clock.core_hz ? bus_hz : 2U * bus_hz;
+}
+
+void bringup_clock_tell_now(void)
+{
+    tell("ticks", TIM2_CNT);
+    tell("cycles", DWT_CYCCNT);
+}
+
 void bringup_clock_tell(void)
 {
     uint32_t control = RCC_CR;

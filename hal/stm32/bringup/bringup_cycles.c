@@ -1,8 +1,12 @@
 #include "base_limits.h"
+#include "board.h"
 #include "bringup.h"
 #include "stm32_line.h"
 #include "stm32_private.h"
 #include "stm32f4.h"
+#ifdef BOARD_STEP_CLASS
+#include "stm32_gpio_private.h"
+#endif
 
 /* The vector table in RAM. */
 extern uint32_t stm32_vectors[];
@@ -19,10 +23,11 @@ enum timed {
     TIMED_TICK,
     TIMED_EDGE,
     TIMED_PLAN,
+    TIMED_REFILL, /* of steps of class 2 */
     TIMED
 };
 
-static const char *const names[TIMED] = {"step", "line", "tick", "edge", "plan"};
+static const char *const names[TIMED] = {"step", "line", "tick", "edge", "plan", "refill"};
 
 /* Each entry is written by its own interrupt only. */
 static struct {
@@ -75,6 +80,15 @@ static void time_plan(void)
     note(TIMED_PLAN, DWT_CYCCNT - begin);
 }
 
+#ifdef BOARD_STEP_CLASS
+static void time_refill(void)
+{
+    uint32_t begin = DWT_CYCCNT;
+    stm32_step_refill_interrupt();
+    note(TIMED_REFILL, DWT_CYCCNT - begin);
+}
+#endif
+
 static void set_vector(uint32_t number, void (*handler)(void))
 {
     stm32_vectors[number] = (uint32_t)(uintptr_t)handler;
@@ -92,6 +106,9 @@ void bringup_cycles_start(void)
         set_vector(EXCEPTIONS + stm32_edge_irq(input), time_edge);
     }
     set_vector(EXCEPTIONS + TIM2_IRQ, time_step);
+#ifdef BOARD_STEP_CLASS
+    set_vector(EXCEPTIONS + REFILL_IRQ, time_refill);
+#endif
     set_vector(EXCEPTIONS + STM32_LINE_IRQ, time_line);
     stm32_barrier();
     stm32_unmask(mask);

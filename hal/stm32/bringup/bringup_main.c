@@ -10,7 +10,7 @@
 #include "hal_time.h"
 
 enum {
-    VERSION = 1, /* of the commands and answers; bringup/talk.py knows it */
+    VERSION = 2, /* of the commands and answers; bringup/talk.py knows it */
     COMMAND_BYTES_MAX = 8,
     WATCH_MS = 100,
 };
@@ -77,6 +77,9 @@ static bool tell(char letter)
         bringup_clock_tell();
         bringup_measure_tell_oscillator();
         return true;
+    case 'k':
+        bringup_clock_tell_now();
+        return true;
     case 'v':
         bringup_measure_tell_supply();
         return true;
@@ -112,7 +115,7 @@ static void set(char letter, const struct command *command)
     uint32_t number = 0;
     const char *why = "number";
     if (command->length > 1U && read_number(command, &number)) {
-        why = bringup_outputs_set(letter, number);
+        why = letter == 's' ? bringup_capture_tell(number) : bringup_outputs_set(letter, number);
     }
     if (why == NULL) {
         say_end(letter);
@@ -121,12 +124,18 @@ static void set(char letter, const struct command *command)
     }
 }
 
+/* The letters of commands that have a number. */
+static bool has_number(char letter)
+{
+    return letter == 'o' || letter == 'e' || letter == 'd' || letter == 'a' || letter == 's';
+}
+
 static void obey(const struct command *command)
 {
     char letter = (char)command->bytes[0];
     if (command->broken) {
         say_error('?', "broken");
-    } else if (letter == 'o' || letter == 'e' || letter == 'd') {
+    } else if (has_number(letter)) {
         set(letter, command);
     } else if (command->length == 1U && tell(letter)) {
         finish(letter);
@@ -159,12 +168,14 @@ static void plan_nothing(void *context)
 
 int main(void)
 {
-    static const struct hal_client client = {.tick_isr = bringup_inputs_isr, .plan_isr = plan_nothing};
+    static const struct hal_client client = {
+        .lay_isr = bringup_capture_lay_isr, .tick_isr = bringup_inputs_isr, .plan_isr = plan_nothing};
     struct command command = {.length = 0};
     struct hal_line_byte byte;
     bringup_part_take_reset();
     bringup_measure_oscillator();
     hal_board_init();
+    bringup_capture_start();
     hal_run_start(&client);
     bringup_cycles_start();
     say_ready();

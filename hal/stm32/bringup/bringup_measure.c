@@ -35,11 +35,9 @@ static const uint32_t calibration_at = 0x1FFF7A2AU;
 
 static uint32_t lsi_hz;
 
-/* The clock of timers on APB1: twice that of the bus where that is divided (RM0090 7.2). */
 static uint32_t timer_hz(void)
 {
-    const struct stm32_clock *clock = &stm32_board_clock;
-    return clock->apb1_hz == clock->core_hz ? clock->apb1_hz : 2U * clock->apb1_hz;
+    return bringup_timer_hz(stm32_board_clock.apb1_hz);
 }
 
 static void start_oscillator(void)

@@ -54,6 +54,10 @@
     X(LED_7, B, 3, OUT)                                                                                                \
     X(LED_8, B, 7, OUT)
 
+/* Where the bring-up image captures what a wire brings it: channel 1 of TIM1 or TIM4. The pin is the PWM output of
+ * other units. */
+#define BOARD_CAPTURE_PINS(X) X(CAPTURE, B, 6, TIM4_CH1)
+
 /* Pins without a signal that are pulled up, so that a part beside them rests. */
 #define BOARD_PULLED_UP(X)
 
