@@ -8,13 +8,14 @@ import os
 import re
 import shutil
 import socket
-import subprocess
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
 import pytest
-from rkm04_tools import board, virtual_board
+from bringup_bench import INNER, Bench, Hands, powered
+from rkm04_tools import board
 from rkm04_tools.bringup import command, talk
 from rkm04_tools.bringup.part import option_bytes
 from rkm04_tools.bringup.plan import STEPS
@@ -22,23 +23,10 @@ from rkm04_tools.line_errors import GarbledAnswer, NoAnswer
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("RKM04_BUILD") or ROOT / "build" / "host") / "bin" / "rkm04-vboard"
-INNER = {"address switch": 1, "outputs": 8, "LEDs": 4, "directions": 4}
-"""Questions inside of a step."""
-PRESSED_MS, APART_MS, ROUNDS = 60, 20, 90
-
 modelled = pytest.mark.skipif(
     not PROGRAM.is_file() or not shutil.which(board.COMPILER),
     reason="there is no virtual board, or no compiler for the image",
 )
-
-
-def pressing() -> str:
-    """Somebody who presses one input after the other, again and again."""
-    lines = []
-    for i in range(8 * ROUNDS):
-        at = 100 + i * (PRESSED_MS + APART_MS)
-        lines += [f"{at},{i % 8 + 1},1", f"{at + PRESSED_MS},{i % 8 + 1},0"]
-    return "\n".join([*lines, ""])
 
 
 def answers(*, leave: Sequence[str] = (), until: str = "", no: Sequence[int] = ()) -> str:
@@ -63,34 +51,17 @@ def typed(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
     return lambda text: monkeypatch.setattr("sys.stdin", io.StringIO(text))
 
 
-@pytest.fixture(scope="module")
-def elf() -> Path:
-    return board.build(board.DEFAULT_BOARD, what=board.BRINGUP).file("elf")
-
-
 @pytest.fixture
-def powered(elf: Path, tmp_path: Path) -> Iterator[Callable[..., str]]:
-    """Power on a virtual board with the image; where its line is."""
-    running: list[subprocess.Popen[str]] = []
+def power(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Bench]]:
+    """Power on a virtual board with the image, in virtual time."""
+    with ExitStack() as running:
 
-    def begin(*options: str) -> str:
-        (tmp_path / "pins").write_text(virtual_board.board_pins(board.DEFAULT_BOARD))
-        (tmp_path / "inputs").write_text(pressing())
-        arguments = ["--elf", elf, "--pins", tmp_path / "pins", "--inputs", tmp_path / "inputs"]
-        line = [PROGRAM, *arguments, "--tcp", "0", "--for", "300", *options]
-        process = subprocess.Popen(
-            list(map(str, line)), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
-        )
-        running.append(process)
-        assert process.stderr is not None
-        match = re.search(r"socket://\S+", process.stderr.readline())
-        assert match
-        return match[0]
+        def begin(*options: str, name: str = board.DEFAULT_BOARD) -> Bench:
+            return running.enter_context(
+                powered(tmp_path, monkeypatch, name, *options, pressed=True)
+            )
 
-    yield begin
-    for process in running:
-        process.kill()
-        process.communicate()
+        yield begin
 
 
 def step(report: dict[str, Any], name: str) -> dict[str, Any]:
@@ -112,16 +83,17 @@ def bad(report: dict[str, Any]) -> list[str]:
 
 
 @modelled
-def test_a_good_board_is_gone_through_and_all_is_good(tool, powered, typed, tmp_path):
-    port = powered("--option-bytes", "0fffaae1", "--lsi", "30000", "--supply", "3.25")
-    typed(answers())
+def test_a_good_board_is_gone_through_and_all_is_good(tool, power, monkeypatch, tmp_path):
+    bench = power("--option-bytes", "0fffaae1", "--lsi", "30000", "--supply", "3.25")
+    monkeypatch.setattr("sys.stdin", Hands(bench.walked()))
 
-    result = tool("bringup", "--port", port, "--json", "--report", tmp_path / "report.txt")
+    result = tool("bringup", "--port", "virtual", "--json", "--report", tmp_path / "report.txt")
 
     report = result.json
     assert bad(report) == []
     assert (result.status, report["complete"], report["good"]) == (0, True, True)
     assert seen(report, "part", "flash") == ("1024 kB", "good")
+    assert seen(report, "pulses", "pulses") == ("16 of 16", "good")
     assert seen(report, "part", "brown-out reset")[0].startswith("level 3")
     assert seen(report, "start", "last reset")[0] == "brown-out, reset pin, power-on"
     assert seen(report, "clocks", "clock") == ("168 MHz", "good")
@@ -137,12 +109,12 @@ def test_a_good_board_is_gone_through_and_all_is_good(tool, powered, typed, tmp_
 
 
 @modelled
-def test_what_is_wrong_with_a_board_is_found_and_what_was_not_done_is_told(tool, powered, typed):
-    port = powered("--flash-kb", "512", "--stuck", "PC2=1", "--stuck", "PC5=0", "--stuck", "PB8=0",
+def test_what_is_wrong_with_a_board_is_found_and_what_was_not_done_is_told(tool, power, typed):
+    power("--flash-kb", "512", "--stuck", "PC2=1", "--stuck", "PC5=0", "--stuck", "PB8=0",
                    "--stuck", "PB10=1", "--supply", "3.05")  # fmt: skip
-    typed(answers(leave=["LEDs"], no=[1], until="interrupts"))
+    typed(answers(leave=["LEDs"], no=[1], until="enables"))
 
-    result = tool("bringup", "--port", port, "--json", "--patience", "2")
+    result = tool("bringup", "--port", "virtual", "--json", "--patience", "2")
 
     report = result.json
     assert (result.status, report["complete"], report["good"]) == (1, False, False)
@@ -162,13 +134,14 @@ def test_what_is_wrong_with_a_board_is_found_and_what_was_not_done_is_told(tool,
 
 
 @modelled
-def test_a_board_without_a_crystal_is_told_and_its_leds_and_directions_too(tool, powered, typed):
-    port = powered("--no-crystal")
-    few = [step.name for step in STEPS if step.name not in ("line", "clocks", "LEDs", "directions")]
+def test_a_board_without_a_crystal_is_told_and_its_leds_and_directions_too(tool, power, typed):
+    power("--no-crystal")
+    done = ("line", "clocks", "LEDs", "directions", "pulses")
+    few = [step.name for step in STEPS if step.name not in done]
     text = answers(leave=few).replace("y\ny\ny\ny\n", "")
     typed(text)
 
-    result = tool("bringup", "--port", port)
+    result = tool("bringup", "--port", "virtual")
 
     assert result.status == 1
     assert re.search(r"BAD +crystal +does not run +runs, 8 MHz", result.out)
@@ -178,14 +151,14 @@ def test_a_board_without_a_crystal_is_told_and_its_leds_and_directions_too(tool,
 
 
 @modelled
-def test_an_image_for_other_pins_ends_the_walk_before_anything_is_switched(tool, powered, typed):
-    port = powered()
+def test_an_image_for_other_pins_ends_the_walk_before_anything_is_switched(tool, power, typed):
+    power()
     typed(answers())
 
-    result = tool("bringup", "--board", "weact-f405", "--port", port)
+    result = tool("bringup", "--board", "weact-f405", "--port", "virtual")
 
     assert result.status == 1
-    assert "the board has the image bringup-f405 1, not bringup-weact-f405 1" in result.out
+    assert "the board has the image bringup-f405 2, not bringup-weact-f405 2" in result.out
     assert "NOT DONE: line, part" in result.out
 
 
@@ -258,7 +231,7 @@ def whole(text: bytes, letter: bytes) -> bytes:
     return text + b"end %s %d\n" % (letter, sum(text))
 
 
-READY = whole(b"ready bringup-f405 1\n", b"h")
+READY = whole(b"ready bringup-f405 2\n", b"h")
 
 
 @pytest.mark.parametrize(
@@ -268,14 +241,14 @@ READY = whole(b"ready bringup-f405 1\n", b"h")
         READY.replace(b"ready", b"rea\xffy"),
         READY[:-3],
         b"error ? broken\n",
-        whole(b"ready bringup-f405 1\n", b"p"),
+        whole(b"ready bringup-f405 2\n", b"p"),
         b"\xff" * 500,
     ],
 )
 def test_an_answer_that_was_damaged_is_asked_for_again(before):
     line = FakeLine(before, READY)
 
-    assert talk.Talk(line).ask("h").words("ready") == ["bringup-f405", "1"]
+    assert talk.Talk(line).ask("h").words("ready") == ["bringup-f405", "2"]
     assert line.sent == [b"\nh\n"] * 2
 
 
@@ -316,8 +289,9 @@ class InterruptedHands:
 def test_ctrl_c_among_the_outputs_switches_them_off_and_tells_what_was_not_done(
     tool, monkeypatch, tmp_path
 ):
-    on = whole(b"outputs 01\nleds 00\ndirections 00\nsteps 00\n", b"o")
-    line = FakeLine(READY, on, on)
+    rest = b"leds 00\ndirections 00\nsteps 00\nenables 00\ninputs 00\ncapture 0\n"
+    off, on = (whole(b"outputs %s\n" % mask + rest, b"o") for mask in (b"00", b"01"))
+    line = FakeLine(READY, off, on, off)
     monkeypatch.setattr(command, "open_transport", lambda _: line)
     early = [step.name for step in STEPS[1:] if step.name != "outputs"]
     kept = answers(leave=early, until="LEDs").splitlines()
@@ -326,7 +300,7 @@ def test_ctrl_c_among_the_outputs_switches_them_off_and_tells_what_was_not_done(
     result = tool("bringup", "--port", "x", "--report", tmp_path / "report.txt")
 
     assert result.status == 130
-    assert line.sent[1:] == [b"\no1\n", b"\no0\n"]
+    assert line.sent[1:] == [b"\no0\n", b"\no1\n", b"\no0\n"]
     assert "interrupted" in result.out
     assert "outputs: not done" in (tmp_path / "report.txt").read_text()
 

@@ -17,8 +17,9 @@ from rkm04_tools.tree import ROOT
 from wires import times_us, wires
 
 GOOD = (board.BOARDS / "f405" / "board.h").read_text()
-PLAIN = GOOD.partition("#define BOARD_PWM_PINS")[0] + GOOD.partition("X(LED_8, B, 7, OUT)")[2]
-"""Without the pins that only some units have."""
+CAPTURE = "X(CAPTURE, B, 6, TIM4_CH1)"
+PLAIN = GOOD.partition("#define BOARD_PWM_PINS")[0] + GOOD.partition(CAPTURE)[2]
+"""Without the pins that only some images have."""
 
 
 @pytest.mark.parametrize("name", board.names())
@@ -138,6 +139,9 @@ FIRST = "X(STEP_1, A, 0, TIM5_CH1)"
         ("X(PWM, B, 6, TIM4_CH1)", "X(PWM, A, 15, OUT)", "PWM must be one of TIM4_CH1"),
         ("X(LED_8, B, 7, OUT)", "X(LED_9, B, 7, OUT)", "LED_9 is not a signal"),
         ("X(LED_8, B, 7, OUT)", "X(LED_8, B, 7, IN)", "LED_8 cannot be IN"),
+        (CAPTURE, "X(CAPTURE, B, 6, TIM4_CH2)", "CAPTURE must be one of TIM1_CH1, TIM4_CH1"),
+        (CAPTURE, "X(CAPTURE, A, 8, TIM4_CH1)", "PA8 has no TIM4_CH1"),
+        (CAPTURE, "X(CAPTURE, A, 8, TIM1_CH1)", "PA8 is used twice: LINE_DE and CAPTURE"),
         ("X(BI_1, C, 0, IN_UP)", "X(BI_9, C, 0, IN_UP)", "BI_9 is not a signal"),
         ('"LQFP64"', '"LQFP65"', "BOARD_PACKAGE must be one of"),
     ],

@@ -39,7 +39,12 @@ PWM_CHANNELS = {
     "TIM4_CH3": {"B8", "D14"},
     "TIM4_CH4": {"B9", "D15"},
 }
-CHANNELS = {"STEP": TIMER_CHANNELS, "DIR": TURN_CHANNELS}
+# And those of the timers with which the bring-up image captures pulses (1 and 2).
+CAPTURE_CHANNELS = {"TIM1_CH1": {"A8", "E9"}, "TIM4_CH1": {"B6", "D12"}}
+CHANNELS = {
+    "STEP": TIMER_CHANNELS, "DIR": TURN_CHANNELS, "PWM": PWM_CHANNELS, "CAPTURE": CAPTURE_CHANNELS,
+}  # fmt: skip
+BY_CLASS = {"STEP": "GPIO", "DIR": "OUT"}
 LINE_PINS = {
     "USART1": {"TX": {"A9", "B6"}, "RX": {"A10", "B7"}},
     "USART2": {"TX": {"A2", "D5"}, "RX": {"A3", "D6"}},
@@ -60,7 +65,9 @@ SIGNALS = [
     *(f"{name}_{i}" for name in ("BI", "BO") for i in range(1, 9)),
     *("LINE_DE", "LINE_TX", "LINE_RX"),
 ]
-MAY_BE = {"PWM", *(f"LED_{i}" for i in range(5, 9))}
+MAY_BE = {"PWM", "CAPTURE", *(f"LED_{i}" for i in range(5, 9))}
+# The bring-up image has no PWM output.
+APART = {"PWM", "CAPTURE"}
 ENABLES = [["EN_ALL"], [f"EN_{i}" for i in range(1, 5)]]
 INPUTS = {"BI", "S1"}
 
@@ -75,9 +82,9 @@ def use_errors(pin: Pin, line: str, step_class: str) -> Iterator[str]:
     kind, _, which = pin.signal.partition("_")
     if kind in SAFE_AT_RESET and pin.pin in PULLED_UP:
         yield f"{pin.signal}: P{pin.pin} is pulled up at reset as {PULLED_UP[pin.pin]}"
-    channels = PWM_CHANNELS if kind == "PWM" else CHANNELS.get(kind, {})
-    if channels and kind in CHANNELS and step_class == "2":
-        if pin.use != (wanted := "GPIO" if kind == "STEP" else "OUT"):
+    channels = CHANNELS.get(kind, {})
+    if kind in BY_CLASS and step_class == "2":
+        if pin.use != (wanted := BY_CLASS[kind]):
             yield f"{pin.signal} must be {wanted}, as BOARD_STEP_CLASS says, not {pin.use}"
     elif channels:
         if pin.use not in channels:
@@ -101,7 +108,7 @@ def enable_errors(names: list[str]) -> Iterator[str]:
 
 
 def channel_errors(pins: list[Pin]) -> Iterator[str]:
-    """A channel has one pin."""
+    """A channel has one pin; that of the bring-up image may be one that only others have."""
     owners: dict[str, Pin] = {}
     for pin in pins:
         if "_CH" in pin.use and (owner := owners.setdefault(pin.use, pin)) is not pin:
@@ -123,7 +130,7 @@ def find_errors(text: str) -> Iterator[str]:
         yield f"{name} {'is not a signal' if name in names else 'has no pin'}"
     owners: dict[str, str] = {}
     for pin in board.pins:
-        if pin.pin in owners:
+        if pin.pin in owners and not {pin.signal, owners[pin.pin]} <= APART:
             yield f"P{pin.pin} is used twice: {owners[pin.pin]} and {pin.signal}"
         owners[pin.pin] = pin.signal
         if pin.pin not in PACKAGES.get(package, {pin.pin}):
@@ -131,7 +138,7 @@ def find_errors(text: str) -> Iterator[str]:
         if occupant := board.taken.get(pin.pin) or DEBUG.get(pin.pin):
             yield f"{pin.signal}: P{pin.pin} belongs to {occupant}"
         yield from use_errors(pin, f"USART{board.values.get('BOARD_USART')}", step_class)
-    yield from channel_errors(board.pins)
+    yield from channel_errors([pin for pin in board.pins if pin.signal != "CAPTURE"])
 
 
 def main(arguments: list[str]) -> int:

@@ -21,7 +21,7 @@ AT_ONCE = "an edge acts at once"
 EVERY_MS = "looked at every millisecond, as {} has its line for edges"
 MORE = {"PWM", *(f"LED_{number}" for number in range(5, 9))}
 """What units on RS-485 do not have, and what they have that those of full duplex do not."""
-FEWER = {f"S1_{number}" for number in range(1, 5)}
+FEWER = {"CAPTURE", *(f"S1_{number}" for number in range(1, 5))}
 LEVELS = {"EN": "ENABLE", "LINE": ""}
 """As a header names the level of a kind, where not as the kind; empty: it has none."""
 
@@ -61,6 +61,8 @@ def _what(header: Board, pin: Pin) -> str:
         return _enable(header)
     if kind == "PWM":
         return f"{pin.use.replace('_CH', ' channel ')}, 1 kHz"
+    if kind == "CAPTURE":
+        return f"{pin.use.replace('_CH', ' channel ')}, for the bring-up image"
     return pin.use if pin.signal in ("LINE_TX", "LINE_RX") else ""
 
 

@@ -119,6 +119,10 @@ class Talk:
         for first in range(0, len(data), SAY_BYTES):
             self._order(f"say {data[first : first + SAY_BYTES].hex()}")
 
+    def wire(self, text: str) -> None:
+        """Lead a wire from one pin to another, as `PA0=PB6`; `none=PB6` takes it off."""
+        self._order(f"wire {text}")
+
     def until(self, ms: float) -> bytes:
         """Let time go on until then, or until the unit has sent something, which is returned."""
         self._order(f"until {max(ms, 0.0):.6f}")

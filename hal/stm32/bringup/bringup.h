@@ -23,7 +23,8 @@ void bringup_clock_tell(void);
 void bringup_inputs_tell(void);
 void bringup_cycles_tell(void);
 
-/* Its own clocks: the unit's time and the processor's cycles, of 32 bits each. */
+/* The unit's time, 32 bits of it, and how many of its ticks and of the processor's cycles pass in a millisecond, awake.
+ */
 void bringup_clock_tell_now(void);
 
 /* The clock of the timers on a bus. */
@@ -71,7 +72,8 @@ void bringup_outputs_watch(void);
 _Noreturn void bringup_hang(void);
 _Noreturn void bringup_overflow(void);
 
-/* bringup_say.c: text on the line. */
+/* bringup_say.c: text on the line. An answer begins: what was said before does not count. */
+void say_begin(void);
 void say_name(const char *name);
 void say_word(const char *word);
 void say_decimal(uint32_t value);

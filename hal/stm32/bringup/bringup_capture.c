@@ -156,8 +156,7 @@ static void start_timer(const struct timer *timer)
     TIM_ARR(timer->base) = UINT16_MAX;
     TIM_EGR(timer->base) = TIM_EGR_UG;
     TIM_CCMR1(timer->base) = TIM_CCMR1_CC1S((uint32_t)OWN_INPUT) | TIM_CCMR1_CC2S((uint32_t)OTHER_INPUT);
-    TIM_CCER(timer->base) =
-        TIM_CCER_CC1E | TIM_CCER_CC2E | (BOARD_STEP_LEVEL == 1U ? TIM_CCER_CC2P : TIM_CCER_CC1P);
+    TIM_CCER(timer->base) = TIM_CCER_CC1E | TIM_CCER_CC2E | (BOARD_STEP_LEVEL == 1U ? TIM_CCER_CC2P : TIM_CCER_CC1P);
     TIM_CR1(timer->base) = TIM_CR1_CEN;
     set_mode(MODE_ALTERNATE, timer->function);
     (void)TIM_CCR1(timer->base);

@@ -1,3 +1,4 @@
+#include "base_tick.h"
 #include "bringup.h"
 #include "stm32_private.h"
 #include "stm32f4.h"
@@ -23,8 +24,15 @@ uint32_t bringup_timer_hz(uint32_t bus_hz)
 
 void bringup_clock_tell_now(void)
 {
-    tell("ticks", TIM2_CNT);
-    tell("cycles", DWT_CYCCNT);
+    uint32_t tick = TIM2_CNT;
+    uint32_t cycles = DWT_CYCCNT;
+    while (TIM2_CNT - tick < (uint32_t)TICKS_PER_MS) {
+    }
+    uint32_t ticks_passed = TIM2_CNT - tick;
+    uint32_t cycles_passed = DWT_CYCCNT - cycles;
+    tell("ticks", tick);
+    tell("ticks_passed", ticks_passed);
+    tell("cycles_passed", cycles_passed);
 }
 
 void bringup_clock_tell(void)

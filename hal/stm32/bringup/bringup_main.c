@@ -133,6 +133,7 @@ static bool has_number(char letter)
 static void obey(const struct command *command)
 {
     char letter = (char)command->bytes[0];
+    say_begin();
     if (command->broken) {
         say_error('?', "broken");
     } else if (has_number(letter)) {

@@ -26,6 +26,11 @@ static void put_text(const char *text)
     }
 }
 
+void say_begin(void)
+{
+    sum = 0;
+}
+
 void say_name(const char *name)
 {
     put_text(name);
@@ -77,7 +82,6 @@ void say_end(char command)
     put_ending("end", command);
     say_decimal(of_answer);
     say_line_end();
-    sum = 0;
 }
 
 void say_error(char command, const char *why)
@@ -85,7 +89,6 @@ void say_error(char command, const char *why)
     put_ending("error", command);
     say_word(why);
     say_line_end();
-    sum = 0;
 }
 
 void say_wait(void)

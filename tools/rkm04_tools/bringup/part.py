@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rkm04_tools import board_options
 from rkm04_tools.board_part import FLASH_KB_MIN
+from rkm04_tools.bringup.clock import look_at_clock
 from rkm04_tools.bringup.findings import NOTE, Seen, compared, noted
 from rkm04_tools.bringup.step import Bench
 from rkm04_tools.bringup.talk import VERSION, Answer
@@ -119,6 +120,7 @@ def look_at_clocks(bench: Bench) -> list[Seen]:
         noted("wait states of the flash", answer.word("wait_states")),
         compared("low-speed oscillator", f"{answer.number('lsi_hz')} Hz",
                  "17 to 47 kHz; the watchdog's", answer.number("lsi_hz") in LSI_HZ),
+        *look_at_clock(bench),
     ]  # fmt: skip
 
 

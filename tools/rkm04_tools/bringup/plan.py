@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rkm04_tools.bringup import deeds, part, wires
+from rkm04_tools.bringup import deeds, part, pulses, wires
 from rkm04_tools.bringup.step import Step
 
 SAFETY = """\
@@ -24,7 +24,7 @@ STEPS = (
          "an STM32F405 or F407 with 1 MB of flash", part.look_at_part),
     Step("start", "Nothing to do: why the part has started.",
          "power-on or reset pin", part.look_at_start),
-    Step("clocks", "Nothing to do: what drives the processor, and the watchdog.",
+    Step("clocks", "Nothing to do: what drives the processor, and the watchdog; 5 s.",
          "the crystal, by the PLL, 168 MHz", part.look_at_clocks),
     Step("supply", "Nothing to do: the part measures its supply by its own reference.",
          "3.3 V", part.look_at_supply),
@@ -38,6 +38,16 @@ STEPS = (
     Step("LEDs", f"{ONE_BY_ONE}\nFirst LED_1.", "each on alone", wires.walk("LED")),
     Step("directions", f"The DIR pins, motors still unpowered. {ONE_BY_ONE}\nFirst DIR_1.",
          "each on alone", wires.walk("DIR")),
+    Step("enables",
+         "The ENABLE pins: a driver that is on lets current through a motor, so motors and their\n"
+         f"supply still off. {ONE_BY_ONE} A wire from one to an\n"
+         "input or to CAPTURE shows it as well.",
+         "each on alone", wires.walk("EN")),
+    Step("pulses",
+         "The STEP pins, one after the other: you lead a wire from it to CAPTURE, and a second\n"
+         "timer measures 16 pulses, 60 to 135 us apart. Where none comes, the other STEP pins get\n"
+         "pulses, and all outputs go on one by one, to see where the wire leads.",
+         "all pulses, on their ticks, as wide as the board says", pulses.measure),
     Step("interrupts", "Nothing to do: how long the interrupts have taken, in cycles.",
          "the clock of 1 ms comes", wires.look_at_cycles),
     Step("watchdog", "The image hangs on purpose; the watchdog must reset the part.",

@@ -22,6 +22,10 @@ class Bench:
     patience: float
     """Seconds without anything new after which waiting for the person's hands ends."""
 
+    def has(self, signal: str) -> bool:
+        """Whether the board has a pin for it."""
+        return any(pin.signal == signal for pin in self.header.pins)
+
     def pin_of(self, signal: str) -> str:
         """The pin of a signal, as in PA15."""
         return next(f"P{pin.pin}" for pin in self.header.pins if pin.signal == signal)

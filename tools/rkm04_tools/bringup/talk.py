@@ -9,7 +9,7 @@ from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.line_errors import GarbledAnswer, NoAnswer
 from rkm04_tools.transport import Transport
 
-VERSION = "1"
+VERSION = "2"
 """Of commands and answers; bringup_main.c has the same."""
 READY = "ready"
 TRIES = 3
@@ -64,6 +64,8 @@ class Talk:
         self.port = transport.name
         self._transport = transport
         self._buffer = b""
+        self.asked = 0.0
+        """When the last command was sent."""
 
     def ask(self, command: str, tries: int = TRIES) -> Answer:
         """Send a command; the answer, its sum being right."""
@@ -71,6 +73,7 @@ class Talk:
         for _ in range(tries):
             self._drain()
             self._transport.write(f"\n{command}\n".encode())
+            self.asked = time.monotonic()
             answer, some = self._answer(command)
             heard = heard or some
             if answer is not None:

@@ -12,11 +12,18 @@ from rkm04_tools.bringup.talk import Answer, Refused
 
 INPUTS, OUTPUTS, MOTORS = 8, 8, 4
 POLL_SECONDS = 0.3
-KINDS = {"BO": ("o", "outputs", OUTPUTS), "LED": ("e", "leds", MOTORS),
-         "DIR": ("d", "directions", MOTORS)}  # fmt: skip
-"""Letter of the command, what the pins are called in its answer, how many there are."""
+KINDS = {"BO": ("o", "outputs"), "LED": ("e", "leds"), "DIR": ("d", "directions"),
+         "EN": ("a", "enables")}  # fmt: skip
+"""Letter of the command, and what the pins are called in its answer."""
 NO_CRYSTAL = "no_crystal"
 IS_IT_SO = "y: so it is, n: it is not, q: stop here"
+
+
+def signals_of(bench: Bench, kind: str) -> list[str]:
+    """The signals of a kind that the image can switch, in the order of their numbers."""
+    if kind == "EN":
+        return [pin.signal for pin in bench.header.pins if pin.signal.startswith("EN_")]
+    return [f"{kind}_{i}" for i in range(1, (OUTPUTS if kind == "BO" else MOTORS) + 1)]
 
 
 def look_at_inputs(bench: Bench) -> list[Seen]:
@@ -28,7 +35,7 @@ def look_at_inputs(bench: Bench) -> list[Seen]:
         answer = bench.talk.ask("i")
         new = _moved(answer) - told
         for number in sorted(new):
-            bench.person.tell(f"  {_name(bench, f'BI_{number}')}: to 1 and back")
+            bench.person.tell(f"  {name_of(bench, f'BI_{number}')}: to 1 and back")
         told |= new
         now = time.monotonic()
         last = now if new else last
@@ -54,11 +61,11 @@ def _input(bench: Bench, answer: Answer, number: int) -> Seen:
     if beside:
         seen += f"; also 1 then: {', '.join(f'BI_{each}' for each in beside)}"
     good = bool(up and down and not beside)
-    what = _name(bench, f"BI_{number}")
+    what = name_of(bench, f"BI_{number}")
     return compared(what, seen, "to 1 and back to 0, alone", good)
 
 
-def _name(bench: Bench, signal: str) -> str:
+def name_of(bench: Bench, signal: str) -> str:
     return f"{signal} at {bench.pin_of(signal)}"
 
 
@@ -74,11 +81,15 @@ def walk(kind: str) -> Callable[[Bench], list[Seen]]:
     """One after the other of a kind goes on, alone."""
 
     def run(bench: Bench) -> list[Seen]:
-        letter, _, count = KINDS[kind]
+        letter, _ = KINDS[kind]
+        signals = signals_of(bench, kind)
+        if not signals:
+            return [noted(kind, "the board has none")]
         seen: list[Seen] = []
         try:
-            for number in range(1, count + 1):
-                seen += _switch(bench, kind, number)
+            rest = bench.talk.ask(f"{letter}0")
+            for number, signal in enumerate(signals, 1):
+                seen += _switch(bench, f"{letter}{number}", signal, rest)
         except Refused as refused:
             if refused.why != NO_CRYSTAL:
                 raise
@@ -90,32 +101,40 @@ def walk(kind: str) -> Callable[[Bench], list[Seen]]:
     return run
 
 
-def _switch(bench: Bench, kind: str, number: int) -> list[Seen]:
+def _switch(bench: Bench, command: str, signal: str, rest: Answer) -> list[Seen]:
     """Until the person has seen it: the image switches it off after a minute."""
-    letter, _, _ = KINDS[kind]
-    signal = f"{kind}_{number}"
-    what = _name(bench, signal)
+    what = name_of(bench, signal)
     said = AGAIN
     while said == AGAIN:
-        answer = bench.talk.ask(f"{letter}{number}")
+        answer = bench.talk.ask(command)
         bench.person.tell(f"{what} is on for a minute, all others are off.")
+        for seen in _looped(bench, answer, rest):
+            bench.person.tell(f"It is seen at {seen.seen}.")
         said = bench.person.choose(f"Is it so? r: once more, {IS_IT_SO}", YES + NO + AGAIN)
     return [
         compared(what, "on, alone" if said == YES else "not so", "on, alone", said == YES),
-        _read_back(answer, kind, number),
+        _read_back(bench, answer, signal),
+        *_looped(bench, answer, rest),
     ]
 
 
-def _read_back(answer: Answer, kind: str, number: int) -> Seen:
+def _looped(bench: Bench, answer: Answer, rest: Answer) -> list[Seen]:
+    """The inputs that follow it, where a wire leads back to one."""
+    changed = answer.number("inputs", 16) ^ rest.number("inputs", 16)
+    at = [f"BI_{i + 1}" for i in range(INPUTS) if changed >> i & 1]
+    at += ["CAPTURE"] * (answer.number("capture") != rest.number("capture"))
+    return [noted("  seen at", ", ".join(name_of(bench, each) for each in at))] if at else []
+
+
+def _read_back(bench: Bench, answer: Answer, signal: str) -> Seen:
     """What the part itself reads at its pins: a short to a neighbour is seen without a meter."""
     on = []
-    for name, (_, pins, count) in KINDS.items():
+    for kind, (_, pins) in KINDS.items():
         mask = answer.number(pins, 16)
-        on += [f"{name}_{i + 1}" for i in range(count) if mask >> i & 1]
+        on += [each for i, each in enumerate(signals_of(bench, kind)) if mask >> i & 1]
     on += [f"STEP_{i + 1}" for i in range(MOTORS) if answer.number("steps", 16) >> i & 1]
-    wanted = [f"{kind}_{number}"]
-    return compared("  read at the pins", ", ".join(on) or "none is on", f"{wanted[0]} only",
-                    on == wanted)  # fmt: skip
+    return compared("  read at the pins", ", ".join(on) or "none is on", f"{signal} only",
+                    on == [signal])  # fmt: skip
 
 
 def look_at_cycles(bench: Bench) -> list[Seen]:

@@ -54,7 +54,7 @@
     X(LED_7, B, 3, OUT)                                                                                                \
     X(LED_8, B, 7, OUT)
 
-/* Where the bring-up image captures what a wire brings it: channel 1 of TIM1 or TIM4. The pin is the PWM output of
+/* Where the bring-up image captures what a wire brings: channel 1 of TIM1 or TIM4. The pin is the PWM output of
  * other units. */
 #define BOARD_CAPTURE_PINS(X) X(CAPTURE, B, 6, TIM4_CH1)
 

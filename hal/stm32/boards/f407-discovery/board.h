@@ -55,8 +55,8 @@
 #define BOARD_ENABLE_READY_US 200U
 #define BOARD_ENABLE_IDLE_MS 60000U
 
-/* Where the bring-up image captures what a wire brings it: channel 1 of TIM1 or TIM4. Nothing else of the board is
- * at that pin. */
+/* Where the bring-up image captures what a wire brings: channel 1 of TIM1 or TIM4. Nothing else of the board is at
+ * that pin. */
 #define BOARD_CAPTURE_PINS(X) X(CAPTURE, A, 8, TIM1_CH1)
 
 /* Pins that parts on the board drive or load; checked, not used. */

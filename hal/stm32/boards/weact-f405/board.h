@@ -46,8 +46,8 @@
     X(S1_3, B, 4, IN_UP)                                                                                               \
     X(S1_4, B, 5, IN_UP)
 
-/* Where the bring-up image captures what a wire brings it: channel 1 of TIM1 or TIM4. The contact of the microSD slot at
- * that pin has 10 kOhm; leave the slot empty. */
+/* Where the bring-up image captures what a wire brings: channel 1 of TIM1 or TIM4. The pin has 10 kOhm to a
+ * contact of the microSD slot; leave that empty. */
 #define BOARD_CAPTURE_PINS(X) X(CAPTURE, A, 8, TIM1_CH1)
 
 /* Pins that parts on the board drive or load; checked, not used. */
