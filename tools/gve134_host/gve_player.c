@@ -143,8 +143,6 @@ static void go_on(struct gve_player *player)
     player->has_next = gve_script_next(&player->script, &player->next);
     if (player->has_next) {
         player->next_tick += units_ticks_of_ns(player->next.line.wait_ns);
-    }
-    if (player->has_next) {
         begin_probing(player);
     }
     if (player->has_next && player->next.opcode == GVE_PACKET_BEGIN) {
