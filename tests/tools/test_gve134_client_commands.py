@@ -328,7 +328,8 @@ def test_home_while_something_moves_is_refused(gve: Tool, unit: FakeGve) -> None
     result = gve("home", "X", "100", "1000", "20", "500")
 
     assert result.status == 1
-    assert "X was not homed: the unit is moving" in result.complaint
+    assert "the axes are moving, at X 0" in result.complaint
+    assert unit.moves
 
 
 @pytest.mark.parametrize(

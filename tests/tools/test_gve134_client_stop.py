@@ -129,6 +129,7 @@ def test_a_signal_halts_a_reference_run(
     assert status == 130
     assert unit.inta
     assert "the axes stand at" in told
+    assert "confirmed by the unit; " + SPINDLE in told
 
 
 def test_a_signal_halts_a_jog_and_deletes_the_rest(
@@ -143,7 +144,8 @@ def test_a_signal_halts_a_jog_and_deletes_the_rest(
     assert status == 130
     assert not unit.queue
     assert not unit.inta
-    assert "the axes stand at X 0  Y 0  Z 0  A 0; at rest" in told
+    assert "the axes stand at X 0  Y 0  Z 0  A 0; at rest; confirmed by the unit; " in told
+    assert SPINDLE in told
 
 
 def test_input_that_ends_lets_go_of_a_held_jog(
@@ -204,7 +206,10 @@ def test_a_restart_while_a_job_is_stopped_is_told(
     assert "the unit HAS RESTARTED, its positions count anew; the axes stand" in told
 
 
-def test_a_run_that_takes_longer_than_it_can_is_shouted(
+SPINDLE = "whether the spindle turns is NOT KNOWN, the unit cannot be asked (gve134 spindle 0"
+
+
+def test_a_run_that_takes_longer_than_it_can_is_halted(
     start_gve: Start, gve_line: FakeGveLine, unit: FakeGve
 ) -> None:
     unit.home_s = 1000.0
@@ -213,8 +218,68 @@ def test_a_run_that_takes_longer_than_it_can_is_shouted(
     status, told = end(process)
 
     assert status == 3
-    assert "STOP NOT CONFIRMED" in told
-    assert "NOT KNOWN whether the axes move" in told
+    assert unit.inta
+    assert "it is NOT KNOWN whether the axes move; halting ..." in told
+    assert "the axes stand at X 0  Y 0  Z 0  A 0; stopped, nothing waits" in told
+    assert "confirmed by the unit" in told
+    assert SPINDLE in told
+    assert "STOP NOT CONFIRMED" not in told
+
+
+MOVING = [("jog", "X100000"), ("home", "X", "-20000", "1000", "20", "500")]
+
+
+@pytest.mark.parametrize("command", MOVING)
+def test_a_line_that_breaks_in_a_motion_is_shouted_with_the_spindle(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve, command: tuple[str, ...]
+) -> None:
+    unit.vector_s = unit.home_s = 1000.0
+    process = start_gve(*command)
+    gve_line.until(lambda unit: unit.moves or unit.home_end < 1e9)
+    gve_line.close()
+
+    status, told = end(process)
+
+    assert status == 3
+    assert "it is NOT KNOWN whether the axes move; halting ..." in told
+    assert "STOP NOT CONFIRMED: " in told
+    assert "USE THE EMERGENCY STOP" in told
+    assert SPINDLE in told
+    assert "Traceback" not in told
+
+
+@pytest.mark.parametrize("command", MOVING)
+def test_a_unit_that_restarts_in_a_motion_is_told_with_the_spindle(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve, command: tuple[str, ...]
+) -> None:
+    unit.vector_s = unit.home_s = 1000.0
+    process = start_gve(*command)
+    gve_line.until(lambda unit: unit.moves or unit.home_end < 1e9)
+    with gve_line.lock:
+        unit.restart()
+
+    status, told = end(process)
+
+    assert status == 3
+    assert "HAS RESTARTED" in told
+    assert "the restart has switched the spindle off" in told
+
+
+def test_an_interrupt_in_a_jog_is_told_with_place_and_spindle(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve
+) -> None:
+    unit.vector_s = 1000.0
+    process = start_gve("jog", "X100000")
+    gve_line.until(lambda unit: unit.moves)
+    with gve_line.lock:
+        unit.interrupt(1)
+
+    status, told = end(process)
+
+    assert status == 1
+    assert "INTERRUPTED by RefX; the axes stand at X 0  Y 0  Z 0  A 0; stopped, the rest" in told
+    assert "confirmed by the unit" in told
+    assert SPINDLE in told
 
 
 class Typist:

@@ -16,7 +16,7 @@ from rkm04_tools.gve134.link_errors import Refused
 from rkm04_tools.gve134.sending import SWITCH_NOT_FOUND, causes_of
 from rkm04_tools.gve134.state import AXES, INTA, Flags, Positions, positions_text
 from rkm04_tools.gve134.stopping import (
-    guarded,
+    guarded_motion,
     halt_loudly,
     halted_text,
 )
@@ -77,23 +77,23 @@ def run_home(options: Namespace) -> int:
     command = f"W{options.axis.upper()}{','.join(parameters)}"
     require_good(command, "home")
     with unit_of(options) as unit:
-        return guarded(unit, lambda _: _home(options, unit, command))
+        unit.flags()
+        return guarded_motion(unit, lambda: _home(options, unit, command))
 
 
 def _home(options: Namespace, unit: Unit, command: str) -> int:
     axis, seconds = command[1], _home_seconds(options)
     answer = unit.link.ask_long(command, seconds)
     if answer.code == answers.NOT_WHILE_MOVING:
-        raise Refused(f"{axis} was not homed", answer, f"the unit is {unit.flags().text}")
+        raise Refused(f"{axis} was not homed", answer)
     flags, positions = unit.flags(), unit.positions()
-    at = f"the axes stand at {positions_text(positions)}"
     if answer.code == answers.BOUNDS and answer.inta:
-        raise Refused(f"{axis} was not homed", answer, f"{SWITCH_NOT_FOUND}; {at}")
+        raise Refused(f"{axis} was not homed", answer, SWITCH_NOT_FOUND)
     if answer.code != answers.DONE:
         raise Refused(f"{axis} was not homed", answer)
     if answer.inta:
         causes = ", ".join(causes_of(unit, flags)) or "what the unit does not tell"
-        raise Failure(f"{axis} was not homed: INTERRUPTED by {causes}; {at}", NOT_SO)
+        raise Failure(f"{axis} was not homed: INTERRUPTED by {causes}", NOT_SO)
     text = f"{axis} stands where its switch lets go, at {positions[AXES.index(axis)]}"
     return tell(options, {"axis": axis, **_state(flags, positions)}, text)
 
@@ -152,7 +152,7 @@ def run_jog(options: Namespace) -> int:
         print(f"gve134: {jog.text(begin)}{until}; Ctrl-C halts", file=sys.stderr, flush=True)
         if options.speed is not None:
             unit.order(f"V{options.speed}")
-        return guarded(unit, lambda _: _jog(options, unit, jog), then="D")
+        return guarded_motion(unit, lambda: _jog(options, unit, jog), then="D")
 
 
 def _jog_of(ways: list[str]) -> Jog:
@@ -178,8 +178,7 @@ def _jog(options: Namespace, unit: Unit, jog: Jog) -> int:
         unit.order("D")
     elif flags.has(INTA):
         causes = ", ".join(causes_of(unit, flags)) or "what the unit does not tell"
-        at = positions_text(unit.positions())
-        raise Failure(f"INTERRUPTED by {causes}; the axes stand at {at}; {flags.text}", NOT_SO)
+        raise Failure(f"INTERRUPTED by {causes}", NOT_SO)
     positions = unit.positions()
     text = f"the axes stand at {positions_text(positions)}"
     return tell(options, _state(unit.flags(), positions), text)

@@ -63,6 +63,7 @@ def run_send(options: Namespace) -> int:
                 lambda stopper: _send(options, sender, bar, stopper),
                 lambda: f"interrupted after {sender.sent} of {count_of(job.vectors, 'vector')}; ",
                 after=lambda halted: _executed(sender, halted),
+                spindle=lambda: sender.spindle_text,
             )
         except (NotConfirmed, Restarted):
             raise
@@ -153,7 +154,7 @@ def _executed(sender: Sender, halted: Halted) -> str:
     """What to tell of the vectors once the axes stand; nothing of a unit that has restarted."""
     if halted.restarted:
         return ""
-    return f"; {sender.executed_text(halted.positions)}; {sender.spindle_text}"
+    return f"; {sender.executed_text(halted.positions)}"
 
 
 def _send(options: Namespace, sender: Sender, bar: Bar, stopper: Stopper) -> int:

@@ -1,4 +1,5 @@
-"""Ctrl-C and other ends that a process is asked for: they halt the axes, and say so or shout.
+"""Ctrl-C, other ends that a process is asked for, and a line that is silent while axes move: they
+halt the axes, and say so or shout.
 
 The first signal is looked at between exchanges, never in the middle of one, so that H does not
 come after half a command. While H is under way a second one ends the tool at once.
@@ -12,32 +13,72 @@ from dataclasses import replace
 
 from rkm04_tools.failure import INTERRUPTED, NO_CONNECTION, Failure
 from rkm04_tools.gve134.link import HALT_SECONDS
-from rkm04_tools.gve134.link_errors import NotConfirmed
-from rkm04_tools.gve134.state import positions_text
+from rkm04_tools.gve134.link_errors import LineError, NotConfirmed, Restarted
+from rkm04_tools.gve134.state import Flags, Positions, positions_text
 from rkm04_tools.gve134.unit import Halted, Unit
 from rkm04_tools.stopper import ENDED_BEFORE, TWICE_SECONDS, Stopper, shout
+
+SPINDLE_NOT_KNOWN = (
+    "whether the spindle turns is NOT KNOWN, the unit cannot be asked (gve134 spindle 0 stops it)"
+)
+SPINDLE_AFTER_RESTART = "the restart has switched the spindle off"
 
 
 def guarded(
     unit: Unit,
     work: Callable[[Stopper], int],
     done: Callable[[], str] = lambda: "",
-    then: str = "",
     after: Callable[[Halted], str] = lambda _: "",
+    spindle: Callable[[], str] = lambda: SPINDLE_NOT_KNOWN,
 ) -> int:
     """Do what moves axes; Ctrl-C halts them.
 
-    `done` says what is to be told of the work besides, `after` what more when the axes stand;
-    `then` is a command for after the stop.
+    `done` says what is to be told of the work besides, `after` what more when the axes stand.
     """
     with Stopper(unit.link.wire) as stopper:
         try:
             return work(stopper)
         except KeyboardInterrupt:
-            return halt_at_signal(unit, stopper, done(), then, after)
+            return halt_at_signal(unit, stopper, done(), "", after, spindle)
         except NotConfirmed as error:
             shout(str(error))
             raise
+
+
+def guarded_motion(unit: Unit, work: Callable[[], int], then: str = "") -> int:
+    """Do what moves axes, and ends when they stand.
+
+    Where it ends early, by a signal, an error or a silent line, the axes are halted, and it is told
+    where they stand and what the spindle does, or shouted that nobody knows.
+    """
+    with Stopper(unit.link.wire) as stopper:
+        try:
+            try:
+                return work()
+            except LineError:
+                raise
+            except Failure as failure:
+                raise Failure(f"{failure}; {_standing(unit)}", failure.status) from None
+        except KeyboardInterrupt:
+            return halt_at_signal(unit, stopper, "", then)
+        except Restarted as error:
+            raise Failure(f"{error}; {SPINDLE_AFTER_RESTART}", error.status) from None
+        except LineError as error:
+            print(f"gve134: {error}", file=sys.stderr)
+            halt_at_signal(unit, stopper, "it is NOT KNOWN whether the axes move; ")
+            return NO_CONNECTION
+
+
+def _standing(unit: Unit) -> str:
+    """Where the axes stand, as the unit confirms it, and what the spindle does.
+
+    What another one has moved is left alone.
+    """
+    flags, positions = unit.flags(), unit.positions()
+    text = standing_text(flags, positions)
+    if not flags.stands:
+        text = f"the axes are {flags.text}, at {positions_text(positions)}"
+    return f"{text}; {SPINDLE_NOT_KNOWN}"
 
 
 def halt_at_signal(
@@ -46,6 +87,7 @@ def halt_at_signal(
     text: str = "",
     then: str = "",
     after: Callable[[Halted], str] = lambda _: "",
+    spindle: Callable[[], str] = lambda: SPINDLE_NOT_KNOWN,
 ) -> int:
     """Halt the axes, and tell where they stand and what was done; the exit status."""
     print(f"\ngve134: {text}halting ...", file=sys.stderr, flush=True)
@@ -57,11 +99,13 @@ def halt_at_signal(
                 halted = replace(halted, flags=unit.flags())
     except KeyboardInterrupt:
         shout(ENDED_BEFORE)
+        print(f"gve134: {spindle()}", file=sys.stderr)
         return INTERRUPTED
     except Failure as failure:
-        print(f"gve134: {failure}", file=sys.stderr)
+        print(f"gve134: {failure}; {spindle()}", file=sys.stderr)
         return NO_CONNECTION
-    print(f"gve134: {halted_text(halted)}{after(halted)}", file=sys.stderr)
+    turns = SPINDLE_AFTER_RESTART if halted.restarted else spindle()
+    print(f"gve134: {halted_text(halted)}{after(halted)}; {turns}", file=sys.stderr)
     return INTERRUPTED
 
 
@@ -80,7 +124,12 @@ def halt_loudly(unit: Unit) -> Halted:
 def halted_text(halted: Halted) -> str:
     """How the axes stand, in words."""
     what = "the unit HAS RESTARTED, its positions count anew; " if halted.restarted else ""
-    return f"{what}the axes stand at {positions_text(halted.positions)}; {halted.flags.text}"
+    return f"{what}{standing_text(halted.flags, halted.positions)}"
+
+
+def standing_text(flags: Flags, positions: Positions) -> str:
+    """Where the axes stand, as the unit has told."""
+    return f"the axes stand at {positions_text(positions)}; {flags.text}; confirmed by the unit"
 
 
 def _shout_meanwhile() -> None:
