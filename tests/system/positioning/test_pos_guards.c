@@ -84,6 +84,20 @@ void test_no_pulse_comes_towards_a_limit_that_is_active(void)
     TEST_ASSERT_EQUAL_INT64(-100, rig_position[0]);
 }
 
+void test_a_limit_does_not_wait_for_main(void)
+{
+    set(LIMIT_PLUS, 1, false);
+    take();
+    mode(10000);
+    rig_run_ms(200);
+    host_machine_set_input(&machine, 1, true);
+    int64_t before = rig_position[0];
+    rig_run_without_main(10 * TICKS_PER_MS);
+    rig_run_ms(100);
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_LIMIT, rig_values(1).error);
+    TEST_ASSERT_INT64_WITHIN(2, before + 28, rig_position[0]);
+}
+
 void test_a_fault_brakes_with_its_own_acceleration(void)
 {
     set(LIMIT_PLUS, 1, false);
@@ -193,6 +207,35 @@ void test_a_silent_bus_is_a_fault_of_every_axis_that_is_taken(void)
     TEST_ASSERT_EQUAL_HEX(0x0005, rig_status(1));
     TEST_ASSERT_EQUAL_HEX(0, rig_status(2));
     TEST_ASSERT_EQUAL_UINT32(1, unit.silences);
+}
+
+void test_a_silent_bus_is_seen_by_each_axis_alone(void)
+{
+    set(WATCHDOG, 200, false);
+    for (unsigned axis = 2; axis <= POS_AXES; axis++) {
+        TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 03 00 00 00 01"));
+        TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, axis, 0));
+        rig_run_ms(300);
+        for (unsigned other = 1; other <= POS_AXES; other++) {
+            bool acts = other <= axis && other != 1U;
+            TEST_ASSERT_EQUAL_HEX(acts ? 0x0005 : 0x0000, rig_status(other));
+        }
+        TEST_ASSERT_EQUAL_UINT32(axis - 1U, unit.silences);
+    }
+}
+
+void test_an_input_that_is_active_at_the_start_is_no_edge(void)
+{
+    static const uint16_t one = 1;
+    set(CAPTURE, 5, false);
+    TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, positioning_write(&unit, 40, 1, &one));
+    host_machine_set_input(&machine, 5, true);
+    host_machine_restart(&machine);
+    rig_begin();
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_capture(&unit, 1));
+    host_machine_set_input(&machine, 6, true);
+    rig_run_ms(2);
+    TEST_ASSERT_EQUAL_UINT16(0, rig_values(1).captures);
 }
 
 void test_leds_show_pulses_and_errors(void)

@@ -80,6 +80,25 @@ void test_all_settings_of_all_axes_are_there_after_a_start(void)
     }
 }
 
+/* The settings by themselves. */
+void test_without_stored_settings_the_delivered_ones_are_taken_and_what_is_stored_is_in_force(void)
+{
+    struct pos_settings settings;
+    struct pos_registers registers;
+    pos_registers_init(&registers);
+    registers.unit[POS_UNIT_RATE] = 96;
+    pos_settings_init(&settings, &registers);
+    TEST_ASSERT_EQUAL_UINT32(192, registers.unit[POS_UNIT_RATE]);
+    TEST_ASSERT_FALSE(settings.other);
+    registers.axes[3][POS_AXIS_HOME_WAY] = 5;
+    pos_settings_compare(&settings, &registers);
+    TEST_ASSERT_TRUE(settings.other);
+    TEST_ASSERT_TRUE(pos_settings_store(&settings, &registers));
+    TEST_ASSERT_FALSE(settings.other);
+    pos_settings_compare(&settings, &registers);
+    TEST_ASSERT_FALSE(settings.other);
+}
+
 void test_settings_that_are_not_stored_are_gone_after_a_start(void)
 {
     TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, set(ACCEL_1, 1234));
@@ -99,6 +118,7 @@ void test_the_line_has_the_stored_rate_and_format_from_the_next_start_on(void)
     restart();
     TEST_ASSERT_EQUAL_UINT32(115200, machine.line.rate_bd);
     TEST_ASSERT_EQUAL_INT(HAL_LINE_8N1, machine.line.format);
+    TEST_ASSERT_EQUAL_UINT32(TICK_HZ / 11520U, unit.server.receiver.character_ticks);
     rig_expect("01 06 00 64 01 01 08 45", "01 06 00 64 01 01 08 45");
 }
 

@@ -2,6 +2,7 @@
 #include "pos_rig.h"
 
 #include "hal_board.h"
+#include "hal_time.h"
 
 #define FEED(mm_per_min) ((uint32_t)(mm_per_min) << 16U)
 
@@ -106,11 +107,90 @@ void test_a_text_of_another_version_is_no_settings(void)
     TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, positioning_write(&unit, STORE, 1, &one));
     uint32_t length = store_load(&unit.settings.store, POS_SETTINGS_SLOT, text);
     TEST_ASSERT_LESS_THAN(sizeof text, length);
-    TEST_ASSERT_EQUAL_MEMORY("POS\1", text, 4);
+    TEST_ASSERT_EQUAL_UINT32(4 + 4 * (3 + POS_AXES * 17), length); /* settings of the unit and of an axis */
+    TEST_ASSERT_EQUAL_MEMORY("POS\1\0\0\0\0\0\0\0\xC0", text, 12);
     text[3]++;
     TEST_ASSERT_EQUAL_INT(STORE_OK, store_save(&unit.settings.store, POS_SETTINGS_SLOT, text, length));
     restart();
     assert_damaged();
+}
+
+static uint32_t wide(unsigned index)
+{
+    return (uint32_t)rig_word(index) << 16U | rig_word(index + 1U);
+}
+
+void test_each_value_of_an_axis_has_its_register(void)
+{
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 06 01 5D 00 05"));
+    move(3, -10000);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_capture(&unit, 3));
+    rig_run_ms(200);
+    host_machine_set_input(&machine, 5, true);
+    rig_run_ms(20);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, FEED(1000), 0, 3));
+    TEST_ASSERT_EQUAL_INT(POS_ERROR_MOVES, pos_mode(&unit, NULL, 1, ACCEL, 3));
+    rig_run_ms(100);
+    struct pos_values values = rig_values(3);
+    TEST_ASSERT_TRUE(values.captured_um < -2000 && values.position_um < values.captured_um);
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 04 01 36 00 12"));
+    TEST_ASSERT_EQUAL_HEX(0x0207, rig_word(0));
+    TEST_ASSERT_EQUAL_UINT(POS_ERROR_MOVES, rig_word(1));
+    TEST_ASSERT_EQUAL_HEX(POS_FLAG_CAPTURE, rig_word(4));
+    TEST_ASSERT_EQUAL_UINT(1, rig_word(5));
+    TEST_ASSERT_EQUAL_HEX32(values.position_um, wide(6));
+    TEST_ASSERT_EQUAL_HEX32(values.way_left_um, wide(8));
+    TEST_ASSERT_EQUAL_HEX32(0, wide(10));
+    TEST_ASSERT_EQUAL_HEX32(values.position_steps, wide(12));
+    TEST_ASSERT_EQUAL_HEX32(values.captured_um, wide(14));
+    TEST_ASSERT_EQUAL_HEX32(values.captured_steps, wide(16));
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 03 01 31 00 03"));
+    TEST_ASSERT_EQUAL_HEX(POS_CNT_CONT, rig_word(0));
+    TEST_ASSERT_EQUAL_HEX32(FEED(1000), wide(1));
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 06 01 31 00 01"));
+    rig_run_ms(100);
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 04 01 40 00 02"));
+    TEST_ASSERT_UINT32_WITHIN(FEED(1), FEED(1000), wide(0));
+}
+
+void test_inputs_are_shown(void)
+{
+    host_machine_set_input(&machine, 3, true);
+    host_machine_set_input(&machine, 8, true);
+    rig_run_ms(2);
+    TEST_ASSERT_EQUAL_HEX(0x84, read("00 05"));
+}
+
+/* ---- passes ---------------------------------------------------------------------------------------------------- */
+
+void test_the_next_pass_comes_in_a_millisecond_or_at_once(void)
+{
+    TEST_ASSERT_EQUAL_UINT64(hal_time_now() + TICKS_PER_MS, positioning_poll(&unit));
+    move(2, 10000);
+    TEST_ASSERT_EQUAL_UINT64(hal_time_now(), positioning_poll(&unit));
+    rig_run_ms(2);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, FEED(900), 1, 2));
+    TEST_ASSERT_EQUAL_UINT64(hal_time_now(), positioning_poll(&unit));
+    rig_run_ms(1000);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_mode(&unit, NULL, 10, ACCEL, 2));
+    rig_run_ms(2);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, FEED(900), 1, 2));
+    TEST_ASSERT_EQUAL_UINT64(hal_time_now(), positioning_poll(&unit));
+}
+
+void test_what_a_pass_plans_for_several_axes_is_handed_over_in_it(void)
+{
+    for (unsigned axis = 1; axis <= POS_AXES; axis++) {
+        move(axis, 10000);
+    }
+    rig_run_ms(100);
+    for (unsigned axis = 1; axis <= POS_AXES; axis++) {
+        TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, FEED(900), 1, axis));
+    }
+    (void)positioning_poll(&unit);
+    for (unsigned axis = 0; axis < POS_AXES; axis++) {
+        TEST_ASSERT_FALSE(pos_drive_is_stirred(&unit.axes[axis].drive));
+    }
 }
 
 /* ---- the line -------------------------------------------------------------------------------------------------- */
@@ -123,6 +203,41 @@ void test_a_long_answer_goes_out_while_axes_move(void)
     TEST_ASSERT_EQUAL_HEX(0x0103, rig_word(0));
     rig_run_ms(1000);
     TEST_ASSERT_EQUAL_INT64(1000, rig_position[0]);
+}
+
+static uint64_t first_byte_tick;
+
+static void note_byte(void *context, uint64_t tick, uint8_t value)
+{
+    first_byte_tick = rig_heard_count == 0U ? tick : first_byte_tick;
+    rig_line(context, tick, value);
+}
+
+/* T after the last byte, and a character or 0.75 ms in which the next one could still have come; its own time. */
+void test_an_answer_begins_as_soon_as_the_request_has_come(void)
+{
+    machine.listener.line = note_byte;
+    uint64_t end = machine.now + 8U * machine.line.byte_ticks;
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 04 00 05 00 01"));
+    uint64_t begin = first_byte_tick - machine.line.byte_ticks;
+    TEST_ASSERT_UINT64_WITHIN(TICKS_PER_MS / 10U, end + (machine.line.byte_ticks * 9U) / 2U, begin);
+}
+
+void test_all_axes_are_written_by_one_request(void)
+{
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 10 02 58 00 20 40"
+                                      " 01 01 00 00 00 00 03 E8 01 F4 00 00 00 00 00 00"
+                                      " 01 01 00 00 00 00 03 E8 01 F4 00 01 00 00 00 00"
+                                      " 01 01 00 00 00 00 03 E8 01 F4 00 00 00 00 00 00"
+                                      " 01 01 00 00 00 00 03 E8 01 F4 00 00 00 00 00 00"));
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 10 01 90 00 08 10 02 02 00 00 00 00 03 E8 01 F4 00 01 03 E8 00 00"));
+    rig_run_ms(1000);
+    for (unsigned axis = 1; axis < POS_AXES; axis++) {
+        TEST_ASSERT_EQUAL_HEX(0x0001, rig_status(axis));
+        TEST_ASSERT_EQUAL_HEX(axis == 2 ? POS_CNT_MP : 0, rig_control(axis));
+    }
+    TEST_ASSERT_EQUAL_HEX(0x0803, rig_status(4));
+    TEST_ASSERT_EQUAL_INT64(100, rig_position[3]);
 }
 
 void test_reads_are_refused_where_a_register_is_not_there(void)
@@ -146,6 +261,32 @@ static void send_unheard(const char *text, uint64_t gap_ticks)
     rig_heard_count = 0;
     host_machine_set_line(&machine, rig_script, count);
     rig_run_without_main(tick + 1U - machine.now);
+}
+
+static uint64_t poll_late(void *context)
+{
+    (void)context;
+    return positioning_poll(&unit);
+}
+
+void test_each_count_has_its_register(void)
+{
+    for (unsigned i = 0; i < MODBUS_COUNTS_TOTAL; i++) {
+        unit.server.counts[i] = UINT32_C(0x10000) * (i + 1U);
+    }
+    unit.silences = 0x12345678;
+    machine.late_steps = 0x00AB0007;
+    send_unheard("01 04 00 06 00 16 91 C5", 0);
+    uint64_t asked_ms = machine.now / TICKS_PER_MS;
+    host_machine_run(&machine, machine.now + 60U * TICKS_PER_MS, poll_late, NULL, NULL);
+    TEST_ASSERT_EQUAL_UINT32(49, rig_heard_count);
+    TEST_ASSERT_EQUAL_HEX32(0x00AB0007, wide(0));
+    TEST_ASSERT_UINT32_WITHIN(4, (uint32_t)asked_ms + 2U, wide(2));
+    for (unsigned i = 0; i < MODBUS_COUNTS_TOTAL; i++) {
+        bool own = i == (unsigned)MODBUS_COUNT_FRAMES;
+        TEST_ASSERT_EQUAL_HEX32(UINT32_C(0x10000) * (i + 1U) + (own ? 1U : 0U), wide(4U + 2U * i));
+    }
+    TEST_ASSERT_EQUAL_HEX32(0x12345678, wide(20));
 }
 
 void test_requests_that_main_finds_at_once_are_executed_one_after_the_other(void)
