@@ -259,11 +259,12 @@ static bool has_turn(const struct gve134 *unit)
 static bool serve_next(struct gve134 *unit)
 {
     struct gve_request request;
-    bool served = has_turn(unit) && hal_line_is_idle() && gve_line_next(&unit->line, &request);
-    if (served) {
-        serve(unit, &request);
+    if (!has_turn(unit) || !hal_line_is_idle()) {
+        return false;
     }
-    return served;
+    (void)gve_line_next(&unit->line, &request);
+    serve(unit, &request);
+    return true;
 }
 
 /* One request, or as many of a packet as there is time for: these only wait for its end. True: there may be more. */

@@ -120,7 +120,8 @@ struct host_laid {
     uint64_t tick[HOST_LAID_MAX];
     uint32_t first;
     uint32_t count;
-    uint64_t last;   /* the rising edge of the last one laid */
+    uint64_t made;   /* the rising edge of the last one made */
+    uint64_t last;   /* and of the last one laid that has not been taken back */
     uint64_t turn;   /* DIR changes, ticks from the start; TICK_NEVER: it does not */
     uint32_t turned; /* pulses that wait for that */
 };

@@ -150,6 +150,7 @@ static void make_edge(struct host_machine *machine, unsigned motor)
     if (tell != NULL) {
         tell(listener->context, machine->now, motor, machine->backward[motor]);
     }
+    laid->made = machine->now;
     laid->first++;
     laid->count--;
 }
@@ -206,6 +207,7 @@ unsigned hal_step_take_back(unsigned motor, unsigned count)
         laid->count--;
         back++;
     }
+    laid->last = laid->count != 0 ? *laid_slot(laid, laid->count - 1U) : laid->made;
     if (laid->turned <= back) {
         laid->turn = TICK_NEVER;
     }

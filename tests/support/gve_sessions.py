@@ -468,6 +468,11 @@ class Writer:
         if rng.random() < 0.7:
             self.tell("P4")
             self.tell("SR6")
+        return self.written()
+
+    def written(self) -> Session:
+        """Return the session that has been written."""
+        rng = self.rng
         edges = sorted((e for e in self.edges), key=lambda edge: edge.tick)
         return Session(
             tuple(self.line),

@@ -426,6 +426,35 @@ void test_a_turn_is_taken_back_with_the_pulses_after_it(void)
     TEST_ASSERT_EQUAL_UINT(0, turns);
 }
 
+void test_a_turn_that_is_taken_back_and_asked_for_again_is_held_from_the_pulse_that_stays(void)
+{
+    machine.ahead_ticks = 20000;
+    lay_turn(10000);
+    TEST_ASSERT_EQUAL_UINT(1, take_back_given(1, 1));
+    run_given(1);
+
+    run_until(lay_turned + 1U);
+
+    TEST_ASSERT_EQUAL_UINT64(lay_turned, edge_tick);
+    TEST_ASSERT_EQUAL_UINT64(3000 + HOST_HOLD_TICKS, turn_tick);
+    TEST_ASSERT_EQUAL_UINT64(0, machine.late_steps);
+}
+
+void test_where_all_is_taken_back_a_turn_is_held_from_the_last_pulse_that_was_made(void)
+{
+    machine.ahead_ticks = 20000;
+    lay_turn(10000);
+    run_until(3001);
+    TEST_ASSERT_EQUAL_UINT(1, take_back_given(1, 1));
+    run_given(1);
+
+    run_until(lay_turned + 1U);
+
+    TEST_ASSERT_EQUAL_UINT64(lay_turned, edge_tick);
+    TEST_ASSERT_EQUAL_UINT64(3000 + HOST_HOLD_TICKS, turn_tick);
+    TEST_ASSERT_EQUAL_UINT64(0, machine.late_steps);
+}
+
 void test_a_turn_stays_while_a_pulse_after_it_does(void)
 {
     machine.ahead_ticks = 20000;
