@@ -94,6 +94,12 @@ def test_a_good_board_is_gone_through_and_all_is_good(tool, power, monkeypatch, 
     assert (result.status, report["complete"], report["good"]) == (0, True, True)
     assert seen(report, "part", "flash") == ("1024 kB", "good")
     assert seen(report, "pulses", "pulses") == ("16 of 16", "good")
+    for name in ("step", "line", "tick", "plan"):
+        cycles = re.fullmatch(
+            r"\d+ times, longest (\d+) cycles", seen(report, "interrupts", f"{name} interrupt")[0]
+        )
+        assert cycles
+        assert 0 < int(cycles[1]) < 20_000
     assert seen(report, "part", "brown-out reset")[0].startswith("level 3")
     assert seen(report, "start", "last reset")[0] == "brown-out, reset pin, power-on"
     assert seen(report, "clocks", "clock") == ("168 MHz", "good")

@@ -72,7 +72,12 @@ def motor_rows(seen: dict[str, Any], motor: int) -> dict[str, str]:
 
 @modelled
 @pytest.mark.parametrize(
-    ("name", "width"), [("f405", "0.500 to 0.500 us"), ("weact-f405", "2.500 to 2.500 us")]
+    ("name", "width"),
+    [
+        ("f405", "0.500 to 0.500 us"),
+        ("weact-f405", "2.500 to 2.500 us"),
+        ("f407-discovery", "2.500 to 2.500 us"),
+    ],
 )
 def test_pulses_of_each_motor_are_captured_on_their_ticks_and_as_wide_as_asked(
     power, walk, name, width

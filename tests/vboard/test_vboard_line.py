@@ -136,10 +136,11 @@ def test_a_client_in_virtual_time_says_when_and_hears_at_once(program, build_ima
     assert summary["microseconds"] == pytest.approx(20_000, abs=1)
 
 
-def test_an_order_in_virtual_time_that_makes_no_sense_ends_the_run(program, build_image, tmp_path):
+@pytest.mark.parametrize("order", ["until soon", "wire PA0", "wire", "wires PA0=PA1", "say 4"])
+def test_an_order_in_virtual_time_that_makes_no_sense_ends_the_run(program, build_image, order):
     command = [program, "--elf", build_image("serial"), "--lockstep"]
     done = subprocess.run(
-        list(map(str, command)), input="until soon\n", capture_output=True, text=True, check=False
+        list(map(str, command)), input=f"{order}\n", capture_output=True, text=True, check=False
     )
 
     assert done.returncode == 1

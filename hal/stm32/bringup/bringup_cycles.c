@@ -116,6 +116,7 @@ void bringup_cycles_start(void)
 
 void bringup_cycles_tell(void)
 {
+    hal_run_plan();
     for (unsigned i = 0; i < TIMED; i++) {
         say_name("cycles");
         say_word(names[i]);

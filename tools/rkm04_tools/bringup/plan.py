@@ -49,7 +49,7 @@ STEPS = (
          "pulses, and all outputs go on one by one, to see where the wire leads.",
          "all pulses, on their ticks, as wide as the board says", pulses.measure),
     Step("interrupts", "Nothing to do: how long the interrupts have taken, in cycles.",
-         "the clock of 1 ms comes", wires.look_at_cycles),
+         "they come", wires.look_at_cycles),
     Step("watchdog", "The image hangs on purpose; the watchdog must reset the part.",
          "it starts again in a second or so, and tells the watchdog", deeds.try_watchdog),
     Step("stack guard", "The image lets its stack overflow; the handler of faults must reset it.",

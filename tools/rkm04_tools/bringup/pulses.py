@@ -12,6 +12,9 @@ from rkm04_tools.bringup.wires import KINDS, MOTORS, NO_CRYSTAL, name_of, signal
 
 CAPTURE = "CAPTURE"
 MEASURE = "Enter: measure, q: stop here"
+DEAD = """\
+nothing that can be switched moves it: STEP shorted, the wire somewhere else, or none and a \
+resistor at the pin"""
 AFTER = "Enter: go on, r: once more, q: stop here"
 
 
@@ -72,4 +75,4 @@ def _elsewhere(bench: Bench, motor: int) -> str:
                     return f"; the wire is at {name_of(bench, signal)}"
         finally:
             bench.talk.ask(f"{letter}0")
-    return "; nothing that can be switched moves it: STEP shorted, or the wire somewhere else"
+    return f"; {DEAD}"
