@@ -189,7 +189,14 @@ def mcdc() -> Count:
 
 def sweeps() -> Count:
     """The tests that a run of some minutes does at some places only, at all of them."""
-    stored = ["ctest", "--preset", "host", "-V", "-R", "power_cut|store_sweep|line_splits"]
+    stored = [
+        "ctest",
+        "--preset",
+        "host",
+        "-V",
+        "-R",
+        "power_cut|store_sweep|line_splits|pos_motion",
+    ]
     random = [
         *PYTHON, "pytest", "-q", "-rP", "-c", CONFIG, "--rootdir", str(ROOT),
         "--numprocesses", "logical", "tests/property", "tests/proofs", "tests/wasm",
