@@ -9,6 +9,7 @@ enum {
     ENABLE = 1 << 0,     /* CC1E */
     FALLING = 1 << 1,    /* CC1P */
     BOTH = 1 << 3,       /* CC1NP; with CC1P: both edges */
+    INPUTS = 0x303,      /* CCxS of both channels of a register */
     OWN_INPUT = 1,       /* CCxS: TIx of the channel itself */
     OTHER_INPUT = 2,     /* that of the other channel of the pair: 1 and 2, 3 and 4 */
 };
@@ -137,7 +138,7 @@ static bool has_pin(const struct timer *timer, unsigned channel, struct pin pin)
 
 void timer_note_pin(struct timer *timer, struct pin pin, bool rises, uint64_t cycle)
 {
-    if (!timer_runs(timer)) {
+    if (((timer->ccmr[0] | timer->ccmr[1]) & INPUTS) == 0 || !timer_runs(timer)) {
         return;
     }
     for (unsigned channel = 0; channel < TIMER_CHANNELS; channel++) {

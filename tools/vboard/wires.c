@@ -49,7 +49,11 @@ bool wires_read(const char *text, struct wire *wire)
         text += sizeof none - 1U;
         return read_pin(&text, "", &wire->to);
     }
-    if (!read_pin(&text, "=", &wire->from) || *text++ != '=' || !read_pin(&text, ":", &wire->to)) {
+    if (!read_pin(&text, "=", &wire->from) || *text != '=') {
+        return false;
+    }
+    text++;
+    if (!read_pin(&text, ":", &wire->to)) {
         return false;
     }
     return *text == '\0' || read_number(text, ":late=", &wire->late_ns) || read_number(text, ":loses=", &wire->loses);
