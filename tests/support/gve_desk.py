@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from rkm04_tools.gve134.service.desk import UnitDesk
-from rkm04_tools.gve134.service.orders import Connect
+from rkm04_tools.service.unit_orders import Connect
 
 PATIENCE_SECONDS = 20.0
 CLIENT = 1

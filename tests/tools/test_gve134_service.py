@@ -12,8 +12,8 @@ from gve134_ports import FakeGveLine
 from gve_desk import GveDesk
 from rkm04_tools.failure import Failure
 from rkm04_tools.gve134.link import HALT_SECONDS
-from rkm04_tools.gve134.service import worker
 from rkm04_tools.gve134.service.orders import read_order
+from rkm04_tools.service import turns
 from rkm04_tools.service.trouble import BadRequest
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "tools/examples/gve"
@@ -34,7 +34,7 @@ def line(unit: FakeGve) -> Iterator[FakeGveLine]:
 
 @pytest.fixture
 def desk(line: FakeGveLine, monkeypatch: pytest.MonkeyPatch) -> Iterator[GveDesk]:
-    monkeypatch.setattr(worker, "LOOK_AGAIN_SECONDS", 0.2)
+    monkeypatch.setattr(turns, "LOOK_AGAIN_SECONDS", 0.2)
     desk = GveDesk(line.port)
     desk.connected()
     yield desk
@@ -338,7 +338,7 @@ def test_a_unit_that_restarts_at_rest_is_told(desk: GveDesk, line: FakeGveLine) 
 def test_a_unit_that_is_absent_at_the_start_is_found_when_it_comes(
     line: FakeGveLine, unit: FakeGve, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(worker, "LOOK_AGAIN_SECONDS", 0.2)
+    monkeypatch.setattr(turns, "LOOK_AGAIN_SECONDS", 0.2)
     unit.mute = True
     desk = GveDesk(line.port)
     try:

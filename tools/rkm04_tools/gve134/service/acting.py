@@ -9,7 +9,7 @@ from rkm04_tools.gve134 import answers
 from rkm04_tools.gve134.client_base import require_good
 from rkm04_tools.gve134.link import MEMORY_SECONDS
 from rkm04_tools.gve134.link_errors import Refused
-from rkm04_tools.gve134.service.orders import Connect, Jog, Output, Plain, Spindle, Typed, Work
+from rkm04_tools.gve134.service.orders import Jog, Output, Spindle, Typed
 from rkm04_tools.gve134.state import FAULT, INTA, NO_CRYSTAL, RUN, Flags, positions_text
 from rkm04_tools.gve134.unit import Unit, is_memory_write
 from rkm04_tools.service.trouble import BadRequest
@@ -17,12 +17,6 @@ from rkm04_tools.service.trouble import BadRequest
 QUESTION = re.compile(r"\?|Q|P[F4L]?|SR\d|F|I[12]|E[UF]?R[0-9A-F]{1,2}")
 NOT_TYPED = re.compile(r"[@>%*].*|H|W.*")
 """What the line does itself, and what has buttons of its own."""
-
-
-def is_for_unit(order: Work) -> bool:
-    """Whether an order is for the unit, not for the connection to it."""
-    is_own = isinstance(order, Plain) and order.name in ("disconnect", "seen")
-    return not is_own and not isinstance(order, Connect)
 
 
 def only_asks(text: str) -> bool:

@@ -16,10 +16,10 @@ from rkm04_tools.failure import Failure
 from rkm04_tools.gve134.gcode.axes import Mill
 from rkm04_tools.gve134.service.desk import UnitDesk
 from rkm04_tools.gve134.service.files import FILE_BYTES_MAX, File
-from rkm04_tools.gve134.service.orders import Connect
 from rkm04_tools.service.browsers import Browsers
 from rkm04_tools.service.http import Site, application, bytes_of, object_of
 from rkm04_tools.service.trouble import BadRequest
+from rkm04_tools.service.unit_orders import Connect
 from rkm04_tools.tree import ROOT
 
 EXAMPLES = ROOT / "tools" / "examples" / "gve"

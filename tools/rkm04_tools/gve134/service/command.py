@@ -10,9 +10,9 @@ from rkm04_tools.gve134.client_base import PORT_VARIABLE
 from rkm04_tools.gve134.gcode.axes import read_mill
 from rkm04_tools.gve134.gcode.command import MACHINE_VARIABLE
 from rkm04_tools.gve134.service.app import make_app
-from rkm04_tools.gve134.service.orders import Connect
 from rkm04_tools.service import virtual
 from rkm04_tools.service.hosting import Shown, serve_page
+from rkm04_tools.service.unit_orders import Connect
 
 PAGE = Shown("gve134", "gve134.html", 8405)
 

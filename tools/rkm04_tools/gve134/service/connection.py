@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from typing import Any
 
 from rkm04_tools.failure import Failure
 from rkm04_tools.gve134.answers import Answer
 from rkm04_tools.gve134.link import Link
 from rkm04_tools.gve134.link_errors import Restarted
 from rkm04_tools.gve134.service import working
-from rkm04_tools.gve134.service.board import NOT_CONNECTED, Board
+from rkm04_tools.gve134.service.board import NOT_CONNECTED, Board, State
 from rkm04_tools.gve134.service.heard import AFTER_RESET, HeardWire, Known
 from rkm04_tools.gve134.service.looking import Looks, Made
-from rkm04_tools.gve134.service.words import told
+from rkm04_tools.gve134.service.saying import WORDS
 from rkm04_tools.gve134.state import RUN, Positions
 from rkm04_tools.gve134.unit import Unit
-from rkm04_tools.line_errors import LineError, PortError
 from rkm04_tools.service import virtual
-from rkm04_tools.service.trouble import Fault, NotConnected
+from rkm04_tools.service.unit_line import UnitLine
 from rkm04_tools.service.virtual import VirtualLine
 from rkm04_tools.transport import open_transport
 
@@ -28,23 +28,23 @@ INPUTS_SECONDS = 0.6
 """From one look at the inputs to the next while a file is sent."""
 
 
-class Connection:
-    """`unit` is None where no port is open. `job` is the last file that was started there.
+class Connection(UnitLine[Unit, State]):
+    """`job` is the last file that was started there.
 
     `jogging`: a motion by hand is under way, as far as is known.
     """
 
+    restarted = Restarted
+
     def __init__(
         self, board: Board, units: VirtualLine, baud: int, mind_halt: Callable[[], None]
     ) -> None:
-        self.unit: Unit | None = None
+        super().__init__(board, NOT_CONNECTED, WORDS)
         self.job: working.Work | None = None
         self.jogging = False
         self.looks = Looks()
         self.made = Made()
-        self.look_due = 0.0
         self._inputs_due = 0.0
-        self._board = board
         self._units = units
         self._baud = baud
         self._mind_halt = mind_halt
@@ -57,36 +57,16 @@ class Connection:
 
     # ---- the port ----
 
-    def connect(self, port: str) -> str:
-        """Open the port if it is not open, and ask what is there: nothing moves."""
-        if not self.unit or self._board.state.port != port:
-            self.close()
-            self._board.heard_at = None
-            self._board.change(**{**NOT_CONNECTED, "port": port, "virtual": port == virtual.NAME})
-            self._open(port)
-        self._board.change(connected=True)
-        assert self.unit is not None
-        self.unit.link.connect()
-        self.look(self.unit)
-        self._board.change(version=self.unit.link.version, error=None)
-        return self.unit.link.version
+    def _greet(self, unit: Unit) -> str:
+        unit.link.connect()
+        self.look(unit)
+        return unit.link.version
 
-    def disconnect(self) -> str:
-        """Close the port."""
-        self.close()
-        self._board.change(**{**NOT_CONNECTED, "port": None, "virtual": False})
-        return "the port is closed; the unit is left as it is"
+    def version_of(self, unit: Unit) -> str:
+        """The version, after a look."""
+        return unit.link.version
 
-    def reopen(self) -> Unit:
-        """The unit; a port that was lost is opened again."""
-        if not self.unit:
-            self._open(self._board.state.port or "")
-            self._board.change(connected=True, away=False, version=None)
-        assert self.unit is not None
-        return self.unit
-
-    def close(self, abandons: bool = False) -> None:
-        """Close the port; `abandons`: what waits in it is not sent any more."""
+    def _drop(self, abandons: bool) -> None:
         if self._wire:
             if abandons:
                 self._wire.port.abandon()
@@ -94,7 +74,7 @@ class Connection:
                 self._wire.port.close()
         if self.job and self.job.is_open:
             self.end_job(working.FAILED, Failure("the port was closed; the rest was not sent"))
-        self._wire = self.unit = None
+        self._wire = None
         self.jogging = False
 
     def _open(self, port: str) -> None:
@@ -144,7 +124,7 @@ class Connection:
         made = [place[:3] for place in self.made.go(corners, positions)]
         self._board.tell({**seen, "progress": progress, "made": made})
 
-    def restart(self) -> None:
+    def forget(self) -> None:
         """The unit has started anew: what it was told is gone."""
         if self._wire:
             self._wire.known = AFTER_RESET
@@ -152,30 +132,15 @@ class Connection:
         self.jogging = False
         if self.job and self.job.is_open:
             self.end_job(working.FAILED, Failure("the unit has restarted; the job is gone"))
-        self._board.change(restarted=True, known=self.known, wanted=None)
+        self._board.change(known=self.known, wanted=None)
 
-    def note(self, got: str | Failure, comes_back: bool = True) -> None:
-        """Keep what says that there is no connection; a port that is lost is closed.
+    def kept_when_lost(self) -> dict[str, Any]:
+        """What of a state stays as it is when the port is lost."""
+        return {**super().kept_when_lost(), "job": self._board.state.job}
 
-        A port that `comes_back` is opened again when it is there; virtual units need the user.
-        """
-        board = self._board
-        if isinstance(got, str):
-            board.change(error=None)
-        elif isinstance(got, Restarted):
-            self.restart()
-        elif isinstance(got, PortError):
-            self.close(abandons=True)
-            is_virtual = board.state.virtual
-            error = virtual.ended() if is_virtual and not isinstance(got, Fault) else got
-            board.change(
-                connected=False, version=None, reference=False, error=told(error),
-                away=comes_back and not is_virtual, known=Known(), wanted=None,
-            )  # fmt: skip
-        elif isinstance(got, LineError):
-            board.change(error=told(got), reference=False)
-        elif not self.unit and not isinstance(got, NotConnected):
-            board.change(connected=False, error=told(got))
+    def when_silent(self) -> dict[str, Any]:
+        """What of a state changes where the unit does not answer."""
+        return {"reference": False}
 
     # ---- the job ----
 

@@ -4,82 +4,44 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 from threading import Lock
 from typing import Any
 
 from rkm04_tools.gve134 import host
 from rkm04_tools.gve134.gcode.axes import Mill, mill_of
 from rkm04_tools.gve134.service.files import NO_MILL, File, is_gcode, read_file
-from rkm04_tools.gve134.service.orders import (
-    HALT,
-    PORTS,
-    Connect,
-    Home,
-    SetInput,
-    Start,
-    Work,
-    read_order,
-)  # fmt: skip
+from rkm04_tools.gve134.service.orders import Home, Order, Start, Work, read_order
 from rkm04_tools.gve134.service.worker import Worker
 from rkm04_tools.machine.machine import Machine, parse_machine
-from rkm04_tools.service import virtual
-from rkm04_tools.service.browsers import Aside, IsLate, Tell
+from rkm04_tools.service.browsers import Tell
 from rkm04_tools.service.fields import Asked
-from rkm04_tools.service.ports import ports
-from rkm04_tools.service.trouble import BadRequest, Late
+from rkm04_tools.service.trouble import BadRequest
+from rkm04_tools.service.unit_desk import TurnsDesk
+from rkm04_tools.service.unit_orders import Connect
 from rkm04_tools.service.virtual import VirtualLine
 
 
-class UnitDesk:
+class UnitDesk(TurnsDesk):
     """A Desk; it connects to a `first` port when it starts."""
 
     def __init__(
         self, first: Connect, baud: int, mill: Mill | None,
         tell: Tell, is_watched: Callable[[], bool],
     ) -> None:  # fmt: skip
-        self._first = first
-        self._units = VirtualLine(host.program_path, ("--baud", str(baud)))
-        self._worker = Worker(tell, is_watched, self._units, baud)
+        units = VirtualLine(host.program_path, ("--baud", str(baud)))
+        self._worker = Worker(tell, is_watched, units, baud)
+        super().__init__(first, self._worker, units)
         self._opening = Lock()
         self._file: File | None = None
         self._mill: Mill | None = None
         if mill:
             self._set_mill(mill)
 
-    def start(self) -> None:
-        """Begin to work."""
-        self._worker.start()
-        self._worker.give(self._first, Asked())
+    def read(self, text: str) -> tuple[Order, Asked]:
+        """Read an order."""
+        return read_order(text)
 
-    def close(self) -> None:
-        """End line, virtual unit and thread."""
-        self._worker.close()
-        self._units.close()
-
-    def greetings(self) -> list[dict[str, Any]]:
-        """The state of the connection, and the way made."""
-        return self._worker.greetings()
-
-    def take(self, text: str, client: int, is_late: IsLate) -> Aside | None:
-        """Take what a browser says."""
-        order, asked = read_order(text)
-        asked = replace(asked, client=client)
-        if order == HALT:
-            self._worker.halt(asked)  # better late than never
-        elif order == PORTS:
-            return ports
-        elif is_late(asked.beat):
-            if isinstance(order, SetInput):
-                raise Late
-            self._worker.refuse(self._work(order), asked, Late())
-        elif isinstance(order, SetInput):
-            return partial(self._set_input, order)
-        else:
-            self._worker.give(self._work(order), asked)
-        return None
-
-    def _work(self, order: Any) -> Work:
+    def work_of(self, order: Any) -> Work:
         """An order as the worker takes it: a reference run is a file of its own."""
         if isinstance(order, Home):
             if self._mill is None:
@@ -97,15 +59,6 @@ class UnitDesk:
             return Start(file_now)
         work: Work = order
         return work
-
-    def _set_input(self, order: SetInput) -> None:
-        state = self._worker.board.state
-        if not (state.connected and state.virtual):
-            raise BadRequest(
-                f"only the port {virtual.NAME} has inputs that can be set here; "
-                "those of a unit are wires"
-            )
-        self._units.set_input(str(order.number), order.level)
 
     # ---- files, from other threads ----
 

@@ -11,19 +11,13 @@ from rkm04_tools.gve134.service.files import File
 from rkm04_tools.gve134.state import AXES, Positions
 from rkm04_tools.service.fields import Asked, port_of, read_object, text_of, whole_of
 from rkm04_tools.service.trouble import BadRequest
+from rkm04_tools.service.unit_orders import OF_PAGES, Connect, Plain, SetInput
 
 STEPS_MAX = 2_147_483_647
 SPEEDS = range(10, 200_001)
 PERCENTS = range(1, 1001)
 COMMAND_MAX = 80
 INPUTS = (1, 2, 3, 4, 7, 8)
-
-
-@dataclass(frozen=True)
-class Connect:
-    """Open a port, and find out which unit is there."""
-
-    port: str
 
 
 @dataclass(frozen=True)
@@ -76,38 +70,17 @@ class Typed:
     text: str
 
 
-@dataclass(frozen=True)
-class Plain:
-    """What needs no more than its name: disconnect, go, delete, resume, seen."""
-
-    name: str
-
-
-@dataclass(frozen=True)
-class SetInput:
-    """Change an input of the virtual unit."""
-
-    number: int
-    level: bool
-
-
 Work: TypeAlias = Connect | Start | Home | Jog | Override | Output | Spindle | Typed | Plain
 Order: TypeAlias = Work | SetInput
 
-HALT, PORTS = Plain("halt"), Plain("ports")
-PLAIN = ("disconnect", "go", "delete", "resume", "seen", "halt", "ports")
-"""`resume`: the person whom a job waits for is ready. `seen`: a restart was taken note of."""
+PLAIN = (*OF_PAGES, "go", "delete", "resume")
+"""`resume`: the person whom a job waits for is ready."""
 
 
 def read_order(text: str) -> tuple[Order, Asked]:
     """Read a message of a browser."""
     told, asked = read_object(text)
     return _order(told), asked
-
-
-def name_of(order: Work) -> str:
-    """The name under which an order is known to the page."""
-    return order.name if isinstance(order, Plain) else type(order).__name__.lower()
 
 
 def _order(told: Mapping[str, Any]) -> Order:

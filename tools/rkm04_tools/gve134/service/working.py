@@ -10,7 +10,7 @@ import numpy as np
 from rkm04_tools.failure import Failure
 from rkm04_tools.gve134.sending import Sender
 from rkm04_tools.gve134.service.files import File
-from rkm04_tools.gve134.service.words import told
+from rkm04_tools.gve134.service.saying import WORDS
 from rkm04_tools.gve134.state import Flags, Positions
 
 SENDING, FINISHING, WAITS, HELD, DONE, FAILED = (
@@ -49,7 +49,7 @@ class Work:
             "name": self.file.name,
             "phase": self.phase,
             "text": self.text,
-            "trouble": self.trouble and told(self.trouble),
+            "trouble": self.trouble and WORDS.told(self.trouble),
             "begin": self.begin,
         }
 
