@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 
 from rkm04_tools import board, completion
-from rkm04_tools.cli import Commands, Parser, add_board, add_command
+from rkm04_tools.cli import Commands, Parser, add_board, add_command, add_page_options
 from rkm04_tools.positioning import check, listing, serve
-from rkm04_tools.positioning.client_options import add_client_commands
+from rkm04_tools.positioning.client_options import add_client_commands, add_line_options
 
 NAME = "positioning"
 SCRIPT_NOTES = """\
@@ -34,6 +34,12 @@ SIM_OPTIONS = [
     ("--vcd", "OUT.vcd", "write the waveforms for a viewer such as GTKWave"),
     ("--plot", "OUT", "draw speeds, positions and signals: a name ending in .svg or .png"),
 ]
+SERVICE_NOTES = """\
+Without --port and POSITIONING_PORT it connects to a virtual unit of its own. Connecting moves
+nothing. The page is for this machine only: its address has a token, and 127.0.0.1 is not to be
+reached from others. Ctrl-C ends it, and the virtual unit with it; a unit on a line is left as it
+is: its axes go on, unless its WATCHDOG is set.
+"""
 FORMS = [
     ("--csv", "csv", "a row for each register of the line"),
     ("--md", "md", "tables in Markdown, as in the document"),
@@ -60,6 +66,7 @@ def make_parser() -> Parser:
     _add_sim(commands)
     title = "a unit without hardware: it runs in real time and speaks Modbus, RTU or TCP"
     serve.add_arguments(add_command(commands, "serve", serve.run, title, serve.EXAMPLE))
+    _add_service(commands)
     _add_registers(commands)
     add_board(commands, NAME)
     add_client_commands(commands, add_command)
@@ -74,6 +81,26 @@ def _sim(options: argparse.Namespace) -> int:
     from rkm04_tools.positioning import sim
 
     return sim.run(options)
+
+
+def _service(options: argparse.Namespace) -> int:
+    """Import the server only when it is needed: others have not even installed it."""
+    from rkm04_tools.positioning.service import command
+
+    return command.run(options)
+
+
+def _add_service(commands: Commands) -> None:
+    title = "a page in the browser: all four axes, moved, held and stopped, homing and settings"
+    example = (
+        "positioning service\n"
+        "  positioning service --port /dev/ttyUSB0 --node 2\n"
+        "  positioning service --port modbus://192.168.1.5:502"
+    )
+    text = f"{example}\n\n{SERVICE_NOTES.rstrip()}"
+    command = add_command(commands, "service", _service, title, text)
+    add_line_options(command)
+    add_page_options(command, 8406)
 
 
 def _bench(options: argparse.Namespace) -> int:

@@ -131,8 +131,13 @@ def _add(commands: Any, add: AddTo, row: CommandRow, runs: str) -> None:
         command.add_argument(*flags, **how)
     if row.has_axis:
         command.add_argument("--axis", type=int, default=1, help="1 to 4 (default: 1)")
+    add_line_options(command, has_node=row.name != "scan")
+
+
+def add_line_options(command: argparse.ArgumentParser, has_node: bool = True) -> None:
+    """The options that name a line and the unit on it."""
     command.add_argument("--port", metavar="PORT", help=PORT_HELP)
-    if row.name != "scan":
+    if has_node:
         command.add_argument("--node", metavar="N", type=int, default=1,
                              help="address of the unit, 1 to 16 (default: 1)")  # fmt: skip
     command.add_argument("--baud", type=int, choices=RATES, default=19_200, metavar="BD",

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import json
 from argparse import Namespace
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from rkm04_tools.client_base import count_of, tell
 from rkm04_tools.failure import DONE, NOT_SO, Failure, finished_or_absent, writing_failed
 from rkm04_tools.positioning.listing import Place, places
 from rkm04_tools.positioning.table import AXES, Register, registers
-from rkm04_tools.positioning.unit import Unit, setting
+from rkm04_tools.positioning.unit import LAYOUT, Unit, setting
 from rkm04_tools.source import STANDARD_INPUT, named, read_text
 
 FORMAT = "positioning settings"
 FORMAT_VERSION = 1
 FILE_BYTES_MAX = 100_000
 UNIT_PART = "unit"
+PAIR = ("STEPS", "MICROMETRES")
+"""Each is held against the other."""
 
 Opened = Callable[[Namespace], Unit]
 Values = dict[str, dict[str, int]]
@@ -89,19 +91,15 @@ def run_set(options: Namespace, opened: Opened) -> int:
 
 def _together(values: dict[str, int]) -> list[list[str]]:
     """STEPS and MICROMETRES in one request: each is held against the other."""
-    pair: list[str] = [name for name in ("STEPS", "MICROMETRES") if name in values]
+    pair: list[str] = [name for name in PAIR if name in values]
     return ([pair] if pair else []) + [[name] for name in values if name not in pair]
 
 
 def run_backup(options: Namespace, opened: Opened) -> int:
     """Write all settings to a file."""
     with opened(options) as unit:
-        state, found = unit.read(), read_all(unit)
-    content = {
-        "format": FORMAT, "version": FORMAT_VERSION, "layout": state.values["LAYOUT"],
-        "settings": found,
-    }  # fmt: skip
-    text = f"{json.dumps(content, indent=2)}\n"
+        found = read_all(unit)
+    text = text_of(found)
     if options.file == STANDARD_INPUT:
         print(text, end="")
         return DONE
@@ -115,19 +113,20 @@ def run_backup(options: Namespace, opened: Opened) -> int:
     return tell(options, {"file": str(path), "settings": number}, f"{path}: {number} settings")
 
 
+def text_of(values: Values) -> str:
+    """The file that keeps all settings."""
+    content = {"format": FORMAT, "version": FORMAT_VERSION, "layout": LAYOUT, "settings": values}
+    return f"{json.dumps(content, indent=2)}\n"
+
+
 def run_restore(options: Namespace, opened: Opened) -> int:
     """Write the settings of a file that differ."""
     wanted = read_file(options.file)
     with opened(options) as unit:
         found = read_all(unit)
-        _require_free(unit)
+        require_free(unit)
         differ = _differ(wanted, found)
-        for axis in range(AXES + 1):
-            own = {d["name"]: d["file"] for d in differ if d["part"] == part_of(axis)}
-            if {"STEPS", "MICROMETRES"} & own.keys():
-                own |= {name: wanted[part_of(axis)][name] for name in ("STEPS", "MICROMETRES")}
-            for names in _together(own):
-                unit.set_many({name: own[name] for name in names}, axis)
+        write(unit, wanted, found)
         if left := _differ(wanted, read_all(unit)):
             raise Failure(f"{len(left)} settings read otherwise than written", NOT_SO)
         if options.store:
@@ -138,8 +137,20 @@ def run_restore(options: Namespace, opened: Opened) -> int:
     return tell(options, answer, text + note)
 
 
-def _require_free(unit: Unit) -> None:
-    for axis in range(1, AXES + 1):
+def write(unit: Unit, wanted: Values, found: Values) -> None:
+    """Write those of some settings that are not as they were found; each is read back."""
+    for axis in range(AXES + 1):
+        before = found[part_of(axis)]
+        own = {n: v for n, v in wanted.get(part_of(axis), {}).items() if v != before[n]}
+        if any(name in own for name in PAIR):
+            own = {name: before[name] for name in PAIR} | own
+        for names in _together(own):
+            unit.set_many({name: own[name] for name in names}, axis)
+
+
+def require_free(unit: Unit, axes: Iterable[int] = range(1, AXES + 1)) -> None:
+    """Refuse to write where an axis is taken or moves."""
+    for axis in axes:
         state = unit.axis(axis).read()
         if state.is_taken or state.moves:
             raise Failure(
@@ -170,28 +181,33 @@ def _differ(wanted: Values, found: Values) -> list[dict[str, Any]]:
 def read_file(name: str) -> Values:
     """The settings of a backup: all of them, each in its range, or a Failure."""
     source = read_text(name, FILE_BYTES_MAX, "so it is no backup", "a backup of the settings")
+    return read_values(source.text, source.name)
+
+
+def read_values(text: str, where: str) -> Values:
+    """The settings of the text of a backup."""
     try:
-        content = json.loads(source.text)
-    except ValueError:
-        raise _damaged(source.name, "it is no JSON") from None
+        content = json.loads(text)
+    except (ValueError, RecursionError):
+        raise _damaged(where, "it is no JSON") from None
     if not isinstance(content, dict) or content.get("format") != FORMAT:
-        raise _damaged(source.name, "it is of another kind")
-    if (content.get("version"), content.get("layout")) != (FORMAT_VERSION, 1):
-        raise _damaged(source.name, "it is of another version of the unit or of this tool")
+        raise _damaged(where, "it is of another kind")
+    if (content.get("version"), content.get("layout")) != (FORMAT_VERSION, LAYOUT):
+        raise _damaged(where, "it is of another version of the unit or of this tool")
     values = content.get("settings")
     known = {part_of(axis): {} for axis in range(AXES + 1)}  # type: dict[str, dict[str, Register]]
     for place in stored_places():
         known[part_of(place.axis)][place.register.name] = place.register
     if not isinstance(values, dict) or values.keys() != known.keys():
-        raise _damaged(source.name, f"it must have {', '.join(known)}")
+        raise _damaged(where, f"it must have {', '.join(known)}")
     for part, rows in known.items():
         own = values[part]
         if not isinstance(own, dict) or own.keys() != rows.keys():
-            raise _damaged(source.name, f"{part} does not have just its settings")
+            raise _damaged(where, f"{part} does not have just its settings")
         for row in rows.values():
             value = own[row.name]
             if type(value) is not int or not row.takes(value):
-                raise _damaged(source.name, f"{row.name} of {part} has no value of its range")
+                raise _damaged(where, f"{row.name} of {part} has no value of its range")
     return values
 
 

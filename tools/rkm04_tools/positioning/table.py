@@ -184,3 +184,10 @@ def bits() -> dict[str, int]:
     """The bits of STATUS and FLAGS by their names, as masks."""
     found = BIT.findall(TABLE.read_text(encoding="utf-8"))
     return {name: 1 << int(bit) for name, _, bit, _ in found}
+
+
+def read_image(name: str) -> tuple[int, int]:
+    """The first number of an image, and how many registers of each axis it has."""
+    images = read_images(TABLE.read_text(encoding="utf-8"))
+    image = next(image for image in images if image.name == name)
+    return image.first, len(image.numbers)

@@ -50,11 +50,11 @@ def flag_of(told: Mapping[str, Any], name: str) -> bool:
     return value
 
 
-def port_of(told: Mapping[str, Any]) -> str:
+def port_of(told: Mapping[str, Any], *more_schemes: str) -> str:
     """A port without those that pyserial has for other purposes, as one that writes a file."""
     port = text_of(told, "port", PORT_MAX).strip()
     scheme, colon, _ = port.partition("://")
-    if colon and scheme not in SCHEMES:
+    if colon and scheme not in (*SCHEMES, *more_schemes):
         raise BadRequest(f"{scheme}:// is no port of a line; write a device, or socket://HOST:PORT")
     return port
 

@@ -1,0 +1,107 @@
+"""What the unit does now, as its registers tell it, and whether somebody else gives it orders."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from typing import Any
+
+from rkm04_tools.positioning.state import AxisState, UnitState
+from rkm04_tools.positioning.table import AXES, read_image
+from rkm04_tools.positioning.unit import Unit
+
+OTHERS_SECONDS = 5.0
+"""For so long an order of another master is told."""
+OTHERS_A_SECOND = 0.5
+"""Requests of others, on the mean of two looks: less may be one that was repeated."""
+UPTIME_SLACK = (0.5, 0.01)
+"""Seconds, and a share of the time from look to look, by which the unit's clock may be behind."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """CONTROL and FEED of an axis."""
+
+    control: int
+    feed: int
+
+    @property
+    def permitted(self) -> bool:
+        """MP."""
+        return bool(self.control & 1)
+
+
+@dataclass
+class Looks:
+    """Looks at a unit; to be used from one thread. Nothing here changes anything there."""
+
+    unit: UnitState | None = None
+    axes: list[AxisState] = field(default_factory=list)
+    wanted: list[Wanted] = field(default_factory=list)
+    _own: set[int] = field(default_factory=set)
+    _others_at: dict[int, float] = field(default_factory=dict)
+    _frames: tuple[int, int, float] | None = None
+    _uptime: tuple[int, float] | None = None
+
+    def touch(self, *axes: int) -> None:
+        """Something is asked of axes from here: what changes there is no one else's."""
+        self._own.update(axes)
+
+    def look(self, unit: Unit) -> dict[str, Any]:
+        """Ask for all of it."""
+        self._expect(unit)
+        state = unit.read()
+        now = time.monotonic()
+        self._uptime = (state.values["UPTIME"], now)
+        others = self._others(state.values["FRAMES"], unit.wire.counts.requests, now)
+        words = unit.wire.read(IMAGE, IMAGE_WORDS * AXES)
+        wanted = [Wanted(c, h << 16 | low) for c, h, low in zip(*[iter(words)] * 3, strict=True)]
+        axes = [unit.axis(number).read() for number in range(1, AXES + 1)]
+        self._compare(axes, wanted, now)
+        self.unit, self.axes, self.wanted = state, axes, wanted
+        told = {name.lower(): value for name, value in state.values.items()}
+        return {
+            "type": "live",
+            "time_s": round(now, 3),
+            "unit": {**told, "inputs": state.inputs, "others": others},
+            "axes": [self._as_json(number) for number in range(AXES)],
+        }
+
+    def _as_json(self, index: int) -> dict[str, Any]:
+        axis, wanted = self.axes[index], self.wanted[index]
+        at = self._others_at.get(axis.axis)
+        return {
+            **vars(axis),
+            "state": axis.state,
+            "feed": wanted.feed,
+            "permitted": wanted.permitted,
+            "by_other": at is not None and time.monotonic() - at < OTHERS_SECONDS,
+        }
+
+    def _expect(self, unit: Unit) -> None:
+        if self._uptime:
+            uptime_ms, at = self._uptime
+            passed = time.monotonic() - at
+            least, share = UPTIME_SLACK
+            expected = 1000 * (passed - max(least, share * passed))
+            unit.expect_uptime(uptime_ms + max(0, int(expected)))
+
+    def _others(self, frames: int, requests: int, now: float) -> float | None:
+        """Requests a second that the unit has got and that were not from here."""
+        before, self._frames = self._frames, (frames, requests, now)
+        if before is None or requests < before[1]:
+            return None
+        more = (frames - before[0]) % (1 << 32) - (requests - before[1])
+        rate = more / max(now - before[2], 0.01)
+        return round(rate, 1) if rate > OTHERS_A_SECOND and more < 1 << 31 else 0.0
+
+    def _compare(self, axes: list[AxisState], wanted: list[Wanted], now: float) -> None:
+        """DONE, MP and FEED change by orders alone: if not by one from here, then by another's."""
+        for before, old, axis, new in zip(self.axes, self.wanted, axes, wanted, strict=False):
+            is_same = (before.done, old.permitted, old.feed) == (axis.done, new.permitted, new.feed)
+            if not is_same and axis.axis not in self._own:
+                self._others_at[axis.axis] = now
+        self._own.clear()
+
+
+IMAGE, IMAGE_WORDS = read_image("FAST_OUT")

@@ -1,0 +1,119 @@
+"""Taking the permission away from axes, until they are seen to stand.
+
+Who takes it back while they brake, as a PLC on the same unit that writes it in every cycle, is
+overruled: POS_INIT ends the measure, so that no permission moves the axis any more.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+from rkm04_tools.line_errors import LineError, PortError
+from rkm04_tools.positioning.line_errors import NotConfirmed, Restarted
+from rkm04_tools.positioning.service.connection import Connection
+from rkm04_tools.positioning.service.looking import IMAGE, IMAGE_WORDS
+from rkm04_tools.positioning.service.orders import ALL_AXES
+from rkm04_tools.positioning.state import AxisState, mm_text
+from rkm04_tools.positioning.table import AXES
+from rkm04_tools.positioning.unit import BRAKE_SECONDS, STOP_SECONDS, Unit
+
+PAUSE_SECONDS = 0.02
+
+
+@dataclass
+class Stop:
+    """A stop under way. `more` gives axes that are to be stopped, too, as they come."""
+
+    line: Connection
+    unit: Unit
+    more: Callable[[], list[tuple[int, ...]]]
+    axes: set[int] = field(default_factory=set)
+    ended: set[int] = field(default_factory=set)
+    _new: set[int] = field(default_factory=set)
+    _answer_end: float = 0.0
+    _brake_end: float = 0.0
+
+    def run(self) -> str:
+        """Stop, and see them stand."""
+        tries, self.unit.wire.tries = self.unit.wire.tries, 1
+        try:
+            while not self._do():
+                time.sleep(PAUSE_SECONDS)
+        finally:
+            self.unit.wire.tries = tries
+        return self._text()
+
+    def _do(self) -> bool:
+        """A turn; whether all stand."""
+        if come := {axis for axes in self.more() for axis in axes}:
+            self._new |= come
+            self._answer_end = time.monotonic() + STOP_SECONDS
+            self._brake_end = time.monotonic() + BRAKE_SECONDS
+        try:
+            return self._stop()
+        except Restarted:
+            self.line.restart()  # what has restarted stands
+        except PortError:
+            raise
+        except LineError as error:
+            if time.monotonic() > self._answer_end:
+                raise NotConfirmed(str(error)) from None
+        return False
+
+    def _stop(self) -> bool:
+        if self._new:
+            self.unit.require_known()
+            self._take_permission()
+            self.axes |= self._new
+            self._new = set()
+        self.line.look(self.unit)
+        self._answer_end = time.monotonic() + STOP_SECONDS
+        looks = self.line.looks
+        seen = [pair for pair in zip(looks.axes, looks.wanted, strict=True) if self._is_of(pair[0])]
+        again = [axis for axis, wanted in seen if wanted.permitted and _may_move(axis)]
+        for axis in again:
+            self.line.looks.touch(axis.axis)
+            self.unit.axis(axis.axis).init()
+            self.ended.add(axis.axis)
+        moving = [axis for axis, _ in seen if axis.moves]
+        if moving and time.monotonic() > self._brake_end:
+            which = ", ".join(str(axis.axis) for axis in moving)
+            raise NotConfirmed(f"{self.unit.wire.name}, axis {which}: it still moves")
+        return not (again or moving or self._new)
+
+    def _is_of(self, axis: AxisState) -> bool:
+        return axis.axis in self.axes
+
+    def _take_permission(self) -> None:
+        """MP = 0; of all axes in one request, with feed 0 too."""
+        self.line.looks.touch(*self._new)
+        if self._new == set(ALL_AXES):
+            self.unit.wire.write(IMAGE, [0] * IMAGE_WORDS * AXES)
+            return
+        for axis in sorted(self._new):
+            self.unit.wire.write(IMAGE + IMAGE_WORDS * (axis - 1), [0])
+
+    def _text(self) -> str:
+        states = [axis for axis in self.line.looks.axes if self._is_of(axis)]
+        text = f"{_names(self.axes)} {'stand' if len(states) > 1 else 'stands'}"
+        at = [f"{axis.axis} at {mm_text(axis.position_um)} mm" for axis in states if axis.is_taken]
+        text += f": {', '.join(at)}" if at else ""
+        if self.ended:
+            text += (
+                f"; another master gave {_names(self.ended)} the permission again, "
+                "so the measure was ended there"
+            )
+        return text
+
+
+def _may_move(axis: AxisState) -> bool:
+    return axis.is_taken and axis.is_programmed and not axis.is_reached
+
+
+def _names(axes: Iterable[int]) -> str:
+    numbers = sorted(axes)
+    if numbers == list(ALL_AXES):
+        return "all axes"
+    return f"{'axis' if len(numbers) == 1 else 'axes'} {', '.join(map(str, numbers))}"
