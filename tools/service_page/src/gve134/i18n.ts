@@ -1,7 +1,6 @@
 import { setUpWords, translator } from "../language";
 import { cs } from "./cs";
 import { en } from "./en";
-import type { Trouble } from "./protocol";
 
 export { language, numberText } from "../language";
 
@@ -16,8 +15,7 @@ export const isKey = (name: string): name is Key => name in en;
 
 export const setUpLanguage = (chooser: HTMLSelectElement): void => setUpWords<Key>(chooser, t);
 
-/** Cause and next step, as the service says them. */
-export const troubleText = ({ cause, next }: Trouble): string => (next ? `${cause}; ${next}` : cause);
+export { troubleText } from "../common/words";
 
 const MINUTE = 60;
 

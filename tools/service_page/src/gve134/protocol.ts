@@ -1,6 +1,7 @@
 /** What the page of a GVE134 and its service say to each other, over HTTP and over the WebSocket. */
-import type { Port, Trouble } from "../protocol";
-export type { Port, Trouble };
+import type { CommonFromService, CommonState } from "../common/known";
+import type { Trouble } from "../protocol";
+export type { Trouble };
 
 export const AXES = ["X", "Y", "Z", "A"] as const;
 /** Inputs in the order in which a look has them: numbers of the board, and names. */
@@ -63,25 +64,15 @@ export interface Machine {
     rpm: number | null;
 }
 
-export interface UnitState {
-    connected: boolean;
-    port: string | null;
-    virtual: boolean;
-    version: string | null;
-    busy: string | null;
+export interface UnitState extends CommonState {
     /** A reference run, in which the unit tells nothing. */
     reference: boolean;
-    error: Trouble | null;
-    away: boolean;
-    halt: "asked" | "failed" | null;
-    restarted: boolean;
     known: { port: number | null; spindle: number | null; percent: number | null };
     /** The speed that is being brought about. */
     wanted: number | null;
     job: Job | null;
     file: FileState | null;
     machine: Machine | null;
-    seen_ago_s: number | null;
 }
 
 export interface Progress {
@@ -105,20 +96,11 @@ export interface Live {
     made: number[][];
 }
 
-export type Answer = { id: number | null; from: number | null; message: string } & (
-    | { text: string; error: null }
-    | { text: null; error: Trouble }
-);
-
 export type FromService =
-    | { type: "hello"; client?: number; beat: number }
-    | { type: "beat"; beat: number }
+    | CommonFromService
     | ({ type: "state" } & UnitState)
-    | { type: "ports"; ports: Port[] }
     | ({ type: "live" } & Live)
-    | { type: "made"; places: number[][] }
-    | ({ type: "answer" } & Answer)
-    | { type: "error"; error: Trouble };
+    | { type: "made"; places: number[][] };
 
 export interface Problem {
     severity: "error" | "warning";

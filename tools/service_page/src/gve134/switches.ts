@@ -1,3 +1,4 @@
+import { showLamp } from "../common/lamp";
 import { byId, make } from "../dom";
 import { language, numberText, t } from "./i18n";
 import { INPUTS, OUTPUTS } from "./protocol";
@@ -44,13 +45,13 @@ export class Switches {
             lamp.disabled = state?.virtual !== true || level === undefined;
             const words = t(level === undefined ? "live.unknown" : level === 0 ? "live.closed" : "live.open");
             const more = lamp.disabled ? "" : `; ${t("live.toggle")}`;
-            show(lamp, t(`input.${name}`), level === undefined ? null : level === 0, `${words}${more}`);
+            showLamp(lamp, t(`input.${name}`), level === undefined ? null : level === 0, `${words}${more}`);
         });
         const port = this.#port;
         this.#outputs.forEach((lamp, bit) => {
             const isOn = port === null ? null : ((port >> bit) & 1) === 0;
             lamp.disabled = port === null || !isConnected;
-            show(lamp, t(`output.${OUTPUTS[bit] ?? "spindle"}`), isOn, t(isOn === null ? "live.unknown" : isOn ? "live.on" : "live.off"));
+            showLamp(lamp, t(`output.${OUTPUTS[bit] ?? "spindle"}`), isOn, t(isOn === null ? "live.unknown" : isOn ? "live.on" : "live.off"));
         });
         this.#off.disabled = !isConnected;
         const spindle = this.#isThere ? (state?.known.spindle ?? null) : null;
@@ -81,12 +82,4 @@ export class Switches {
         byId(host, HTMLElement).append(lamp);
         return lamp;
     }
-}
-
-function show(lamp: HTMLButtonElement, name: string, isOn: boolean | null, words: string): void {
-    lamp.dataset.level = isOn === null ? "unknown" : isOn ? "1" : "0";
-    lamp.textContent = name;
-    lamp.title = words;
-    lamp.setAttribute("aria-pressed", String(isOn === true));
-    lamp.setAttribute("aria-label", `${name}: ${words}`);
 }

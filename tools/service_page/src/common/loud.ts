@@ -1,21 +1,37 @@
 import { byId, make } from "../dom";
-import { language, t, type Key } from "./i18n";
-import { doingOf, type Unit } from "./unit";
+import { language } from "../language";
+import type { Known } from "./known";
+import type { CommonWords } from "./words";
 
 /** After so long without a word from the unit it is said in large letters. */
 const SILENT_MS = 2000;
 const LOOK_MS = 250;
 
+/** What of it differs from unit to unit; a text is a headline and, after a line feed, what else is to be said. */
+export interface LoudOptions {
+    /** Whether the unit moved when it was last seen, or may have begun to. */
+    didMove: () => boolean;
+    /** Whether it is known what the unit does. */
+    isTold: () => boolean;
+    restarted: () => string;
+    /** What else must not be overlooked; empty: nothing. */
+    more: () => string;
+}
+
 /** What must not be overlooked: a unit that is silent, has restarted, or may not move. */
 export class Loud {
-    readonly #unit: Unit;
+    readonly #unit: Known;
+    readonly #t: CommonWords;
+    readonly #options: LoudOptions;
     readonly #box = byId("loud", HTMLElement);
     readonly #seen = byId("seen", HTMLButtonElement);
     #fresh_ms = performance.now();
     #shown = "";
 
-    constructor(unit: Unit) {
+    constructor(unit: Known, t: CommonWords, options: LoudOptions) {
         this.#unit = unit;
+        this.#t = t;
+        this.#options = options;
         this.#seen.addEventListener("click", () => unit.ask("seen"));
         unit.watch(() => this.#show());
         language.onChange(() => this.#show());
@@ -23,10 +39,8 @@ export class Loud {
     }
 
     #show(): void {
-        const found = this.#find();
-        const more = found.slice(1).map((key) => t(key)).join(" ");
-        const words = found[0] === undefined ? "" : `${t(found[0])}\n${more}`;
-        this.#seen.hidden = found[0] !== "loud.restarted";
+        const words = this.#find();
+        this.#seen.hidden = this.#unit.state.value?.restarted !== true;
         if (words === this.#shown) {
             return;
         }
@@ -36,27 +50,23 @@ export class Loud {
         this.#box.querySelector("span")?.replaceChildren(head, ...(rest === "" ? [] : [make("small", {}, rest)]));
     }
 
-    /** The headline, then what else is to be said. */
-    #find(): Key[] {
+    #find(): string {
         const state = this.#unit.state.value;
-        const last = this.#unit.last.value;
-        const didMove = last !== null && ["moves", "brakes"].includes(doingOf(last.flags));
-        const isTold = this.#unit.doing !== "unknown" || state?.busy === "connect" || state === null;
+        const isTold = this.#options.isTold() || state?.busy === "connect" || state === null;
         if (isTold || !(state.connected || state.away)) {
             this.#fresh_ms = performance.now();
         }
         if (state?.restarted) {
-            return ["loud.restarted", "loud.restartedMore"];
+            return `${this.#t("loud.restarted")}\n${this.#options.restarted()}`;
         }
+        const didMove = this.#options.didMove();
+        const moving = didMove ? `\n${this.#t("loud.moving")}` : "";
         if (state?.error && !state.connected && (state.away || didMove)) {
-            return didMove ? ["loud.lost", "loud.moving"] : ["loud.lost"];
+            return this.#t("loud.lost") + moving;
         }
         if (state?.connected && (performance.now() - this.#fresh_ms > SILENT_MS || state.error !== null)) {
-            return didMove ? ["loud.silent", "loud.moving"] : ["loud.silent"];
+            return this.#t("loud.silent") + moving;
         }
-        if (this.#unit.doing === "fault") {
-            return ["loud.fault", "loud.faultMore"];
-        }
-        return this.#unit.doing === "crystal" ? ["loud.crystal"] : [];
+        return this.#options.more();
     }
 }

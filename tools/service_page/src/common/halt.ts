@@ -1,34 +1,37 @@
 import { byId } from "../dom";
+import { language } from "../language";
 import { listenForStop } from "../stop_press";
-import { language, t } from "./i18n";
-import type { Answer } from "./protocol";
-import type { Unit } from "./unit";
+import type { Answer, Known } from "./known";
+import type { CommonWords } from "./words";
 
 const DONE_MS = 4000;
 
 /**
- * HALT: the button, the Escape key, and the line that says that it is not confirmed. That stays until one is
+ * The stop: its button, the Escape key, and the line that says that it is not confirmed. That stays until one is
  * confirmed, also when port or service are lost.
  */
 export class Halt {
-    readonly #unit: Unit;
+    readonly #unit: Known;
+    readonly #t: CommonWords;
     readonly #alarm = byId("alarm", HTMLElement);
     /** Whether a halt of this page has no good answer yet; "asked": it may still come. */
     #own: "asked" | "failed" | null = null;
     #done = "";
     #forget = 0;
 
-    constructor(unit: Unit) {
+    constructor(unit: Known, t: CommonWords) {
         this.#unit = unit;
+        this.#t = t;
         listenForStop(byId("stop", HTMLButtonElement), () => this.#press());
-        unit.link.on("answer", (answer) => this.#hear(answer));
+        unit.link.on("answer", (answer: Answer) => this.#hear(answer));
         unit.link.isOpen.onChange((isOpen) => {
             if (!isOpen && (this.#own === "asked" || this.#last !== null)) {
                 this.#own = "failed";
             }
             this.#show();
         });
-        unit.state.onChange((state) => {
+        unit.state.onChange(() => {
+            const state = unit.state.value;
             this.#last = state === null ? this.#last : state.halt;
             this.#show();
         });
@@ -66,7 +69,7 @@ export class Halt {
     #show(): void {
         const open = this.#own === "asked" || this.#last === "asked" ? "asked" : this.#own ?? this.#last;
         const kind = open ?? (this.#done === "" ? "none" : "done");
-        const words = kind === "none" ? "" : t(`halt.${kind}`, { words: this.#done });
+        const words = kind === "none" ? "" : this.#t(`halt.${kind}`, { words: this.#done });
         this.#alarm.dataset.kind = kind;
         this.#alarm.hidden = kind === "none";
         if (this.#alarm.textContent !== words) {

@@ -1,7 +1,8 @@
 import { byId, make } from "../dom";
-import { isKey, language, t, troubleText } from "./i18n";
-import type { Answer, Trouble } from "./protocol";
-import type { Unit } from "./unit";
+import { language } from "../language";
+import type { Trouble } from "../protocol";
+import type { Answer, Known } from "./known";
+import { troubleText, type CommonWords } from "./words";
 
 const KEPT_MAX = 200;
 
@@ -12,25 +13,22 @@ interface Entry {
     isBad: boolean;
 }
 
-/** The console: commands as they are typed, and all answers, the youngest on top. */
+/** All answers, the youngest on top; `titleOf` names what was asked for. */
 export class Log {
     readonly #list = byId("log", HTMLElement);
+    readonly #t: CommonWords;
+    readonly #titleOf: (message: string) => string;
     #entries: Entry[] = [];
 
-    constructor(unit: Unit) {
-        unit.link.on("answer", (answer) => this.#add(answer));
-        unit.link.on("error", ({ error }) => this.say("error", error));
+    constructor(unit: Known, t: CommonWords, titleOf: (message: string) => string) {
+        this.#t = t;
+        this.#titleOf = titleOf;
+        unit.link.on("answer", (answer: Answer) => this.#add(answer));
+        unit.link.on("error", ({ error }: { error: Trouble }) => this.say("error", error));
         unit.link.onRefused(({ type }) => type !== "ports" && this.say(type, { cause: t("state.notSent"), next: "" }));
         byId("log-clear", HTMLButtonElement).addEventListener("click", () => {
             this.#entries = [];
             this.#showAll();
-        });
-        const typed = byId("typed", HTMLInputElement);
-        byId("console", HTMLFormElement).addEventListener("submit", (event) => {
-            event.preventDefault();
-            if (unit.link.send({ type: "typed", id: unit.link.nextId(), text: typed.value })) {
-                typed.value = "";
-            }
         });
         language.watch(() => this.#showAll());
     }
@@ -45,23 +43,18 @@ export class Log {
         this.#entries.unshift(entry);
         this.#entries.length = Math.min(this.#entries.length, KEPT_MAX);
         this.#showAll();
-        byId("spoken", HTMLElement).textContent = `${title(message)}: ${entry.words}`;
+        byId("spoken", HTMLElement).textContent = `${this.#titleOf(message)}: ${entry.words}`;
     }
 
     #showAll(): void {
-        const empty = make("li", { class: "log-empty" }, t("log.empty"));
+        const empty = make("li", { class: "log-empty" }, this.#t("log.empty"));
         const shown = this.#entries.map(({ at, message, words, isBad }) => {
             const time = make("time", {}, at.toLocaleTimeString(language.value, { hour12: false }));
-            const head = make("div", { class: "log-head" }, time, make("b", {}, title(message)));
+            const head = make("div", { class: "log-head" }, time, make("b", {}, this.#titleOf(message)));
             const item = make("li", { class: "log-item", "data-message": message }, head, make("div", { class: "log-words" }, words));
             item.classList.toggle("is-bad", isBad);
             return item;
         });
         this.#list.replaceChildren(...(shown.length > 0 ? shown : [empty]));
     }
-}
-
-function title(message: string): string {
-    const key = `message.${message}`;
-    return isKey(key) ? t(key) : message;
 }

@@ -1,30 +1,42 @@
 import { byId, make } from "../dom";
-import { language, numberText, t, troubleText } from "./i18n";
-import { type Port } from "./protocol";
-import type { Unit } from "./unit";
+import { language, numberText } from "../language";
+import type { Port } from "../protocol";
+import type { Known } from "./known";
+import { troubleText, type CommonWords } from "./words";
 
 const VIRTUAL = "virtual";
 const OTHER = "";
 
-/** Port, and the state of the connection. Only the button connects: choosing sends nothing. */
+/** What a unit adds: why it is well although it tells nothing, and whether its port must stay open. */
+export interface ConnectionOptions {
+    quiet?: () => string | null;
+    keeps?: () => boolean;
+}
+
+/** Port and, where the page has one, address, and the state of the connection. Only the button connects. */
 export class Connection {
-    readonly #unit: Unit;
+    readonly #unit: Known;
+    readonly #t: CommonWords;
+    readonly #options: ConnectionOptions;
     readonly #port = byId("port", HTMLSelectElement);
     readonly #other = byId("port-other", HTMLInputElement);
+    readonly #node = document.querySelector<HTMLSelectElement>("#node");
     readonly #button = byId("connect", HTMLButtonElement);
     readonly #pill = byId("state", HTMLElement);
     #ports: Port[] = [];
     #shown: string | null = null;
 
-    constructor(unit: Unit) {
+    constructor(unit: Known, t: CommonWords, options: ConnectionOptions = {}) {
         this.#unit = unit;
+        this.#t = t;
+        this.#options = options;
         this.#port.addEventListener("change", () => this.#portChosen());
         byId("ports", HTMLButtonElement).addEventListener("click", () => unit.link.send({ type: "ports" }));
         byId("connection-form", HTMLFormElement).addEventListener("submit", (event) => {
             event.preventDefault();
             this.#connectOrNot();
         });
-        unit.link.on("ports", ({ ports }) => {
+        unit.link.on("ports", ({ ports }: { ports: Port[] }) => {
             this.#ports = ports.filter(({ port }) => port !== VIRTUAL);
             this.#showPorts();
         });
@@ -49,7 +61,8 @@ export class Connection {
             this.#other.focus();
             return;
         }
-        this.#unit.link.send({ type: "connect", port });
+        const wanted = { type: "connect", port, ...(this.#node === null ? {} : { node: Number(this.#node.value) }) };
+        this.#unit.link.send(wanted);
     }
 
     #choosePort(port: string): void {
@@ -61,14 +74,17 @@ export class Connection {
 
     #portChosen(): void {
         this.#other.hidden = this.#port.value !== OTHER;
+        if (this.#node !== null) {
+            this.#node.disabled = this.#isWanted || this.#port.value === VIRTUAL;
+        }
     }
 
     #showPorts(): void {
         const chosen = this.#port.value || this.#other.value || VIRTUAL;
         this.#port.replaceChildren(
-            make("option", { value: VIRTUAL }, t("port.virtual")),
+            make("option", { value: VIRTUAL }, this.#t("port.virtual")),
             ...this.#ports.map(({ port, label }) => make("option", { value: port }, label || port)),
-            make("option", { value: OTHER }, t("port.other")),
+            make("option", { value: OTHER }, this.#t("port.other")),
         );
         this.#choosePort(chosen);
     }
@@ -78,24 +94,32 @@ export class Connection {
         const isOpen = this.#unit.link.isOpen.value;
         if (state?.port && state.port !== this.#shown) {
             this.#choosePort(state.port);
+            if (this.#node !== null) {
+                this.#node.value = String(state.node ?? 1);
+            }
         }
         this.#shown = state?.port ?? null;
-        const isGood = this.#unit.presence.isFresh.value || this.#unit.doing === "reference";
+        const isGood = this.#unit.presence.isFresh.value || this.#quiet !== null;
         this.#pill.dataset.kind = isGood ? "good" : !isOpen || state?.error ? "bad" : "idle";
         this.#pill.textContent = this.#words(isGood).join(" · ");
-        this.#button.textContent = t(this.#isWanted ? "connection.disconnect" : "connection.connect");
+        this.#button.textContent = this.#t(this.#isWanted ? "connection.disconnect" : "connection.connect");
         this.#button.classList.toggle("primary", !this.#isWanted);
-        this.#button.disabled = !isOpen || (state?.job?.phase ?? "done") === "sending";
+        this.#button.disabled = !isOpen || this.#options.keeps?.() === true;
         this.#port.disabled = this.#other.disabled = this.#isWanted;
+        this.#portChosen();
         this.#showBanner(isOpen);
         document.body.dataset.connected = String(isOpen && state?.connected === true);
+    }
+
+    get #quiet(): string | null {
+        return this.#options.quiet?.() ?? null;
     }
 
     #showBanner(isOpen: boolean): void {
         const banner = byId("banner", HTMLElement);
         const state = this.#unit.state.value;
         const trouble = state?.error ? troubleText(state.error) : "";
-        const words = !isOpen ? t("state.lost") : state?.away ? `${trouble}. ${t("state.comesBack")}` : trouble;
+        const words = !isOpen ? this.#t("state.lost") : state?.away ? `${trouble}. ${this.#t("state.comesBack")}` : trouble;
         banner.hidden = words === "" || (!isOpen && this.#unit.link.client === null);
         if (banner.textContent !== words) {
             banner.textContent = words;
@@ -105,18 +129,18 @@ export class Connection {
     #words(isGood: boolean): string[] {
         const state = this.#unit.state.value;
         if (!this.#unit.link.isOpen.value) {
-            return [t("state.noService")];
+            return [this.#t("state.noService")];
         }
-        const port = state?.virtual ? t("port.virtualShort") : (state?.port ?? "");
+        const node = state?.node === undefined || state.virtual ? "" : ` #${state.node}`;
+        const port = state?.virtual ? this.#t("port.virtualShort") : `${state?.port ?? ""}${node}`;
         const seconds = this.#unit.presence.seconds.value;
-        const seen = seconds === null ? t("state.neverSeen") : t("state.seen", { seconds: numberText(seconds) });
+        const seen = seconds === null ? this.#t("state.neverSeen") : this.#t("state.seen", { seconds: numberText(seconds) });
         if (state?.away) {
-            return [t("state.away", { port }), seen];
+            return [this.#t("state.away", { port }), seen];
         }
         if (!state?.connected) {
-            return [t("state.disconnected")];
+            return [this.#t("state.disconnected")];
         }
-        const more = state.reference ? t("state.reference") : (state.version ?? "");
-        return [port, isGood ? more : seen];
+        return [port, isGood ? (this.#quiet ?? state.version ?? "") : seen];
     }
 }
