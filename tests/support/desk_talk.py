@@ -73,4 +73,3 @@ class DeskTalk:
 
     def connected(self) -> Told:
         return self.state(lambda m: m["connected"] and m["version"] and not m["busy"])
-

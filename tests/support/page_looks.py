@@ -27,7 +27,8 @@ OUTSIDE = """() => [...document.querySelectorAll("header *, main *")]
 OVER = """() => {
     const kinds = ["button", "select", "input", "label", ".hint", "h2", "canvas", ".card"];
     const parts = [...document.querySelectorAll(kinds.map((kind) => `main ${kind}`).join())]
-        .filter((part) => !part.closest(".cm-editor, .log-box") && part.checkVisibility());
+        .filter((part) => !part.closest(".cm-editor, .log-box, #setting-rows"))
+        .filter((part) => part.checkVisibility());
     const boxes = parts.map((part) => part.getBoundingClientRect());
     const found = [];
     parts.forEach((one, i) => parts.forEach((other, j) => {

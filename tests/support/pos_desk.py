@@ -26,6 +26,4 @@ class PosDesk(DeskTalk):
     def move(self, mm: float, feed: float = 600, axis: int = 1, **more: Any) -> Told:
         """Take an axis if need be, and let it go."""
         um = round(1000 * mm)
-        return self.ask(
-            "measure", axis=axis, um=um, accel=500, feed=round(feed * MM_MIN), **more
-        )
+        return self.ask("measure", axis=axis, um=um, accel=500, feed=round(feed * MM_MIN), **more)

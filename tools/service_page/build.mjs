@@ -1,6 +1,6 @@
 // Bundles the page into the directory $RKM04_SERVICE_OUT: index.html, page.js, page.css, engine.js (the
-// worker of a page without a service) of RKM04, gve134.html, gve134.js and gve134.css of the other
-// unit, and icon.svg, nothing else.
+// worker of a page without a service) of RKM04, gve134.html and positioning.html with a script
+// and a style each, and icon.svg, nothing else.
 import Ajv from "ajv/dist/2020.js";
 import standaloneCode from "ajv/dist/standalone/index.js";
 import { build } from "esbuild";
@@ -31,6 +31,8 @@ await build({
         { in: "style.css", out: "page" },
         { in: "src/gve134/main.ts", out: "gve134" },
         { in: "gve134.css", out: "gve134" },
+        { in: "src/positioning/main.ts", out: "positioning" },
+        { in: "positioning.css", out: "positioning" },
     ],
     outdir: out,
     plugins: [rules],
@@ -51,6 +53,6 @@ await build({
     legalComments: "eof",
     logLevel: "warning",
 });
-for (const name of ["index.html", "gve134.html", "icon.svg"]) {
+for (const name of ["index.html", "gve134.html", "positioning.html", "icon.svg"]) {
     await copyFile(name, join(out, name));
 }

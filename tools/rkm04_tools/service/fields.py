@@ -42,6 +42,12 @@ def read_object(text: str) -> tuple[dict[str, Any], Asked]:
     return told, Asked(None, number, beat)
 
 
+def unknown(kind: object) -> BadRequest:
+    """That a type of a message is not known."""
+    name = json.dumps(kind)[:40]
+    return BadRequest(f"{name} is no type of a message; the page is of another version")
+
+
 def flag_of(told: Mapping[str, Any], name: str) -> bool:
     """True or false; false where it is not there."""
     value = told.get(name, False)

@@ -1,7 +1,7 @@
 import uPlot from "uplot";
 import { extent, type Quantity } from "./curve";
 import { styleValue } from "./dom";
-import { axisNumber } from "./i18n";
+import { axisNumber } from "./language";
 import { MOTORS } from "./protocol";
 
 const AXIS_WIDTH = 74;
@@ -23,6 +23,8 @@ export interface ChartOptions {
     /** The part of the x axis that is to be seen. */
     range: () => Range;
     showsTime: boolean;
+    /** Each motor has a second line, dashed, and values of any fraction, as mm have. */
+    isDouble?: boolean;
     onCursor?: (x: number | null) => void;
     onSelect?: (range: Range) => void;
     onDoubleClick?: () => void;
@@ -31,7 +33,9 @@ export interface ChartOptions {
 /** Values of the four motors over one common x; null where a motor has none. */
 export type ChartData = [x: number[], ...motors: (number | null)[][]];
 
-const NO_DATA: ChartData = [[], ...MOTORS.map(() => [])];
+const DASHES = [5, 4];
+
+const noData = (lines: number): ChartData => [[], ...Array.from({ length: lines }, () => [])];
 
 /** The y axis follows what is seen; the line never touches the frame. */
 function rangeOfValues(seen: Range | null, quantity: Quantity): Range {
@@ -53,11 +57,12 @@ const noWords = (_plot: uPlot, ticks: number[]): string[] => ticks.map(() => "")
 export class Chart {
     readonly #plot: uPlot;
     readonly #options: ChartOptions;
-    #data = NO_DATA;
+    #data: ChartData;
 
     constructor(options: ChartOptions) {
         this.#options = options;
-        this.#plot = new uPlot(this.#plotOptions(), NO_DATA as uPlot.AlignedData, options.host);
+        this.#data = noData(MOTORS.length * (options.isDouble ? 2 : 1));
+        this.#plot = new uPlot(this.#plotOptions(), this.#data as uPlot.AlignedData, options.host);
         new ResizeObserver(() => this.#fit()).observe(options.host);
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.redraw());
     }
@@ -122,10 +127,10 @@ export class Chart {
             padding: [8, 18, 0, 0],
             legend: { show: false },
             scales: { x: { time: false }, y: { auto: false } },
-            series: [{}, ...MOTORS.map((motor) => this.#series(motor))],
+            series: [{}, ...MOTORS.map((motor) => this.#series(motor)), ...this.#second()],
             axes: [
                 this.#options.showsTime ? time : { ...time, values: noWords },
-                { ...axis, size: AXIS_WIDTH, space: 15, incrs: WHOLE },
+                { ...axis, size: AXIS_WIDTH, space: 15, ...(this.#options.isDouble ? {} : { incrs: WHOLE }) },
             ],
             cursor: this.#cursor(),
             hooks: {
@@ -144,6 +149,10 @@ export class Chart {
             spanGaps: false,
             points: { show: false },
         };
+    }
+
+    #second(): uPlot.Series[] {
+        return this.#options.isDouble ? MOTORS.map((motor) => ({ ...this.#series(motor), width: 1.5, dash: DASHES })) : [];
     }
 
     #cursor(): uPlot.Cursor {

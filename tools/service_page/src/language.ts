@@ -89,3 +89,13 @@ export function axisNumber(value: number, distance: number): string {
             : { notation: "compact", maximumSignificantDigits: Math.min(Math.max(digits, 4), 21) };
     return value.toLocaleString(LOCALES[language.value], format).replace("-", "−");
 }
+
+const MINUTE = 60;
+
+/** Seconds as people tell them. */
+export function clockText(seconds: number): string {
+    const whole = Math.round(seconds);
+    const two = (value: number): string => String(value).padStart(2, "0");
+    const [hours, minutes] = [Math.floor(whole / MINUTE / MINUTE), Math.floor(whole / MINUTE) % MINUTE];
+    return hours > 0 ? `${hours}:${two(minutes)}:${two(whole % MINUTE)}` : `${minutes}:${two(whole % MINUTE)}`;
+}

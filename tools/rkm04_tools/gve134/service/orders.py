@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from rkm04_tools.gve134.service.files import File
 from rkm04_tools.gve134.state import AXES, Positions
-from rkm04_tools.service.fields import Asked, port_of, read_object, text_of, whole_of
+from rkm04_tools.service.fields import Asked, port_of, read_object, text_of, unknown, whole_of
 from rkm04_tools.service.trouble import BadRequest
 from rkm04_tools.service.unit_orders import OF_PAGES, Connect, Plain, SetInput
 
@@ -105,9 +104,7 @@ def _order(told: Mapping[str, Any]) -> Order:
         return Typed(text_of(told, "text", COMMAND_MAX).strip())
     if kind == "input" and told.get("input") in INPUTS:
         return SetInput(int(told["input"]), whole_of(told, "level", range(2)) == 1)
-    raise BadRequest(
-        f"{json.dumps(kind)[:40]} is no type of a message; the page is of another version"
-    )
+    raise unknown(kind)
 
 
 def _axis(told: Any) -> str | None:

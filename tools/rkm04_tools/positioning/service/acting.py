@@ -61,9 +61,9 @@ def _measure(axis: Axis, order: Measure) -> AxisState:
 
 def _home(axis: Axis, order: Home) -> AxisState:
     _be_taken(axis)
-    state = axis.prepare_home(order.method, order.um / UM_PER_MM, order.accel)
+    axis.prepare_home(order.method, order.um / UM_PER_MM, order.accel)
     if order.method == HERE:
-        return state
+        return axis.read()
     return axis.control(order.feed / FEED_PER_MM_MIN, permitted=True)
 
 

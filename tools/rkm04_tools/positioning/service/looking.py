@@ -30,6 +30,11 @@ class Wanted:
         """MP."""
         return bool(self.control & 1)
 
+    @property
+    def waits(self) -> bool:
+        """INIC: a measure waits for the axis to stand."""
+        return bool(self.control & 4)
+
 
 @dataclass
 class Looks:
@@ -72,7 +77,7 @@ class Looks:
         at = self._others_at.get(axis.axis)
         return {
             **vars(axis),
-            "state": axis.state,
+            "state": "WAITING" if wanted.waits and axis.moves else axis.state,
             "feed": wanted.feed,
             "permitted": wanted.permitted,
             "by_other": at is not None and time.monotonic() - at < OTHERS_SECONDS,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -11,7 +10,7 @@ from rkm04_tools.frame import NODES
 from rkm04_tools.positioning.settings import Values, part_of
 from rkm04_tools.positioning.state import INPUTS
 from rkm04_tools.positioning.table import AXES, WORD_MAX, registers
-from rkm04_tools.service.fields import Asked, flag_of, port_of, read_object, whole_of
+from rkm04_tools.service.fields import Asked, flag_of, port_of, read_object, unknown, whole_of
 from rkm04_tools.service.trouble import BadRequest
 from rkm04_tools.service.unit_orders import OF_PAGES, Connect, Plain, SetInput
 
@@ -114,9 +113,7 @@ def _order(told: Mapping[str, Any]) -> Order:
     if kind in OF_AXIS:
         order: Order = OF_AXIS[kind](whole_of(told, "axis", range(1, AXES + 1)), told)
         return order
-    raise BadRequest(
-        f"{json.dumps(kind)[:40]} is no type of a message; the page is of another version"
-    )
+    raise unknown(kind)
 
 
 NODES_RANGE = range(min(NODES), max(NODES) + 1)

@@ -2,7 +2,7 @@ import { setUpWords, translator } from "../language";
 import { cs } from "./cs";
 import { en } from "./en";
 
-export { language, numberText } from "../language";
+export { clockText, language, numberText } from "../language";
 
 export type Key = keyof typeof en;
 export type Dictionary = Record<Key, string>;
@@ -16,13 +16,3 @@ export const isKey = (name: string): name is Key => name in en;
 export const setUpLanguage = (chooser: HTMLSelectElement): void => setUpWords<Key>(chooser, t);
 
 export { troubleText } from "../common/words";
-
-const MINUTE = 60;
-
-/** Seconds as people tell them. */
-export function clockText(seconds: number): string {
-    const whole = Math.round(seconds);
-    const two = (value: number): string => String(value).padStart(2, "0");
-    const [hours, minutes] = [Math.floor(whole / MINUTE / MINUTE), Math.floor(whole / MINUTE) % MINUTE];
-    return hours > 0 ? `${hours}:${two(minutes)}:${two(whole % MINUTE)}` : `${minutes}:${two(whole % MINUTE)}`;
-}

@@ -1,0 +1,23 @@
+import { byId } from "../dom";
+import { Card } from "./card";
+import { language } from "./i18n";
+import { AXES } from "./protocol";
+import type { Unit } from "./unit";
+
+/** The cards of all axes. */
+export class Axes {
+    constructor(unit: Unit) {
+        const cards = AXES.map((axis) => new Card(unit, axis));
+        const show = (): void => {
+            byId("live", HTMLElement).dataset.fresh = String(unit.now !== null);
+            cards.forEach((card) => card.show());
+        };
+        byId("axes", HTMLElement).append(...cards.map(({ root }) => root));
+        unit.watch(show);
+        unit.settings.onChange(show);
+        language.onChange(() => {
+            cards.forEach((card) => card.name());
+            show();
+        });
+    }
+}

@@ -1,0 +1,60 @@
+import { Connection } from "../common/connection";
+import { Halt } from "../common/halt";
+import { Log } from "../common/log";
+import { Loud } from "../common/loud";
+import { byId } from "../dom";
+import { Link } from "../link";
+import { Presence } from "../presence";
+import { ServiceLine } from "../service_line";
+import { Axes } from "./axes";
+import { Curves } from "./curves";
+import { Facts } from "./facts";
+import { named, setUpLanguage, t } from "./i18n";
+import { CONDITION, type FromService, type ToService } from "./protocol";
+import { SettingsPanel } from "./settings";
+import { Unit } from "./unit";
+
+/*
+ * Puts the parts together; each sees the unit, and none of them another. Nothing on this page acts on a unit except
+ * what the user presses.
+ */
+const link = new Link<FromService, ToService>(() => new ServiceLine());
+setUpLanguage(byId("language", HTMLSelectElement));
+const presence = new Presence(link.isOpen);
+link.on("state", (state) => presence.setState(state));
+link.on("live", () => presence.look(unit.state.value?.node));
+
+const unit = new Unit(link, presence);
+new Halt(unit, t);
+new Connection(unit, t);
+new Loud(unit, t, {
+    didMove: () => unit.didMove,
+    isTold: () => unit.now !== null,
+    restarted: () => t("loud.restartedMore"),
+    more: alsoLoud,
+});
+new Log(unit, t, (message) => named("message", message));
+new Facts(unit);
+new Axes(unit);
+new Curves(unit);
+new SettingsPanel(unit);
+const top = byId("top", HTMLElement);
+new ResizeObserver(() => document.body.style.setProperty("--top", `${top.clientHeight}px`)).observe(top);
+link.open();
+
+/** What must not be overlooked of a unit that answers, or that nobody asks any more. */
+function alsoLoud(): string {
+    const { now } = unit;
+    if (unit.wasLeftMoving) {
+        return `${t("loud.left")}\n${t("loud.moving")} ${t("loud.leftMore")}`;
+    }
+    const condition = now?.unit.condition ?? 0;
+    if (condition & CONDITION.crystal) {
+        return t("loud.crystal");
+    }
+    if (condition & CONDITION.damaged) {
+        return `${t("loud.damaged")}\n${t("loud.damagedMore")}`;
+    }
+    const others = now?.axes.filter(({ by_other }) => by_other).map(({ axis }) => axis) ?? [];
+    return others.length > 0 ? `${t("loud.others", { axes: others.join(", ") })}\n${t("loud.othersMore")}` : "";
+}
