@@ -314,7 +314,7 @@ def test_a_service_that_stands_still_is_noticed_and_clicks_meanwhile_never_act(
     page.open("a.gve", LONG)
     line_service.tell(signal.SIGSTOP)
     page.at("start").click()
-    expect(page.at("banner")).to_contain_text("cannot halt anything")
+    expect(page.at("banner")).to_contain_text("cannot stop anything")
     expect(page.at("position-X")).to_have_text(NOT_KNOWN)
     page.page.keyboard.press("Escape")
     expect(page.at("alarm")).to_have_text("HALT NOT CONFIRMED: USE THE EMERGENCY STOP")

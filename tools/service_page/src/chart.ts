@@ -23,7 +23,7 @@ export interface ChartOptions {
     /** The part of the x axis that is to be seen. */
     range: () => Range;
     showsTime: boolean;
-    /** Each motor has a second line, dashed, and values of any fraction, as mm have. */
+    /** Each motor has two lines, first a broad and pale one, and values of any fraction, as mm have. */
     isDouble?: boolean;
     onCursor?: (x: number | null) => void;
     onSelect?: (range: Range) => void;
@@ -33,7 +33,9 @@ export interface ChartOptions {
 /** Values of the four motors over one common x; null where a motor has none. */
 export type ChartData = [x: number[], ...motors: (number | null)[][]];
 
-const DASHES = [5, 4];
+const BROAD_PX = 6;
+/** Of a colour #rrggbb. */
+const PALE = "59";
 
 const noData = (lines: number): ChartData => [[], ...Array.from({ length: lines }, () => [])];
 
@@ -127,7 +129,7 @@ export class Chart {
             padding: [8, 18, 0, 0],
             legend: { show: false },
             scales: { x: { time: false }, y: { auto: false } },
-            series: [{}, ...MOTORS.map((motor) => this.#series(motor)), ...this.#second()],
+            series: [{}, ...this.#broad(), ...MOTORS.map((motor) => this.#series(motor))],
             axes: [
                 this.#options.showsTime ? time : { ...time, values: noWords },
                 { ...axis, size: AXIS_WIDTH, space: 15, ...(this.#options.isDouble ? {} : { incrs: WHOLE }) },
@@ -151,8 +153,9 @@ export class Chart {
         };
     }
 
-    #second(): uPlot.Series[] {
-        return this.#options.isDouble ? MOTORS.map((motor) => ({ ...this.#series(motor), width: 1.5, dash: DASHES })) : [];
+    #broad(): uPlot.Series[] {
+        const stroke = (motor: number) => (): string => styleValue(`--motor-${motor}`) + PALE;
+        return this.#options.isDouble ? MOTORS.map((motor) => ({ ...this.#series(motor), width: BROAD_PX, stroke: stroke(motor) })) : [];
     }
 
     #cursor(): uPlot.Cursor {

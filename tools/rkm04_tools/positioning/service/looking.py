@@ -101,9 +101,12 @@ class Looks:
         return round(rate, 1) if rate > OTHERS_A_SECOND and more < 1 << 31 else 0.0
 
     def _compare(self, axes: list[AxisState], wanted: list[Wanted], now: float) -> None:
-        """DONE, MP and FEED change by orders alone: if not by one from here, then by another's."""
+        """DONE, MP and FEED change by orders, or FEED by a fault: if not by an order from here,
+        then by another's."""
         for before, old, axis, new in zip(self.axes, self.wanted, axes, wanted, strict=False):
-            is_same = (before.done, old.permitted, old.feed) == (axis.done, new.permitted, new.feed)
+            is_fault = axis.has_fault and not before.has_fault and new.feed == 0
+            feed = old.feed if is_fault else new.feed
+            is_same = (before.done, old.permitted, old.feed) == (axis.done, new.permitted, feed)
             if not is_same and axis.axis not in self._own:
                 self._others_at[axis.axis] = now
         self._own.clear()

@@ -97,9 +97,12 @@ class Stop:
 
     def _text(self) -> str:
         states = [axis for axis in self.line.looks.axes if self._is_of(axis)]
-        text = f"{_names(self.axes)} {'stand' if len(states) > 1 else 'stands'}"
-        at = [f"{axis.axis} at {mm_text(axis.position_um)} mm" for axis in states if axis.is_taken]
-        text += f": {', '.join(at)}" if at else ""
+        if len(states) == 1:
+            text = f"axis {states[0].axis} stands at {mm_text(states[0].position_um)} mm"
+        else:
+            taken = [axis for axis in states if axis.is_taken]
+            at = ", ".join(f"{axis.axis} at {mm_text(axis.position_um)} mm" for axis in taken)
+            text = f"{_names(self.axes)} stand{f': {at}' if at else ''}"
         if self.ended:
             text += (
                 f"; another master gave {_names(self.ended)} the permission again, "

@@ -218,11 +218,12 @@ export class Card {
         return make(
             "section", { class: "card", id: `axis-${this.#axis}`, style: `--c: var(--motor-${this.#axis})` },
             make("h3", { class: "card-head" }, make("span", { class: "card-name" }, make("i", { class: "led" }), name), speed), state,
-            row("where", position, steps), target, bits, trouble,
+            row("where", position, steps), target,
             row("first", hold, go), asked, this.#feed.root,
             row("fields", this.#kind, this.#way, unit("mm"), this.#accel, unit("mm/s²")), row("", move, measure),
             make("details", {}, this.#more, row("fields", this.#method, this.#reference, unit("mm"), home), row("fields", capture, captured)),
             row("owner", take, release),
+            bits, trouble, // below the buttons, which so stay where they are
         );
     }
 }

@@ -23,7 +23,7 @@ const asked: Record<"speed" | "position", Quantity> = {
     position: (axis) => (isUnderWay(axis) && (axis.flags & FLAG.HOMING) === 0 ? (axis.position_um + axis.way_left_um) / UM_PER_MM : null),
 };
 
-/** The last half minute: what was asked for, dashed, and what was made. */
+/** The last half minute: what was asked for, broad and pale, and what was made. */
 export class Curves {
     readonly #unit: Unit;
     readonly #charts = (["speed", "position"] as const).map((quantity) => {
@@ -63,7 +63,7 @@ export class Curves {
         const line = (of: Quantity, index: number): (number | null)[] =>
             this.#samples.map(({ axes }) => (axes[index] === undefined ? null : of(axes[index])));
         for (const { quantity, chart } of this.#charts) {
-            const lines = [made[quantity], asked[quantity]].flatMap((of) => AXES.map((_, index) => line(of, index)));
+            const lines = [asked[quantity], made[quantity]].flatMap((of) => AXES.map((_, index) => line(of, index)));
             chart.setData([times, ...lines] as ChartData);
         }
         byId("curves", HTMLElement).dataset.samples = String(this.#unit.now === null ? 0 : this.#samples.length);
