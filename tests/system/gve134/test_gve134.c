@@ -1,5 +1,7 @@
 #include "gve_rig.h"
 
+#include "hal_time.h"
+
 void setUp(void)
 {
     rig_set_up();
@@ -143,6 +145,32 @@ void test_a_packet_is_taken_whole(void)
     rig_expect("0*E3", "0,3");
     rig_run_ms(3000);
     rig_expect("0P", "0,1389,122");
+}
+
+static uint64_t be_late(void *context)
+{
+    (void)context;
+    return TICK_NEVER;
+}
+
+/* What waits in the line when main comes late. */
+void test_a_pass_takes_as_much_of_a_packet_as_has_come_and_other_requests_one_by_one(void)
+{
+    static const char *const texts[] = {"!0*S\r!0C697,30,0\r!0B500\r!0C692,92,0\r", "!0V1000\r!0V2000\r"};
+    for (unsigned i = 0; i < 2; i++) {
+        uint32_t count = (uint32_t)strlen(texts[i]);
+        for (uint32_t place = 0; place < count; place++) {
+            rig_script[place] = (struct host_line_byte){.tick = machine.now + (place + 1U) * (uint64_t)RIG_BYTE_TICKS,
+                                                        .value = (uint8_t)texts[i][place]};
+        }
+        host_machine_set_line(&machine, rig_script, count);
+        host_machine_run(&machine, machine.now + (count + 1U) * (uint64_t)RIG_BYTE_TICKS, be_late, NULL, NULL);
+        TEST_ASSERT_EQUAL_UINT64(hal_time_now(), gve134_poll(&unit));
+        TEST_ASSERT_EQUAL_UINT32(3, unit.packet.commands);
+        rig_run_ms(10);
+        TEST_ASSERT_TRUE(gve134_poll(&unit) > hal_time_now());
+        unit.packet.open = false;
+    }
 }
 
 void test_of_a_packet_with_a_wrong_line_nothing_is_taken(void)

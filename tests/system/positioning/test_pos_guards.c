@@ -1,6 +1,8 @@
 /* Limits, capture, backlash and the watchdog of the bus. */
 #include "pos_rig.h"
 
+#include "hal_time.h"
+
 #define FEED(mm_per_min) ((uint32_t)(mm_per_min) << 16U)
 
 enum {
@@ -224,18 +226,33 @@ void test_a_silent_bus_is_seen_by_each_axis_alone(void)
     }
 }
 
+void test_a_silent_bus_is_one_of_the_very_time(void)
+{
+    unit.registers.unit[POS_UNIT_WATCHDOG] = 200;
+    take();
+    unit.server.heard_tick = hal_time_now() + 1U - 200 * TICKS_PER_MS;
+    (void)positioning_poll(&unit);
+    TEST_ASSERT_EQUAL_HEX(0x0001, rig_status(1));
+    unit.server.heard_tick--;
+    (void)positioning_poll(&unit);
+    TEST_ASSERT_EQUAL_HEX(0x0005, rig_status(1));
+}
+
 void test_an_input_that_is_active_at_the_start_is_no_edge(void)
 {
     static const uint16_t one = 1;
     set(CAPTURE, 5, false);
+    set(CAPTURE + 300, 5, false);
     TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, positioning_write(&unit, 40, 1, &one));
     host_machine_set_input(&machine, 5, true);
     host_machine_restart(&machine);
     rig_begin();
     TEST_ASSERT_EQUAL_INT(POS_OK, pos_capture(&unit, 1));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_capture(&unit, 4));
     host_machine_set_input(&machine, 6, true);
     rig_run_ms(2);
     TEST_ASSERT_EQUAL_UINT16(0, rig_values(1).captures);
+    TEST_ASSERT_EQUAL_UINT16(0, rig_values(4).captures);
 }
 
 void test_leds_show_pulses_and_errors(void)
@@ -248,11 +265,15 @@ void test_leds_show_pulses_and_errors(void)
     TEST_ASSERT_EQUAL_HEX(0, rig_leds);
     TEST_ASSERT_EQUAL_INT(POS_ERROR_ACCEL, pos_mode(&unit, NULL, 1, 0, 1));
     unsigned lit = 0;
+    unsigned changes = 0;
     for (unsigned i = 0; i < 20; i++) {
+        uint8_t before = rig_leds;
         rig_run_ms(100);
         lit += rig_leds & 1U;
+        changes += before != rig_leds;
     }
     TEST_ASSERT_EQUAL_UINT(10, lit);
+    TEST_ASSERT_UINT_WITHIN(1, 4, changes);
 }
 
 void test_only_the_first_edge_of_its_own_input_is_captured(void)

@@ -140,6 +140,27 @@ void test_settings_of_an_axis_that_is_taken_or_brakes_are_refused(void)
     TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, set(ACCEL_1, 1234));
 }
 
+void test_settings_of_an_axis_concern_no_other_axis(void)
+{
+    for (uint32_t taken = 1; taken <= POS_AXES; taken++) {
+        TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, taken, 0));
+        for (uint32_t axis = 1; axis <= POS_AXES; axis++) {
+            TEST_ASSERT_EQUAL_INT(axis == taken ? MODBUS_EXCEPTION_BUSY : MODBUS_EXCEPTION_NONE,
+                                  set(ACCEL_1 + 100U * (axis - 1U), (uint16_t)(10U * taken + axis)));
+        }
+        TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_BUSY, set(STORE, 1));
+        TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, taken));
+    }
+}
+
+void test_a_store_has_two_seconds_for_its_answer(void)
+{
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 06 00 28 00 01"));
+    TEST_ASSERT_EQUAL_UINT64(2000U * TICKS_PER_MS, unit.server.patience_ticks);
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 06 00 1E 00 0A"));
+    TEST_ASSERT_EQUAL_UINT64(20U * TICKS_PER_MS, unit.server.patience_ticks);
+}
+
 void test_a_store_that_fails_leaves_what_was_stored(void)
 {
     TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, set(ACCEL_1, 1));
