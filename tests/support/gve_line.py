@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
-from gve_words import SYNTAX, TEXT_MAX, Command, Refused, name_of, read_command, with_sum
+from gve_words import SYNTAX, TEXT_MAX, UNKNOWN, Command, Refused, name_of, read_command, with_sum
 from reference import TICK_HZ
 
 MS = TICK_HZ // 1000
@@ -163,9 +163,11 @@ class Line:
     def _request(self, address: int, text: str, tick: int, *, too_long: bool) -> None:
         read: Command | int
         try:
-            read = SYNTAX if too_long else read_command(address, text)
+            read = read_command(address, text[: TEXT_MAX + 1])
         except Refused as refused:
             read = refused.code
+        if too_long and read != UNKNOWN:
+            read = SYNTAX
         name = read.name if isinstance(read, Command) else text[:1]
         if name not in ("@", ">"):
             self.index = (self.index + 1) % 256

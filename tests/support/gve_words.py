@@ -73,7 +73,7 @@ def hexadecimal(most: int, digits: int = 2) -> Field:
 
 def single(text: str) -> int:
     """Read a float; return the bits of the single."""
-    found = re.fullmatch(r"(-?)([0-9]+)(?:\.([0-9]*))?(?:[Ee](-?[0-9]+))?", text)
+    found = re.fullmatch(r"(-?)([0-9]+)(?:\.([0-9]+))?(?:[Ee](-?[0-9]+))?", text)
     if not found:
         raise Refused(SYNTAX)
     sign, whole, part, exponent = found.groups()
