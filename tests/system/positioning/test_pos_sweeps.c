@@ -13,6 +13,7 @@ enum {
     SOFT_MIN = 142,
     WATCHDOG = 30,
     PATIENCE_MS = 50,
+    LEAD_TICKS = 400 * TICKS_PER_US,
     ERR_ONLY = 4,
 };
 
@@ -75,15 +76,14 @@ static unsigned least(unsigned a, unsigned b)
     return a < b ? a : b;
 }
 
-/* After an edge it brakes from the next pulse on, or from the last one within 1 ms: as many pulses as it took to be so
- * fast, or as are left. */
+/* After an edge it brakes from the first pulse on that is far enough ahead to be taken back: as many pulses as it took
+ * to be so fast, or as are left. */
 static unsigned stop_pulses_max(uint64_t edge_ticks)
 {
-    unsigned from = 0;
-    while (from < (unsigned)PULSES && due[from] <= edge_ticks + (uint64_t)TICKS_PER_MS) {
+    unsigned from = 1;
+    while (from <= (unsigned)PULSES && due[from - 1U] <= edge_ticks + (uint64_t)LEAD_TICKS) {
         from++;
     }
-    from += from != 0 && due[from - 1U] > edge_ticks ? 0U : 1U;
     return least(from + least(from, CRUISE_PULSES) + 1U, PULSES);
 }
 
