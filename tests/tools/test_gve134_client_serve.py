@@ -194,6 +194,21 @@ def test_a_unit_and_the_simulator_refuse_a_closed_sensor_in_the_same_words(
     assert served.order("?")["positions"] == [0, 0, 0, 0]
 
 
+def test_a_halt_comes_through_beside_a_job_and_ends_it(
+    gve: Tool, start_gve: Start, served: ServedGve, tmp_path: Path
+) -> None:
+    process = start_gve("send", file_of(tmp_path, "V1000\nC90000,1\n"))
+    served.until(lambda state: state["positions"][0] > 100)
+
+    assert gve("position").status == 3
+    assert gve("halt").status == 0
+    _, told = process.communicate(timeout=PATIENCE_S)
+
+    assert process.returncode == 1
+    assert "INTERRUPTED by H" in told
+    assert gve("delete").status == 0
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_each_line_of_a_console_has_one_answer_or_is_not_sent(
     gve: Tool, served: ServedGve, monkeypatch: pytest.MonkeyPatch, seed: int

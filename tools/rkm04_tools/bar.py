@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from types import TracebackType
 
 WIDTH = 30
+COLUMNS_UNKNOWN = 1000
 
 
 class Bar:
@@ -37,6 +39,17 @@ class Bar:
         if total < 2 or not sys.stderr.isatty():
             return
         self._shown = True
-        filled = ("#" * (WIDTH * done // total)).ljust(WIDTH, ".")
-        text = f"{self.what} [{filled}] {done}/{total}, {100 * done // total} %{more}"
+        words = f"] {done}/{total}, {100 * done // total} %{more}"
+        columns = _columns()
+        width = max(0, min(WIDTH, columns - len(self.what) - len(words) - 3))
+        filled = ("#" * (width * done // total)).ljust(width, ".")
+        text = f"{self.what} [{filled}{words}"[: columns - 1]
         print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
+
+
+def _columns() -> int:
+    """Of the terminal: a bar that is longer could not be taken away."""
+    try:
+        return os.get_terminal_size(sys.stderr.fileno()).columns or COLUMNS_UNKNOWN
+    except (OSError, ValueError):
+        return COLUMNS_UNKNOWN

@@ -3,18 +3,38 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
 
 from rkm04_tools.client_base import port_of
 from rkm04_tools.failure import Failure
 from rkm04_tools.gve134 import host
 from rkm04_tools.gve134.unit import Unit, open_unit
+from rkm04_tools.holding import held, holder_of
+from rkm04_tools.line_errors import PortBusy
 
 PORT_VARIABLE = "GVE134_PORT"
+TOOL = "gve134"
+ADVICE = "use its keys (gve134 send: + - 0, space, g), or end it"
+ADVICE_BUSY = f"nothing was sent; {ADVICE} (Ctrl-C halts the axes)"
 
 
-def unit_of(options: Namespace) -> Unit:
-    """Open the line that is named by option or environment. Nothing is sent yet."""
-    return open_unit(port_of(options, PORT_VARIABLE), options.baud, options.sums)
+@contextmanager
+def unit_of(options: Namespace, shared: bool = False) -> Iterator[Unit]:
+    """Open the line that is named by option or environment. Nothing is sent yet.
+
+    `shared`: whoever has it as well is not asked, for what must come through.
+    """
+    port = port_of(options, PORT_VARIABLE)
+    with nullcontext() if shared else held(port, TOOL, ADVICE), _opened(port, options) as unit:
+        yield unit
+
+
+def _opened(port: str, options: Namespace) -> Unit:
+    try:
+        return open_unit(port, options.baud, options.sums)
+    except PortBusy:
+        raise PortBusy(f"{port}: {holder_of(port)} has this line; {ADVICE_BUSY}") from None
 
 
 def require_good(command: str, what: str) -> None:

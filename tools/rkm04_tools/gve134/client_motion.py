@@ -32,7 +32,7 @@ OVERRIDES = {"up": "XU", "down": "XD", "last": "XA"}
 
 def run_halt(options: Namespace) -> int:
     """Stop the axes, and tell where they stand."""
-    with unit_of(options) as unit:
+    with unit_of(options, shared=True) as unit:
         try:
             halted = halt_loudly(unit)
         except KeyboardInterrupt:

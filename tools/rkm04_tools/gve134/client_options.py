@@ -62,6 +62,8 @@ COMMANDS = (
             "as by gve134 gcode: position 0 of the program is where the axes stand when it begins, "
             "unless its G28 or G92 says otherwise. After a halt bring them back to where "
             "it began before it is sent again.",
+            "On a terminal keys act while it runs: + and - change the speed by a sixteenth (XU, "
+            "XD), 0 goes back to about that at the start, space halts, g goes on.",
             STOPS,
         ),
     ),

@@ -7,6 +7,7 @@ import sys
 import time
 from argparse import Namespace
 from collections.abc import Callable
+from contextlib import ExitStack
 
 from rkm04_tools.bar import Bar
 from rkm04_tools.client_base import count_of, tell
@@ -20,10 +21,12 @@ from rkm04_tools.gve134.gcode.options import START_DEFAULT, TOLERANCE_DEFAULT
 from rkm04_tools.gve134.gcode.reading import lines_of
 from rkm04_tools.gve134.gcode.turning import turn_file
 from rkm04_tools.gve134.job import job_of
+from rkm04_tools.gve134.keys import Keys, are_there
 from rkm04_tools.gve134.link_errors import LineError, NotConfirmed, Refused, Restarted
 from rkm04_tools.gve134.sending import Interrupted, Sender
 from rkm04_tools.gve134.source import read_source
-from rkm04_tools.gve134.state import AXES, positions_text
+from rkm04_tools.gve134.state import AXES, Flags, positions_text
+from rkm04_tools.gve134.steering import HELP, Held, Steering
 from rkm04_tools.gve134.stopping import guarded
 from rkm04_tools.gve134.unit import Halted
 from rkm04_tools.source import Source, named
@@ -56,7 +59,6 @@ def run_send(options: Namespace) -> int:
                 file=sys.stderr,
             )
         sender = Sender(unit, job)
-        sender.tell = Progress(bar, sender).show
         try:
             return guarded(
                 unit,
@@ -126,16 +128,20 @@ class Progress:
     """
 
     def __init__(
-        self, bar: Bar, sender: Sender, clock: Callable[[], float] = time.monotonic
-    ) -> None:
+        self, bar: Bar, sender: Sender, clock: Callable[[], float] = time.monotonic,
+        steering: Steering | None = None,
+    ) -> None:  # fmt: skip
         self._bar = bar
         self._sender = sender
+        self._steering = steering
         self._clock = clock
         self._started = clock()
         self._shown = -math.inf
 
     def show(self, sent: int) -> None:
-        """Show it, not too often."""
+        """Show it, not too often, after what keys have asked for."""
+        if self._steering:
+            self._steering.between()
         now = self._clock()
         if now - self._shown < SHOWN_SECONDS or not sys.stderr.isatty():
             return
@@ -143,10 +149,11 @@ class Progress:
         total, done = self._sender.job.vectors, self._sender.look()
         more = ", how many are executed is not known" if done is None else f", {sent} sent"
         counted = sent if done is None else done
-        passed = now - self._started
+        passed = now - self._started - (self._steering.held_s if self._steering else 0.0)
         if counted and passed > LEFT_AFTER_SECONDS:
             left = passed * (total - counted) / counted
             more += f", {int(left // 60)}:{int(left % 60):02d} left"
+        more += self._steering.text if self._steering else ""
         self._bar.show(counted, total, more)
 
 
@@ -158,15 +165,42 @@ def _executed(sender: Sender, halted: Halted) -> str:
 
 
 def _send(options: Namespace, sender: Sender, bar: Bar, stopper: Stopper) -> int:
-    def ask_person(text: str) -> None:
-        bar.clear()
-        print(f"gve134: {text}; Enter goes on, Ctrl-C halts", file=sys.stderr, flush=True)
-        with stopper.at_once():
-            sys.stdin.readline()
+    with ExitStack() as stack:
+        keys = stack.enter_context(Keys()) if are_there() else None
+        steering = Steering(sender, keys, bar) if keys else None
+        if steering:
+            print(f"gve134: {HELP}", file=sys.stderr)
+            wire = sender.unit.link.wire
+            wire.look = steering.watching(stopper.look)
+            stack.callback(setattr, wire, "look", stopper.look)
 
-    sender.ask_person = ask_person
-    sender.send()
-    flags = sender.finish() if options.wait else sender.unit.flags()
+        def ask_person(text: str) -> None:
+            bar.clear()
+            print(f"gve134: {text}; Enter goes on, Ctrl-C halts", file=sys.stderr, flush=True)
+            with ExitStack() as asking:
+                if keys:
+                    asking.enter_context(keys.lines())
+                asking.enter_context(stopper.at_once())
+                sys.stdin.readline()
+
+        sender.ask_person = ask_person
+        sender.tell = Progress(bar, sender, steering=steering).show
+        flags = _sent(sender, steering, options.wait)
+    return _tell_sent(options, sender, bar, flags)
+
+
+def _sent(sender: Sender, steering: Steering | None, waits: bool) -> Flags:
+    """Send all of it, with as many halts as a person wants."""
+    while True:
+        try:
+            sender.send()
+            return sender.finish() if waits else sender.unit.flags()
+        except Held:
+            assert steering is not None
+            steering.hold()
+
+
+def _tell_sent(options: Namespace, sender: Sender, bar: Bar, flags: Flags) -> int:
     positions = sender.unit.positions()
     job = sender.job
     answer = {

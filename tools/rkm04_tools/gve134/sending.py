@@ -25,6 +25,7 @@ from rkm04_tools.gve134.answers import Answer, encoded
 from rkm04_tools.gve134.executed import Executed
 from rkm04_tools.gve134.gcode.directives import Pause, Probe, Wait
 from rkm04_tools.gve134.job import Asked, Command, Job
+from rkm04_tools.gve134.known import Known
 from rkm04_tools.gve134.link import MEMORY_SECONDS
 from rkm04_tools.gve134.link_errors import Refused
 from rkm04_tools.gve134.probing import BEFORE, HALTED, UNTOUCHED, WORDS
@@ -76,6 +77,8 @@ class Sender:
     """In 0.1 %, as the file has set it last; None: not known."""
     ask_person: Callable[[str], None] = lambda text: None
     executed: Executed | None = None
+    known: Known = field(default_factory=Known)
+    """What is known of the unit because of this job; its spindle is in `spindle`."""
     _under_way: list[Command] = field(default_factory=list)
     _waits: int = 0
     _probes_from: Positions | None = None
@@ -301,6 +304,7 @@ class Sender:
     def _taken(self, commands: list[Command]) -> None:
         for command in commands:
             self._note_spindle(command.text)
+            self.known = self.known.after(command.text)
         self._begun.clear()
         self._waits = 0
         self.lines += len(commands)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from rkm04_tools.gve134.service.heard import Known
+from rkm04_tools.gve134.known import Known
 from rkm04_tools.service import unit_board
 from rkm04_tools.service.unit_board import LineState, Tell
 

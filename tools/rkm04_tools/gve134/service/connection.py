@@ -8,11 +8,12 @@ from typing import Any
 
 from rkm04_tools.failure import Failure
 from rkm04_tools.gve134.answers import Answer
+from rkm04_tools.gve134.known import AFTER_RESET, Known
 from rkm04_tools.gve134.link import Link
 from rkm04_tools.gve134.link_errors import Restarted
 from rkm04_tools.gve134.service import working
 from rkm04_tools.gve134.service.board import NOT_CONNECTED, Board, State
-from rkm04_tools.gve134.service.heard import AFTER_RESET, HeardWire, Known
+from rkm04_tools.gve134.service.heard import HeardWire
 from rkm04_tools.gve134.service.looking import Looks, Made
 from rkm04_tools.gve134.service.saying import WORDS
 from rkm04_tools.gve134.state import RUN, Positions

@@ -6,13 +6,13 @@ import time
 from collections.abc import Callable
 
 from rkm04_tools.failure import Failure
+from rkm04_tools.gve134.known import step_towards
 from rkm04_tools.gve134.link_errors import Restarted
 from rkm04_tools.gve134.sending import Interrupted, Sender
 from rkm04_tools.gve134.service import acting, working
 from rkm04_tools.gve134.service.board import Board
 from rkm04_tools.gve134.service.connection import Connection
 from rkm04_tools.gve134.service.files import File
-from rkm04_tools.gve134.service.heard import step_towards
 from rkm04_tools.gve134.state import RUN, positions_text
 from rkm04_tools.gve134.unit import POLL_SECONDS, Unit
 from rkm04_tools.line_errors import LineError, PortError, PortLost
