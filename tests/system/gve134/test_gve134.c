@@ -103,6 +103,28 @@ void test_an_input_that_is_enabled_stops_the_axes_and_is_told(void)
     rig_expect("0P", "0,100000,0");
 }
 
+static uint64_t be_late(void *context)
+{
+    (void)context;
+    return TICK_NEVER;
+}
+
+/* From 5000 steps/s it takes 625 steps. */
+void test_an_input_stops_the_axes_though_main_is_late(void)
+{
+    rig_input(8, true);
+    rig_expect("0SW3,00", "0");
+    rig_expect("0SW1,80", "0");
+    rig_expect("0V5000", "0");
+    rig_expect("0L100000", "0");
+    rig_run_ms(2000);
+    rig_input(8, false);
+    int64_t latched = rig_position[0];
+    host_machine_run(&machine, machine.now + 5U * TICKS_PER_MS, be_late, NULL, NULL);
+    rig_run_ms(1000);
+    TEST_ASSERT_INT64_WITHIN(10, latched + 625, rig_position[0]);
+}
+
 void test_a_reference_run_finds_the_place_where_the_switch_lets_go(void)
 {
     rig_expect("0SW2,00", "0");
@@ -145,12 +167,6 @@ void test_a_packet_is_taken_whole(void)
     rig_expect("0*E3", "0,3");
     rig_run_ms(3000);
     rig_expect("0P", "0,1389,122");
-}
-
-static uint64_t be_late(void *context)
-{
-    (void)context;
-    return TICK_NEVER;
 }
 
 /* What waits in the line when main comes late. */

@@ -224,6 +224,15 @@ void test_jede_is_1_from_the_tick_of_the_start_on(void)
     TEST_ASSERT_EQUAL_HEX(0x0103, rig_status(AXIS_2));
 }
 
+void test_a_start_is_at_least_half_a_millisecond_ahead_and_within_one(void)
+{
+    mode(1000);
+    rig_run_ms(2);
+    control(FEED(1000), 1);
+    (void)positioning_poll(&unit);
+    TEST_ASSERT_UINT64_WITHIN(TICKS_PER_MS / 4U, hal_time_now() + 3 * TICKS_PER_MS / 4U, axis()->start_tick);
+}
+
 void test_a_measure_that_is_reached_leaves_mp_as_it_is(void)
 {
     control(0, 0);
@@ -306,6 +315,7 @@ void test_the_speed_of_a_feed_is_that_of_the_settings_in_force(void)
     control(1, 1);
     rig_run_ms(2);
     TEST_ASSERT_EQUAL_HEX(0x0103, rig_status(AXIS_2));
+    TEST_ASSERT_EQUAL_UINT32(1, axis()->speed);
 }
 
 /* ---- passes ---------------------------------------------------------------------------------------------------- */

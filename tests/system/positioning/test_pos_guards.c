@@ -100,6 +100,21 @@ void test_a_limit_does_not_wait_for_main(void)
     TEST_ASSERT_INT64_WITHIN(2, before + 28, rig_position[0]);
 }
 
+void test_a_limit_of_the_last_axis_does_not_wait_for_main_either(void)
+{
+    set(LIMIT_PLUS + 300, 1, false);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 4, 0));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_mode(&unit, NULL, 10000, ACCEL, 4));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, FEED(1000), 1, 4));
+    rig_run_ms(200);
+    host_machine_set_input(&machine, 1, true);
+    int64_t before = rig_position[3];
+    rig_run_without_main(10 * TICKS_PER_MS);
+    rig_run_ms(100);
+    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_LIMIT, rig_values(4).error);
+    TEST_ASSERT_INT64_WITHIN(2, before + 28, rig_position[3]);
+}
+
 void test_a_fault_brakes_with_its_own_acceleration(void)
 {
     set(LIMIT_PLUS, 1, false);

@@ -84,6 +84,21 @@ void test_an_axis_on_the_switch_leaves_it_at_once(void)
     TEST_ASSERT_EQUAL_INT64(-51, rig_position[0]);
 }
 
+void test_a_switch_that_was_active_before_it_was_the_reference_is_left_too(void)
+{
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));
+    rig_run_ms(2);
+    set(148, 0, false);
+    switch_from = -50;
+    run_ms(2);
+    set(148, SWITCH, false);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+    home(19, 0);
+    run_ms(3000);
+    assert_home(0);
+    TEST_ASSERT_EQUAL_INT64(-51, rig_position[0]);
+}
+
 void test_the_negative_method_goes_the_other_way(void)
 {
     switch_from = -100000;

@@ -405,6 +405,7 @@ void test_each_code_is_its_instruction_and_done_and_result_tell_of_it(void)
     TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 10 00 65 00 04 08 00 25 00 00 04 D2 00 05"));
     assert_instruction("03 05", 0x0305, POS_OK);
     TEST_ASSERT_EQUAL_INT32(1234, rig_values(1).position_um);
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 06 00 65 00 00"));
     assert_instruction("03 04", 0x0304, POS_OK);
     assert_bits(POL | DISP | PROG | ERR, MP, 0);
     assert_instruction("03 02", 0x0302, POS_OK);

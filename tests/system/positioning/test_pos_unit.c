@@ -13,6 +13,16 @@ enum {
     STORE = 40,
 };
 
+static unsigned passes;
+static unsigned writes_seen;
+
+/* The PLC program of this test. */
+void plc_pass(struct pos_unit *of)
+{
+    passes++;
+    writes_seen += of->write.count == 1U && of->axes[3].state == (uint8_t)POS_TAKEN;
+}
+
 void setUp(void)
 {
     rig_set_up();
@@ -153,6 +163,13 @@ void test_each_value_of_an_axis_has_its_register(void)
     TEST_ASSERT_UINT32_WITHIN(FEED(1), FEED(1000), wide(0));
 }
 
+void test_outputs_are_0_from_the_start_on(void)
+{
+    machine.outputs = 0x55;
+    rig_begin();
+    TEST_ASSERT_EQUAL_HEX8(0, machine.outputs);
+}
+
 void test_inputs_are_shown(void)
 {
     host_machine_set_input(&machine, 3, true);
@@ -176,6 +193,16 @@ void test_the_next_pass_comes_in_a_millisecond_or_at_once(void)
     rig_run_ms(2);
     TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, FEED(900), 1, 2));
     TEST_ASSERT_EQUAL_UINT64(hal_time_now(), positioning_poll(&unit));
+}
+
+void test_the_plc_program_is_called_once_in_a_pass_after_the_line(void)
+{
+    passes = 0;
+    (void)positioning_poll(&unit);
+    TEST_ASSERT_EQUAL_UINT(1, passes);
+    writes_seen = 0;
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 06 01 90 01 01"));
+    TEST_ASSERT_GREATER_THAN_UINT(0, writes_seen);
 }
 
 void test_what_a_pass_plans_for_several_axes_is_handed_over_in_it(void)
@@ -238,6 +265,8 @@ void test_all_axes_are_written_by_one_request(void)
     }
     TEST_ASSERT_EQUAL_HEX(0x0803, rig_status(4));
     TEST_ASSERT_EQUAL_INT64(100, rig_position[3]);
+    TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 04 01 9A 00 01"));
+    TEST_ASSERT_EQUAL_HEX(0x0803, rig_word(0));
 }
 
 void test_reads_are_refused_where_a_register_is_not_there(void)
