@@ -72,6 +72,7 @@ void test_a_reference_is_where_the_next_measure_begins(void)
 {
     go(4);
     pos_frame_refer(&frame, 7, 1000);
+    TEST_ASSERT_EQUAL_INT64(7, frame.base_step);
     follow(7);
     pos_frame_give_up(&frame);
     TEST_ASSERT_EQUAL_INT64(7, frame.base_step);
@@ -135,6 +136,7 @@ void test_another_scale_makes_the_present_place_zero(void)
     TEST_ASSERT_EQUAL_INT64(50, frame.step);
     TEST_ASSERT_EQUAL_INT64(0, pos_frame_position_um(&frame, 50));
     TEST_ASSERT_EQUAL_INT64(50, frame.base_step);
+    TEST_ASSERT_EQUAL_INT64(50, frame.zero_step);
     TEST_ASSERT_EQUAL_INT64(0, frame.base_um);
     go(-2);
     TEST_ASSERT_EQUAL_INT64(-950, frame.step);
