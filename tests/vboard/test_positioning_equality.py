@@ -11,42 +11,23 @@ import struct
 import subprocess
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from judge import Steps, read_steps
-from rkm04_tools import board, host, virtual_board
+from pos_board import Made, read, run_image, sealed, write
+from rkm04_tools import host
 from virtual_board import TICKS_PER_MS, of_motor
 
-UNIT = "positioning"
 AXES = range(1, 5)
 BYTE_MS = 11 / 19.2
 BEGIN_MS = 50.0
 TAKE, MODE = 1, 2
 FULL_OUT = 600
 FORMATS = ("8E1", "8O1", "8N1", "8N2")
-
-
-def sealed(text: bytes) -> bytes:
-    """A frame with its CRC, bit by bit."""
-    rest = 0xFFFF
-    for byte in text:
-        rest ^= byte
-        for _ in range(8):
-            rest = (rest >> 1) ^ 0xA001 if rest & 1 else rest >> 1
-    return text + struct.pack("<H", rest)
-
-
-def write(first: int, words: list[int]) -> bytes:
-    head = struct.pack(">BBHHB", 1, 16, first, len(words), 2 * len(words))
-    return sealed(head + struct.pack(f">{len(words)}H", *words))
-
-
-def read(first: int, count: int) -> bytes:
-    return sealed(struct.pack(">BBHH", 1, 3, first, count))
 
 
 @dataclass(frozen=True)
@@ -112,35 +93,11 @@ def script_of(rounds: list[Round]) -> Script:
     return Script("".join(line), "".join(rows), now, begins)
 
 
-@dataclass(frozen=True)
-class Made:
-    """What a run on the board has made."""
-
-    summary: dict[str, Any]
-    steps: Steps
-    said: bytes
-
-
 @pytest.fixture
 def run(program: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Made]:
     """Run the image with what comes on the line."""
     monkeypatch.setenv("RKM04_BUILD", str(program.parents[1]))
-    image = board.build(board.DEFAULT_BOARD, what=UNIT)
-
-    def once(line: str, for_ms: float, *more: str, line_format: str = "8E1") -> Made:
-        for name, text in (("line", line), ("pins", virtual_board.board_pins(image.board, UNIT))):
-            (tmp_path / name).write_text(text)
-        options = ["--elf", str(image.file("elf")), "--pins", str(tmp_path / "pins")]
-        options += ["--line-script", str(tmp_path / "line"), "--format", line_format]
-        options += ["--line-log", str(tmp_path / "log.txt"), "--steps", str(tmp_path / "steps")]
-        options += ["--watch", "stm32_late_steps", "--stack-limit", "stm32_stack_bottom"]
-        options += ["--step-timer", "TIM5", "--for", f"{for_ms / 1000:.6f}", *more]
-        summary = virtual_board.run(program, options)
-        rows = (tmp_path / "log.txt").read_text().split()[1::2]
-        said = bytes(int(byte, 16) for byte in rows if not byte.endswith("*"))
-        return Made(summary, read_steps(tmp_path / "steps"), said)
-
-    return once
+    return partial(run_image, program, tmp_path)
 
 
 def simulated(folder: Path, csv: str) -> Steps:
