@@ -199,6 +199,55 @@ def test_the_checker_says_what_is_wrong_with_a_file(
     assert f"{header}: PC8 is used twice" in capsys.readouterr().err
 
 
+EDGES = ("HIGH", "LOW")
+compiled = pytest.mark.skipif(
+    not shutil.which(board.COMPILER), reason=f"{board.COMPILER} is not installed"
+)
+
+
+def compile_steps(folder: Path, high_ns: int, unit: str) -> subprocess.CompletedProcess[str]:
+    """The step output of a board whose drivers want so much time, with the warnings of a build."""
+    times = {f"BOARD_STEP_{each}_NS 500U": f"BOARD_STEP_{each}_NS {high_ns}U" for each in EDGES}
+    header = GOOD
+    for old, new in times.items():
+        assert old in header
+        header = header.replace(old, new)
+    (folder / "board.h").write_text(header)
+    places = ("hal/include", "hal/stm32", "firmware/base", f"firmware/{unit}/image")
+    folders = [folder, *(ROOT / each for each in places)]
+    flags = ["-std=c11", "-mcpu=cortex-m4", "-mthumb", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
+    command = [board.COMPILER, *flags, "-fsyntax-only", *(f"-I{each}" for each in folders)]
+    names = ["step", "step_setup", *(["gpio_step", "gpio_setup"] if unit == board.UNIT else [])]
+    sources = [ROOT / "hal/stm32" / f"stm32_{each}.c" for each in names]
+    return subprocess.run([*command, *sources], capture_output=True, text=True, check=False)
+
+
+@compiled
+@pytest.mark.parametrize("high_ns", [500, 2500, 4900, 5000, 10_000])
+def test_a_board_may_want_pulses_of_half_a_microsecond_to_ten(tmp_path: Path, high_ns: int) -> None:
+    done = compile_steps(tmp_path, high_ns, "rkm04")
+
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@compiled
+@pytest.mark.parametrize(
+    ("high_ns", "unit", "complaint"),
+    [
+        (400, "rkm04", "two edges are as far apart as streams need"),
+        (2600, "gve134", "the drivers of the board want wider pulses than the unit makes"),
+        (10_000, "gve134", "the drivers of the board want wider pulses than the unit makes"),
+    ],
+)
+def test_pulses_that_cannot_be_made_do_not_compile(
+    tmp_path: Path, high_ns: int, unit: str, complaint: str
+) -> None:
+    done = compile_steps(tmp_path, high_ns, unit)
+
+    assert done.returncode != 0
+    assert complaint in done.stderr
+
+
 @pytest.mark.parametrize(
     ("old", "new", "complaint"),
     [
@@ -211,7 +260,7 @@ def test_the_checker_says_what_is_wrong_with_a_file(
         ("BOARD_FLASH_BYTES 4U", "BOARD_FLASH_BYTES 3U", "might not be seen"),
     ],
 )
-@pytest.mark.skipif(not shutil.which(board.COMPILER), reason=f"{board.COMPILER} is not installed")
+@compiled
 def test_levels_that_do_not_fit_the_supply_do_not_compile(
     tmp_path: Path, old: str, new: str, complaint: str
 ) -> None:
