@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import signal
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -306,7 +307,8 @@ def test_a_restarted_unit_is_told_until_noted_and_gets_no_orders(
 def test_a_restart_while_the_port_was_away_is_noticed_although_the_unit_runs_for_longer(
     desk: PosDesk, relay: Relay, pos_serve: Serve
 ) -> None:
-    desk.live()
+    desk.ask("take", axis=3)
+    desk.axis(lambda a: a["state"] == "TAKEN", 3)
     relay.cut()
     desk.state(lambda m: m["away"])
     other = pos_serve("--unpaced", speed="1").place
@@ -315,6 +317,34 @@ def test_a_restart_while_the_port_was_away_is_noticed_although_the_unit_runs_for
     relay.mend()
 
     assert desk.state(lambda m: m["restarted"])["connected"]
+
+
+def test_a_unit_whose_time_stood_has_not_restarted(desk: PosDesk, served: Served) -> None:
+    desk.ask("take", axis=3)
+    desk.axis(lambda a: a["state"] == "TAKEN", 3)
+    served.process.send_signal(signal.SIGSTOP)
+    desk.state(lambda m: m["error"] is not None)
+    time.sleep(1.5)
+    served.process.send_signal(signal.SIGCONT)
+    desk.state(lambda m: m["error"] is None)
+    desk.live()
+    assert not desk.now["restarted"]
+
+
+def test_a_stop_is_confirmed_by_a_unit_that_has_restarted(
+    desk: PosDesk, relay: Relay, pos_serve: Serve
+) -> None:
+    moving(desk)
+    other = pos_serve("--unpaced", speed="1").place
+    time.sleep(0.5)
+    relay.muted = True
+    number = desk.say("halt")
+    relay.to(other)
+    relay.muted = False
+
+    assert desk.answer(number)["text"] == "all axes stand"
+    assert desk.now["restarted"]
+    assert desk.now["halt"] is None
 
 
 def test_a_unit_that_is_absent_at_the_start_is_found_when_it_comes(relay: Relay) -> None:

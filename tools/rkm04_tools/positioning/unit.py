@@ -137,11 +137,6 @@ class Unit:
         row = registers()["UPTIME"]
         self._note_uptime(row.of_words(self.wire.read(row.number, row.words)), executed)
 
-    def expect_uptime(self, uptime_ms: int) -> None:
-        """What UPTIME must have reached by now, unless the unit restarts; so a restart is noticed
-        also after a time without the line."""
-        self._uptime_ms = uptime_ms % (1 << 32)
-
     def _note_uptime(self, uptime_ms: int, executed: bool = False) -> None:
         before, self._uptime_ms = self._uptime_ms, uptime_ms
         if before is not None and (uptime_ms - before) % (1 << 32) >= CLOCK_HALF:

@@ -6,9 +6,10 @@ import time
 from dataclasses import dataclass, field
 from typing import Any
 
+from rkm04_tools.positioning.line_errors import Restarted
 from rkm04_tools.positioning.state import AxisState, UnitState
 from rkm04_tools.positioning.table import AXES, read_image
-from rkm04_tools.positioning.unit import Unit
+from rkm04_tools.positioning.unit import CLOCK_HALF, Unit
 
 OTHERS_SECONDS = 5.0
 """For so long an order of another master is told."""
@@ -54,14 +55,15 @@ class Looks:
 
     def look(self, unit: Unit) -> dict[str, Any]:
         """Ask for all of it."""
-        self._expect(unit)
         state = unit.read()
         now = time.monotonic()
-        self._uptime = (state.values["UPTIME"], now)
         others = self._others(state.values["FRAMES"], unit.wire.counts.requests, now)
         words = unit.wire.read(IMAGE, IMAGE_WORDS * AXES)
         wanted = [Wanted(c, h << 16 | low) for c, h, low in zip(*[iter(words)] * 3, strict=True)]
         axes = [unit.axis(number).read() for number in range(1, AXES + 1)]
+        if self._has_restarted(state.values["UPTIME"], now, axes):
+            raise Restarted(unit.wire.name)
+        self._uptime = (state.values["UPTIME"], now)
         self._compare(axes, wanted, now)
         self.unit, self.axes, self.wanted = state, axes, wanted
         told = {name.lower(): value for name, value in state.values.items()}
@@ -83,13 +85,22 @@ class Looks:
             "by_other": at is not None and time.monotonic() - at < OTHERS_SECONDS,
         }
 
-    def _expect(self, unit: Unit) -> None:
-        if self._uptime:
-            uptime_ms, at = self._uptime
-            passed = time.monotonic() - at
-            least, share = UPTIME_SLACK
-            expected = 1000 * (passed - max(least, share * passed))
-            unit.expect_uptime(uptime_ms + max(0, int(expected)))
+    def _has_restarted(self, uptime_ms: int, now: float, axes: list[AxisState]) -> bool:
+        """Whether it has, since the last look, which may be long ago and on a port since closed.
+
+        Its clock went back, or is behind and the axes are as after a start; a clock that is behind
+        alone is that of a virtual unit, which may be slow.
+        """
+        if self._uptime is None:
+            return False
+        before_ms, at = self._uptime
+        if (uptime_ms - before_ms) % (1 << 32) >= CLOCK_HALF:
+            return True
+        least, share = UPTIME_SLACK
+        passed = now - at
+        expected_ms = 1000 * (passed - max(least, share * passed))
+        is_behind = (uptime_ms - before_ms) % (1 << 32) < expected_ms
+        return is_behind and all(map(_is_new, axes)) and not all(map(_is_new, self.axes))
 
     def _others(self, frames: int, requests: int, now: float) -> float | None:
         """Requests a second that the unit has got and that were not from here."""
@@ -110,6 +121,11 @@ class Looks:
             if not is_same and axis.axis not in self._own:
                 self._others_at[axis.axis] = now
         self._own.clear()
+
+
+def _is_new(axis: AxisState) -> bool:
+    """Whether an axis is as after a start."""
+    return not (axis.status or axis.done or axis.position_steps or axis.captures)
 
 
 IMAGE, IMAGE_WORDS = read_image("FAST_OUT")
