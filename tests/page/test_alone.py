@@ -165,6 +165,10 @@ def test_a_program_is_checked_and_drawn_while_it_is_typed(alone):
     expect(alone.locator("#plan")).to_have_attribute("data-state", "old")
 
 
+def test_it_says_where_the_pages_of_other_units_are(alone):
+    expect(alone.locator("#alone-hint")).to_contain_text("positioning service")
+
+
 def test_the_examples_are_there_with_their_inputs(alone):
     alone.locator("#examples").select_option(label="6-guards.rks")
 

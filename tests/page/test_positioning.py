@@ -233,6 +233,10 @@ def test_settings_are_edited_written_stored_saved_and_opened(page: PosPage, tmp_
     file.write_text("{}")
     page.at("settings-file").set_input_files(file)
     expect(page.at("settings-words")).to_contain_text("it is of another kind")
+    page.at("settings-deliver").click()
+    expect(page.at("settings-deliver")).to_have_text("Sure? For all axes")
+    page.at("settings-deliver").click()
+    expect(page.setting("STEPS")).to_have_value("1")
     page.part("unit")
     expect(page.setting("RATE")).to_have_value("192")
 

@@ -66,7 +66,8 @@ export const cs: Dictionary = {
     "alone.notSent": "Neodesláno: virtuální jednotka neodpovídá",
     "alone.hint":
         "Jednotka je v této stránce: nehýbe žádným strojem a po novém načtení stránky začíná znovu, bez uložených "
-        + "programů. Když stránka nebo počítač spí, její čas stojí.",
+        + "programů. Když stránka nebo počítač spí, její čas stojí. Jednotky GVE134 a polohovací mají své stránky: "
+        + "gve134 service, positioning service.",
     "alone.noWebAssembly":
         "Tento prohlížeč nemá WebAssembly, které zde kontroluje a simuluje. Použijte jiný, nebo tools/rkm04 service.",
     "alone.failed": "Simulátor v této stránce selhal; načtěte stránku znovu.",

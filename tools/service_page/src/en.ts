@@ -63,7 +63,8 @@ export const en = {
     "alone.notSent": "Not sent: the virtual unit does not answer",
     "alone.hint":
         "The unit is in this page: it moves no machine, and begins anew, without stored programs, when the page is "
-        + "loaded again. While the page or the computer sleeps its time stands.",
+        + "loaded again. While the page or the computer sleeps its time stands. GVE134 and positioning units have pages of "
+        + "their own: gve134 service, positioning service.",
     "alone.noWebAssembly":
         "This browser has no WebAssembly, which checks and simulates here. Take one that has it, or tools/rkm04 service.",
     "alone.failed": "The simulator in this page has failed; load the page again.",

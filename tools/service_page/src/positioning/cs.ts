@@ -139,7 +139,7 @@ export const cs: Dictionary = {
     "settings.storeLabel": "Uchovat všechna nastavení jednotky bez napájení",
     "settings.deliver": "Od výrobce",
     "settings.deliverLabel": "Vzít nastavení od výrobce; tím se neukládají",
-    "settings.deliverSure": "Vzít nastavení od výrobce pro jednotku a všechny osy?",
+    "settings.deliverSure": "Opravdu? Pro všechny osy",
     "settings.save": "Do souboru",
     "settings.saveLabel": "Uložit všechna nastavení do souboru jako tools/positioning settings backup",
     "settings.open": "Ze souboru",

@@ -138,7 +138,7 @@ export const en = {
     "settings.storeLabel": "Keep all settings of the unit without power",
     "settings.deliver": "Delivered",
     "settings.deliverLabel": "Take the delivered settings; they are not stored by this",
-    "settings.deliverSure": "Take the delivered settings for the unit and all axes?",
+    "settings.deliverSure": "Sure? For all axes",
     "settings.save": "Save file",
     "settings.saveLabel": "Save all settings to a file, as tools/positioning settings backup does",
     "settings.open": "Open file",

@@ -9,6 +9,8 @@ const STEPS = 1000;
 const BEND = 3;
 const TOP = 65_535;
 const FIRST = 600;
+/** What was set here is not set back by a look that began before. */
+const HELD_MS = 2000;
 
 /** A slider and a field for a feed, mm/min; `send` is called when either is set. */
 export class FeedField {
@@ -16,6 +18,7 @@ export class FeedField {
     readonly #slider: HTMLInputElement;
     readonly #field: HTMLInputElement;
     #top = TOP;
+    #set_ms = -Infinity;
 
     constructor(axis: number, send: (feed: number) => void) {
         this.#slider = make("input", { type: "range", min: "0", max: String(STEPS), id: `feed-${axis}`, class: "feed-slider" });
@@ -29,6 +32,10 @@ export class FeedField {
         this.#slider.addEventListener("change", () => send(this.feed));
         this.#field.addEventListener("input", () => this.#follow());
         this.#field.addEventListener("change", () => this.#field.reportValidity() && send(this.feed));
+        this.#field.addEventListener("wheel", () => this.#field.blur()); // scrolling the page sets no feed
+        for (const part of [this.#slider, this.#field]) {
+            part.addEventListener("input", () => (this.#set_ms = performance.now()));
+        }
         this.root = make("div", { class: "row tight feed" }, this.#slider, this.#field, make("span", { class: "hint" }, "mm/min"));
         this.#follow();
     }
@@ -44,7 +51,8 @@ export class FeedField {
 
     /** The unit has a feed that was not set here; 0 is no wish of anybody. */
     take(feed: number): void {
-        if (feed > 0 && !this.root.contains(document.activeElement) && feed !== this.feed) {
+        const isSet = this.root.contains(document.activeElement) || performance.now() - this.#set_ms < HELD_MS;
+        if (feed > 0 && !isSet && feed !== this.feed) {
             this.#field.value = feedValue(feed);
             this.#follow();
         }

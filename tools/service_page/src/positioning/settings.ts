@@ -14,6 +14,7 @@ const CHOICES: Record<string, [number, string][]> = {
     RATE: [96, 192, 384, 576, 1152].map((rate) => [rate, `${rate * 100} Bd`]),
     FORMAT: ["8E1", "8O1", "8N1", "8N2"].map((form, index) => [index, form]),
 };
+const SURE_MS = 4000;
 const PARTS: readonly Part[] = ["unit", "axis1", "axis2", "axis3", "axis4"];
 
 type Field = HTMLInputElement | HTMLSelectElement;
@@ -24,12 +25,14 @@ export class SettingsPanel {
     readonly #rows = byId("setting-rows", HTMLElement);
     readonly #words = byId("settings-words", HTMLElement);
     readonly #write = byId("settings-write", HTMLButtonElement);
+    readonly #deliver = byId("settings-deliver", HTMLButtonElement);
     readonly #file = byId("settings-file", HTMLInputElement);
     #all: Row[] = [];
     #fields = new Map<string, { row: Row; field: Field; root: HTMLElement }>();
     /** What differs from the unit, by part and name, as the unit has values. */
     readonly #edits = new Map<Part, Map<string, number>>(PARTS.map((part) => [part, new Map()]));
     #trouble = "";
+    #sure = 0;
 
     constructor(unit: Unit) {
         this.#unit = unit;
@@ -46,7 +49,7 @@ export class SettingsPanel {
         byId("settings-undo", HTMLButtonElement).addEventListener("click", () => this.#forget());
         byId("settings-read", HTMLButtonElement).addEventListener("click", () => unit.ask("settings"));
         byId("settings-store", HTMLButtonElement).addEventListener("click", () => unit.ask("store"));
-        byId("settings-deliver", HTMLButtonElement).addEventListener("click", () => window.confirm(t("settings.deliverSure")) && unit.ask("deliver"));
+        this.#deliver.addEventListener("click", () => this.#takeDelivered());
         byId("settings-save", HTMLButtonElement).addEventListener("click", () => this.#save());
         byId("settings-open", HTMLButtonElement).addEventListener("click", () => this.#file.click());
         this.#file.addEventListener("change", () => void this.#open());
@@ -140,6 +143,8 @@ export class SettingsPanel {
         const anyTaken = this.#taken("unit").length > 0;
         const set = (id: string, isOn: boolean): void => void (byId(id, HTMLButtonElement).disabled = !isOn);
         this.#write.textContent = count === 0 ? t("settings.write") : t("settings.writeCount", { count });
+        this.#deliver.textContent = t(this.#sure === 0 ? "settings.deliver" : "settings.deliverSure");
+        this.#deliver.classList.toggle("danger", this.#sure !== 0);
         set("settings-write", isKnown && count > 0 && inTheWay.length === 0);
         set("settings-undo", count > 0);
         set("settings-read", this.#unit.now !== null);
@@ -166,6 +171,22 @@ export class SettingsPanel {
             }
         });
         this.#unit.link.send({ type: "write", id: this.#unit.link.nextId(), values });
+    }
+
+    /** It takes two presses: a question in a window of its own would keep Escape, which is STOP. */
+    #takeDelivered(): void {
+        const isSure = this.#sure !== 0;
+        window.clearTimeout(this.#sure);
+        this.#sure = 0;
+        if (isSure) {
+            this.#unit.ask("deliver");
+        } else {
+            this.#sure = window.setTimeout(() => {
+                this.#sure = 0;
+                this.#show();
+            }, SURE_MS);
+        }
+        this.#show();
     }
 
     #save(): void {
