@@ -175,3 +175,18 @@ void test_wide_arithmetic_is_that_of_the_base(void)
         TEST_ASSERT_FALSE(path_wide_is_equal(a, wide_add(a, (struct wide){.low = 1})));
     }
 }
+
+/* For this divisor the rest that is left is as large as its upper half. */
+void test_the_reciprocal_of_a_divisor_is_rounded_down(void)
+{
+    const struct path_divisor divisor = path_divisor_of(UINT64_C(0x9132D8FAC07B072A));
+    TEST_ASSERT_EQUAL_HEX32(UINT32_C(0xC35AA905), divisor.reciprocal);
+}
+
+void test_the_last_binary_place_of_a_quotient_is_rounded_down(void)
+{
+    const struct path_divisor divisor = path_divisor_of(UINT64_MAX);
+    struct wide quotient = path_divide_fixed((struct wide){.low = UINT64_MAX - 1U}, &divisor);
+    TEST_ASSERT_EQUAL_UINT64(0, quotient.high);
+    TEST_ASSERT_EQUAL_UINT64(UINT64_MAX - 1U, quotient.low);
+}

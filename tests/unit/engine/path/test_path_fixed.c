@@ -83,3 +83,67 @@ void test_the_pace_is_the_time_of_a_step(void)
     assert_fixed(420, 0, path_fixed_pace((struct wide){.high = 200000U * STEP_SLOPE_PER_SPEED}));
     assert_fixed(UINT64_C(256) * TICK_HZ, 0, path_fixed_pace((struct wide){.high = TICK_HZ}));
 }
+
+void test_a_product_of_2_to_the_62_is_not_too_large_yet(void)
+{
+    const struct wide factor = {.high = UINT64_C(1) << 30, .low = UINT64_C(1) << 63};
+    assert_fixed((UINT64_C(1) << 62) + (UINT64_C(1) << 31), 0,
+                 path_fixed_multiply((struct wide){.high = UINT64_C(1) << 32}, factor));
+}
+
+void test_the_last_binary_place_of_a_factor_counts(void)
+{
+    assert_fixed(5, 5, path_fixed_multiply((struct wide){.high = 1, .low = 1}, (struct wide){.high = 5}));
+}
+
+static uint64_t draw(uint64_t *seed, unsigned bits)
+{
+    *seed = *seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return (*seed ^ *seed >> 29U) >> (64U - bits);
+}
+
+/* The slope s + f of a square s^2 + r: f is r/2s less f^2/2s. */
+static void assert_slope(uint64_t twice_speed2)
+{
+    struct wide square = path_wide_multiply(PATH_SLOPE2_PER_TWICE_SPEED2, twice_speed2);
+    struct wide slope = path_fixed_slope(twice_speed2);
+    struct wide rest = path_wide_subtract(square, path_wide_multiply(slope.high, slope.high));
+    TEST_ASSERT_EQUAL_UINT64(0, rest.high);
+    struct wide first = path_fixed_divide((struct wide){.low = rest.low}, 2U * slope.high);
+    uint64_t second =
+        path_fixed_divide((struct wide){.low = path_wide_multiply(first.low, first.low).high}, 2U * slope.high).high;
+    TEST_ASSERT_EQUAL_UINT64(0, first.high);
+    TEST_ASSERT_UINT64_WITHIN(16, first.low - second, slope.low);
+}
+
+void test_slopes_of_all_sizes_are_2_to_the_minus_60_off_at_most(void)
+{
+    uint64_t seed = 1;
+    for (unsigned bits = 14; bits <= 56; bits++) {
+        for (unsigned i = 0; i < 1000; i++) {
+            uint64_t twice_speed2 = draw(&seed, bits) | UINT64_C(1) << (bits - 1U);
+            if (twice_speed2 <= 2U * (uint64_t)PATH_SPEED_MAX * PATH_SPEED_MAX) {
+                assert_slope(twice_speed2);
+            }
+        }
+    }
+}
+
+/* The product of both is a step, 2^-62 of it off at most, but for the last binary places. */
+void test_paces_of_all_sizes_are_2_to_the_minus_62_of_them_off_at_most(void)
+{
+    const uint64_t limit = (STEP_QUANTA >> 62U) + 1U;
+    uint64_t seed = 1;
+    for (unsigned bits = 21; bits <= 56; bits++) {
+        for (unsigned i = 0; i < 1000; i++) {
+            struct wide slope = {.high = draw(&seed, bits) | UINT64_C(1) << (bits - 1U), .low = draw(&seed, 64)};
+            slope.high &= ~(i % 2U != 0 ? UINT64_C(0xFF) << (bits - 9U) : 0U);
+            struct wide pace = path_fixed_pace(slope);
+            struct wide whole = path_wide_multiply(pace.high, slope.high);
+            struct wide parts =
+                path_wide_add(path_wide_multiply(pace.high, slope.low), path_wide_multiply(pace.low, slope.high));
+            uint64_t step = whole.low + parts.high + path_wide_multiply(pace.low, slope.low).high / UINT64_MAX;
+            TEST_ASSERT_TRUE(step - STEP_QUANTA + 2U <= limit + 2U);
+        }
+    }
+}

@@ -144,3 +144,108 @@ void test_a_first_pulse_too_slow_to_foretell_the_next_from_is_alone(void)
     at.slope256 *= 2U;
     TEST_ASSERT_TRUE(path_segment_lay(&course, &course.leg[0], &stretch, &at).steps > 1);
 }
+
+/* ---- every field of random segments, by other means ------------------------------------------------------------- */
+
+static uint64_t seed;
+
+static uint64_t draw(unsigned bits)
+{
+    seed = seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return (seed ^ seed >> 29U) >> (64U - bits);
+}
+
+/* Of any size up to so many bits, from 1 on. */
+static uint64_t draw_size(unsigned bits)
+{
+    return draw(1U + (unsigned)(draw(32) % bits)) | 1U;
+}
+
+static uint64_t nearest(uint64_t value, uint64_t factor, uint64_t divisor)
+{
+    uint64_t rest = 0;
+    uint64_t quotient = wide_divide(path_wide_multiply(value, factor), divisor, &rest);
+    return quotient + (rest >= divisor - rest ? 1U : 0U);
+}
+
+static uint64_t root_of(uint64_t square)
+{
+    uint64_t root = 0;
+    for (uint64_t bit = UINT64_C(1) << 31; bit != 0; bit >>= 1U) {
+        root += (root + bit) * (root + bit) <= square ? bit : 0U;
+    }
+    return root + (square - root * root > root ? 1U : 0U);
+}
+
+/* For how long the rounding of slope and acceleration, half a quantum each, is an eighth of a tick's way at most, or
+ * that of the slope that is left. */
+static uint64_t longest_ticks(uint64_t slope, int32_t accel, bool exact)
+{
+    uint64_t least = accel < 0 ? slope / 16U : slope / 4U;
+    uint64_t ticks = exact ? least / 16U : root_of(least) - 1U;
+    ticks = ticks < UINT64_C(1) << 29 ? ticks : UINT64_C(1) << 29;
+    uint64_t brake = accel < 0 ? 3U * slope / (8U * (uint64_t)-(int64_t)accel) : UINT64_MAX;
+    return ticks < brake ? ticks : brake;
+}
+
+static uint32_t steps_of(uint64_t slope, int32_t accel, bool exact, uint32_t left)
+{
+    uint64_t rest = 0;
+    if (left == 0 || slope < STEP_QUANTA >> 24U) {
+        return 1;
+    }
+    if (accel > 0 && (uint64_t)accel > 2U * slope / (STEP_QUANTA / slope + 1U)) {
+        return 1;
+    }
+    uint64_t ticks = longest_ticks(slope, accel, exact);
+    uint64_t mean = slope + wide_from_signed((int64_t)accel * (int64_t)ticks);
+    uint64_t steps = wide_divide(path_wide_multiply(mean, ticks), STEP_QUANTA, &rest);
+    return 1U + (uint32_t)(steps < left ? steps : left);
+}
+
+static void assert_segment(uint32_t length, uint32_t steps, int32_t leg_accel, const struct path_pulse *at)
+{
+    course.length = length;
+    course.per_length = path_divisor_of(length);
+    course.leg[0].accel = leg_accel;
+    stretch = (struct path_stretch){.steps = steps, .pulse = 1, .last = (uint32_t)draw_size(31)};
+    struct step_segment made = path_segment_lay(&course, &course.leg[0], &stretch, at);
+
+    uint64_t size = (uint64_t)(leg_accel < 0 ? -(int64_t)leg_accel : leg_accel);
+    int32_t accel = (int32_t)nearest(size, steps, length) * (leg_accel < 0 ? -1 : 1);
+    TEST_ASSERT_EQUAL_INT32(accel, made.accel);
+
+    bool up = at->fraction >= UINT32_C(1) << 31;
+    TEST_ASSERT_EQUAL_UINT32((uint32_t)at->ticks + (up ? 1U : 0U), made.tick);
+    int64_t late = up ? (INT64_C(1) << 32) - (int64_t)at->fraction : -(int64_t)at->fraction;
+    int64_t slope256 = (int64_t)at->slope256 + (int64_t)leg_accel * late / (INT64_C(1) << 23);
+    uint64_t slope = nearest(slope256 > 0 ? (uint64_t)slope256 : 0U, steps, (uint64_t)length * 256U);
+    TEST_ASSERT_EQUAL_UINT64(slope, made.slope);
+
+    uint64_t mean = slope - wide_from_signed((int64_t)accel * late / (INT64_C(1) << 32));
+    uint64_t way = wide_scale(mean, (uint32_t)(late < 0 ? -late : late));
+    TEST_ASSERT_EQUAL_UINT64(late < 0 ? 0U - way : way, made.residual);
+
+    uint64_t rest = 0;
+    (void)wide_divide(path_wide_multiply(size, steps), length, &rest);
+    TEST_ASSERT_EQUAL_UINT32(steps_of(slope, accel, rest == 0, stretch.last - 1U), made.steps);
+    bool paced = slope >= STEP_QUANTA >> 24U && (accel == 0 || made.steps > 1);
+    TEST_ASSERT_EQUAL_UINT32(paced ? STEP_QUANTA / slope : 0U, made.pace_ticks);
+}
+
+void test_each_field_of_a_segment_is_rounded_to_the_nearest(void)
+{
+    seed = 1;
+    for (unsigned i = 0; i < 100000; i++) {
+        uint32_t length = (uint32_t)draw_size(31);
+        uint32_t steps = draw(2) == 0 ? length : (uint32_t)(1U + draw(32) % length);
+        steps = draw(3) == 0 && length > 8 ? length / (uint32_t)(2U + draw(2)) : steps;
+        int32_t accel = (int32_t)(draw_size(30) % PATH_ACCEL_MAX) * ((int32_t)draw(2) - 1);
+        struct path_pulse at = {
+            .ticks = draw(40),
+            .fraction = draw(3) == 0 ? (uint32_t)draw(1) << 31U : (uint32_t)draw(32),
+            .slope256 = draw_size(60) + (draw(1) << 43U),
+        };
+        assert_segment(length, steps, accel, &at);
+    }
+}

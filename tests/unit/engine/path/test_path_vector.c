@@ -147,3 +147,42 @@ void test_a_speed_of_a_short_extent_is_more_than_any_on_a_long_axis(void)
     struct path_section section = taken(&vector);
     TEST_ASSERT_EQUAL_UINT64(PATH_SPEED2_ENDLESS, path_section_from_border2(&section, UINT64_C(1) << 52));
 }
+
+void test_another_acceleration_is_that_of_a_section_taken_with_it(void)
+{
+    struct path_vector vector = rig_vector(100, 7, 1000, 1000);
+    struct path_section section = taken(&vector);
+    path_section_set_accel(&section, 3 * vector.accel);
+    vector.accel *= 3U;
+    TEST_ASSERT_EQUAL_UINT64(taken(&vector).gain2, section.gain2);
+    TEST_ASSERT_EQUAL_UINT32(vector.accel, section.vector.accel);
+}
+
+void test_after_another_section_there_is_no_turn_any_more(void)
+{
+    struct path_section before = section_of(-100, 1);
+    struct path_section after = section_of(50, 100);
+    after.vector.border_speed = 77;
+    path_section_mind_turns(&after, &before, 12);
+    before = section_of(100, 1);
+    path_section_mind_turns(&after, &before, 12);
+    TEST_ASSERT_EQUAL_UINT32(0, after.turning);
+    TEST_ASSERT_EQUAL_UINT64(77 * 77, after.border2);
+}
+
+/* 1/128 step/s^2 in 1 us: rounded up, one unit of speed. */
+void test_what_an_axis_gains_while_it_turns_is_rounded_up(void)
+{
+    struct path_section before = section_of(-10, 1);
+    struct path_vector slow = {.steps = {10}, .speed = 1000, .accel = 1, .extent2 = 100, .border_speed = UINT32_MAX};
+    struct path_section after = taken(&slow);
+    path_section_mind_turns(&after, &before, 1);
+    TEST_ASSERT_EQUAL_UINT64(UINT64_C(255999999) * 255999999, after.border2);
+}
+
+void test_a_quotient_of_65_bits_is_endless(void)
+{
+    struct path_vector vector = {.steps = {65536}, .accel = 1, .extent2 = 1};
+    struct path_section section = taken(&vector);
+    TEST_ASSERT_EQUAL_UINT64(PATH_SPEED2_ENDLESS, path_section_from_border2(&section, UINT64_C(1) << 32));
+}
