@@ -7,6 +7,7 @@ import signal
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from pos_desk import MM_MIN, PosDesk
@@ -17,6 +18,7 @@ from rkm04_tools.positioning.settings import read_values
 from rkm04_tools.positioning.unit import Unit, open_unit
 from rkm04_tools.service import turns
 from rkm04_tools.service.trouble import BadRequest
+from rkm04_tools.service.unit_orders import Connect
 from served import Served
 
 JEDE = 0x100
@@ -179,6 +181,38 @@ def test_a_limit_input_is_told_and_cleared_by_init_alone(desk: PosDesk, served: 
     desk.ask("take", axis=1)
     assert desk.axis()["error"] == 0
     assert desk.move(-1)["error"] is None
+
+
+def test_the_watchdog_acts_when_nobody_looks_any_more_and_not_before(
+    relay: Relay, served: Served
+) -> None:
+    desk = PosDesk(relay.port)
+    try:
+        desk.connected()
+        assert desk.ask("write", values={"unit": {"WATCHDOG": 1000}})["error"] is None
+        moving(desk)
+        time.sleep(2.5)
+        assert desk.axis()["state"] == "MOVING"
+    finally:
+        desk.close()
+    served.control().wait_for("stands", lambda state: not state["moving"][0])
+    with open_unit(relay.port) as unit:
+        assert unit.axis(1).read().error == 8
+
+
+def test_units_are_reached_by_a_pty_too(pos_serve: Serve, tmp_path: Path) -> None:
+    desk = PosDesk(pos_serve("--unpaced", place="--pty", at=str(tmp_path / "unit")).place)
+    try:
+        desk.connected()
+        assert desk.move(1)["error"] is None
+        assert desk.axis(lambda a: a["state"] == "REACHED")["position_um"] == 1000
+    finally:
+        desk.close()
+
+
+def test_an_address_that_cannot_be_is_wrong_usage(positioning: Callable[..., Any]) -> None:
+    result = positioning("service", "--no-browser", "--node", "17")
+    assert (result.status, result.err.count("\n")) == (2, 1)
 
 
 # ---- settings ----
@@ -406,6 +440,11 @@ def test_a_master_that_gives_the_permission_again_does_not_prevent_a_stop(
 
 
 # ---- what a page says ----
+
+
+def test_ports_of_modbus_tcp_can_be_named() -> None:
+    told = {"type": "connect", "port": "modbus://127.0.0.1:502", "node": 16}
+    assert read_order(json.dumps(told))[0] == Connect("modbus://127.0.0.1:502", 16)
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -22,6 +23,7 @@ from rkm04_tools.service.words import Words
 
 LOOK_SECONDS = 0.1
 """From one look to the next at least."""
+WATCHDOG_SHARE = 0.25
 
 
 @dataclass(frozen=True)
@@ -95,13 +97,19 @@ class Connection(UnitLine[Unit, State]):
 
     def look(self, unit: Unit) -> None:
         """Look at the unit, and tell what there is to be seen."""
-        self.look_due = time.monotonic() + LOOK_SECONDS
+        self.look_due = time.monotonic() + min(LOOK_SECONDS, self.pause_most_seconds)
         seen = self.looks.look(unit)
         self._board.heard_at = time.monotonic()
         self._board.tell(seen)
         self._board.change(doubt=False)
         if self.settings is None:
             self.read_settings(unit)
+
+    @property
+    def pause_most_seconds(self) -> float:
+        """How long the line may rest, so that the unit's WATCHDOG does not act."""
+        watchdog_ms = self.settings[settings.UNIT_PART]["WATCHDOG"] if self.settings else 0
+        return watchdog_ms / 1000 * WATCHDOG_SHARE if watchdog_ms else math.inf
 
     def read_settings(self, unit: Unit) -> None:
         """Read all settings, and tell them."""

@@ -64,7 +64,7 @@ class Worker(Turns[Unit]):
 
     def _pause_seconds(self, looked_seconds: float) -> float:
         """A quarter of the line's time is left to orders; a stop waits for one request at most."""
-        return looked_seconds / 4
+        return min(looked_seconds / 4, self._line.pause_most_seconds)
 
 
 def _row(row: Register) -> dict[str, Any]:
