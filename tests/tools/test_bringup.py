@@ -109,6 +109,7 @@ def test_a_good_board_is_gone_through_and_all_is_good(tool, power, monkeypatch, 
     assert seen(report, "watchdog", "cause of the start") == ("watchdog", "good")
     assert seen(report, "stack guard", "cause of the start") == ("fault", "good")
     assert "exception 3" in seen(report, "stack guard", "fault")[0]
+    assert "seen at" not in result.out  # inputs that somebody presses follow no output
     assert "Are the motors unpowered" in result.err
     written = (tmp_path / "report.txt").read_text()
     assert written.endswith("nothing bad was seen\n")

@@ -36,12 +36,12 @@ STEPS = (
          "its address", wires.look_at_switch),
     Step("outputs", f"{ONE_BY_ONE}\nFirst BO_1.", "each on alone", wires.walk("BO")),
     Step("LEDs", f"{ONE_BY_ONE}\nFirst LED_1.", "each on alone", wires.walk("LED")),
-    Step("directions", f"The DIR pins, motors still unpowered. {ONE_BY_ONE}\nFirst DIR_1.",
+    Step("directions", f"The DIR pins, motors still unpowered.\n{ONE_BY_ONE}\nFirst DIR_1.",
          "each on alone", wires.walk("DIR")),
     Step("enables",
          "The ENABLE pins: a driver that is on lets current through a motor, so motors and their\n"
-         f"supply still off. {ONE_BY_ONE} A wire from one to an\n"
-         "input or to CAPTURE shows it as well.",
+         f"supply still off.\n{ONE_BY_ONE}\n"
+         "A wire from one to an input or to CAPTURE shows it as well. The first is EN_1 or EN_ALL.",
          "each on alone", wires.walk("EN")),
     Step("pulses",
          "The STEP pins, one after the other: you lead a wire from it to CAPTURE, and a second\n"

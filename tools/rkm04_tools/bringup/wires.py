@@ -110,23 +110,32 @@ def _switch(bench: Bench, command: str, signal: str, rest: Answer) -> list[Seen]
     said = AGAIN
     while said == AGAIN:
         answer = bench.talk.ask(command)
+        at = _followers(bench, command, answer, rest)
         bench.person.tell(f"{what} is on for a minute, all others are off.")
-        for seen in _looped(bench, answer, rest):
-            bench.person.tell(f"It is seen at {seen.seen}.")
+        if at:
+            bench.person.tell(f"It is seen at {at}.")
         said = bench.person.choose(f"Is it so? r: once more, {IS_IT_SO}", YES + NO + AGAIN)
-    return [
+    seen = [
         compared(what, "on, alone" if said == YES else "not so", "on, alone", said == YES),
         _read_back(bench, answer, signal),
-        *_looped(bench, answer, rest),
     ]
+    return [*seen, noted("  seen at", at)] if at else seen
 
 
-def _looped(bench: Bench, answer: Answer, rest: Answer) -> list[Seen]:
-    """The inputs that follow it, where a wire leads back to one."""
-    changed = answer.number("inputs", 16) ^ rest.number("inputs", 16)
-    at = [f"BI_{i + 1}" for i in range(INPUTS) if changed >> i & 1]
-    at += ["CAPTURE"] * (answer.number("capture") != rest.number("capture"))
-    return [noted("  seen at", ", ".join(name_of(bench, each) for each in at))] if at else []
+def _followers(bench: Bench, command: str, answer: Answer, rest: Answer) -> str:
+    """The inputs that follow an output, where a wire leads back to them: once more, as an input may
+    have changed by itself."""
+    follow = _levels(answer) ^ _levels(rest)
+    for number in (0, command[1:]) if follow else ():
+        levels = _levels(bench.talk.ask(f"{command[0]}{number}"))
+        follow &= levels ^ _levels(answer if number == 0 else rest)
+    at = [f"BI_{i + 1}" for i in range(INPUTS) if follow >> i & 1]
+    at += ["CAPTURE"] * (follow >> INPUTS & 1)
+    return ", ".join(name_of(bench, each) for each in at)
+
+
+def _levels(answer: Answer) -> int:
+    return answer.number("inputs", 16) | answer.number("capture") << INPUTS
 
 
 def _read_back(bench: Bench, answer: Answer, signal: str) -> Seen:
