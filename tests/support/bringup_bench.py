@@ -102,13 +102,14 @@ class Bench:
         return [*lines, ""]
 
     def walked(self) -> list[Typed]:
-        """All steps, on a board without ENABLE."""
+        """All steps, each thing being so."""
         lines: list[Typed] = ["y"]
+        inner = INNER | {"enables": sum(signal.startswith("EN_") for signal in self.pins)}
         for step in STEPS:
             if step.name == "pulses":
                 lines += self.measured()
             else:
-                lines += ["", *["y"] * INNER.get(step.name, 0), ""]
+                lines += ["", *["y"] * inner.get(step.name, 0), ""]
         return lines
 
     def only(self, name: str, inner: Sequence[Typed]) -> list[Typed]:

@@ -116,6 +116,18 @@ def test_a_good_board_is_gone_through_and_all_is_good(tool, power, monkeypatch, 
 
 
 @modelled
+@pytest.mark.parametrize("name", [name for name in board.names() if name != board.DEFAULT_BOARD])
+def test_every_board_can_be_gone_through(tool, power, monkeypatch, name):
+    bench = power(name=name)
+    monkeypatch.setattr("sys.stdin", Hands(bench.walked()))
+
+    result = tool("bringup", "--board", name, "--port", "virtual", "--json")
+
+    assert bad(result.json) == []
+    assert (result.status, result.json["complete"]) == (0, True)
+
+
+@modelled
 def test_what_is_wrong_with_a_board_is_found_and_what_was_not_done_is_told(tool, power, typed):
     power("--flash-kb", "512", "--stuck", "PC2=1", "--stuck", "PC5=0", "--stuck", "PB8=0",
                    "--stuck", "PB10=1", "--supply", "3.05")  # fmt: skip

@@ -10,7 +10,8 @@ from rkm04_tools.client_options import PORT_HELP
 TITLE = "try a new board: a walk, step by step, and a report of what was seen"
 EXAMPLE = "rkm04 bringup --board weact-f405 --port /dev/ttyUSB0 --report board-1.txt"
 NOTES = """\
-The board has the bring-up image: rkm04 board flash --board NAME --image bringup. Nothing is sent
+The board has the bring-up image: rkm04 board flash --board NAME --image bringup. A jumper wire is
+wanted, from each STEP pin to CAPTURE (rkm04 board pins), to measure pulses. Nothing is sent
 before you have said that the motors are unpowered, nothing is switched before you have confirmed
 its step. What was left out, or not come to, stands in the report as such. The report is printed at
 the end; with --json as one JSON object, and the walk goes to standard error. Status 0: all was done
