@@ -10,7 +10,8 @@
 enum {
     APART_TICKS_MIN = 5 * TICKS_PER_US - 2,
     AHEAD_TICKS = 512 * TICKS_PER_US,
-    LATE_TICKS = 5 * TICKS_PER_US, /* the tick interrupt after an edge, as on a board */
+    LATE_TICKS = 5 * TICKS_PER_US,  /* the tick interrupt after an edge, as on a board */
+    LIMIT_TICKS = 2 * TICKS_PER_MS, /* a pass or two */
     EPOCHS = 4,
     SPACE_MAX = 6,
 };
@@ -93,6 +94,13 @@ static void output_seen(void *context, uint64_t tick, uint8_t levels)
     (void)context;
     (void)tick;
     FUZZ_REQUIRE(levels == 0);
+}
+
+static void input_seen(void *context, uint64_t tick, uint8_t levels)
+{
+    (void)context;
+    (void)levels;
+    live.input_tick = tick;
 }
 
 /* ---- a request, judged ----------------------------------------------------------------------------------------- */
@@ -356,6 +364,15 @@ static void require_watched(void)
     }
 }
 
+/* A limit that has been active for a while leaves no axis moving towards it, but for the one that homing seeks. */
+static bool goes_past_limit(const struct pos_axis *axis)
+{
+    enum pos_axis_register limit = axis->negative ? POS_AXIS_LIMIT_MINUS : POS_AXIS_LIMIT_PLUS;
+    bool settled = live.machine.now - live.input_tick >= (uint64_t)LIMIT_TICKS;
+    bool measure = axis->state == (uint8_t)POS_MOVING && axis->phase == (uint8_t)POS_PHASE_NONE;
+    return settled && measure && pos_watch_is_active((int32_t)axis->settings[limit], live.machine.inputs);
+}
+
 /* The states follow their table whatever comes. */
 static void require_states(void)
 {
@@ -368,6 +385,7 @@ static void require_states(void)
                      (axis->error == POS_ERROR_LIMIT || axis->error == POS_ERROR_SILENT ||
                       axis->error == POS_ERROR_SOFT || axis->error == POS_ERROR_HOME));
         FUZZ_REQUIRE(axis->state != (uint8_t)POS_FREE || axis->feed == 0);
+        FUZZ_REQUIRE(!goes_past_limit(axis));
     }
 }
 
@@ -425,7 +443,7 @@ struct fuzz_pos *fuzz_pos_begin(unsigned epoch)
     host_machine_init(&live.machine, epochs[epoch % EPOCHS]);
     live.machine.ahead_ticks = AHEAD_TICKS;
     live.machine.listener = (struct host_listener){
-        .step = step_seen, .direction = direction_seen, .line = line_seen, .output = output_seen};
+        .step = step_seen, .direction = direction_seen, .line = line_seen, .output = output_seen, .input = input_seen};
     host_machine_select(&live.machine);
     switch_on();
     return &live;

@@ -2,10 +2,10 @@
  * A whole positioning unit for the fuzzer, on the host machine, with what holds at any time:
  *
  * the motors' steps are those at the pins; pulses come only while the axis shows that it moves, 5 us less 2 ticks
- * apart, and DIR has stood before them; no pulse leads a referenced axis further out of its software limits; a bus
- * that is silent for WATCHDOG leaves no axis taken but faulty ones; every request gets what the contract says, judged
- * by what stood before it: an exception, the result of an instruction, and nothing else changed; a word that has been
- * executed is not executed again.
+ * apart, and DIR has stood before them; no axis goes on towards an active limit; no pulse leads a referenced axis
+ * further out of its software limits; a bus that is silent for WATCHDOG leaves no axis taken but faulty ones; every
+ * request gets what the contract says, judged by what stood before it: an exception, the result of an instruction, and
+ * nothing else changed; a word that has been executed is not executed again.
  */
 #ifndef FUZZ_POS_BENCH_H
 #define FUZZ_POS_BENCH_H
@@ -52,6 +52,7 @@ struct fuzz_pos {
     int64_t pin[UNIT_MOTORS];         /* pulses at the pins since the start */
     uint64_t pulse_tick[UNIT_MOTORS]; /* of the last one; 0: none */
     uint64_t turn_tick[UNIT_MOTORS];  /* of the last change of DIR; 0: none */
+    uint64_t input_tick;              /* of the last change of an input */
     uint32_t passes;
     uint64_t heard_tick;              /* the end of the last frame to this unit that an independent reader found good */
     uint32_t executed;                /* requests that have got no exception */
