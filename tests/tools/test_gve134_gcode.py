@@ -11,6 +11,10 @@ from hypothesis import strategies as st
 from rkm04_tools.gve134 import host
 from rkm04_tools.gve134.gcode.directives import Pause, Probe, Wait, directive_of
 
+CAM = "let the CAM program write grbl's G-code"
+LOOPS = "conditions, loops and jumps are not known here"
+SUBPROGRAMS = "subprograms are not: let the CAM program write them out"
+
 
 def test_a_file_begins_with_what_holds_for_all_of_it() -> None:
     assert good("").lines == [
@@ -141,7 +145,7 @@ BAD = [
     ("G1 A1 F3376", 1, 7, "F3376 is above the highest feed, 3375 degrees/min"),
     ("G1 F1 X1", 1, 7, "the feed is too low: the unit makes 10 pulses/s at least"),
     ("G0 X1000001", 1, 4, "X takes numbers up to 1000000"),
-    ("G0 Z1e3", 1, 6, "E is of 3D printers"),
+    ("G0 Z1e3", 1, 6, "E is of 3D printers, and no exponent of a number"),
     ("G0 X1 Y", 1, 7, "Y without a number, found Y"),
     ("G0 X1 . 5", 1, 7, "a number without a letter: ."),
     ("G0 X--1", 1, 4, "X without a number, found X--1"),
@@ -156,7 +160,7 @@ BAD = [
     ("$H", 1, 1, "commands of a controller ($) do not belong in a program"),
     ("O1000", 1, 1, "programs with numbers and subprograms (O) are not known; let one file be one "
                     "program"),
-    ("G0 X1 E5", 1, 7, "E is of 3D printers"),
+    ("G0 X1 E5", 1, 7, "E is of 3D printers, and no exponent of a number"),
     ("M104 S200", 1, 1, "M104 is not known; M0 to M9 and M30 are; M codes from 82 on are of 3D "
                         "printers"),
     ("G0 B5", 1, 4, "the machine has no axis B"),
@@ -168,7 +172,22 @@ BAD = [
     ("G77", 1, 1, "G77 is not known"),
     ("G1.5 X1", 1, 1, "G1.5 is not known"),
     ("M-3", 1, 1, "M-3 is not known; M0 to M9 and M30 are"),
-    ("CYCLE83(1,2)", 1, 1, "C without a number, found CYCLE83"),
+    ("CYCLE83(1,2)", 1, 1, "calls with parameters are Siemens' dialect; " + CAM),
+    ("N5 CALL_X(1)", 1, 4, "named commands are Klipper's, a 3D printer's; " + CAM),
+    ("G0 X=10", 1, 4, "assignments (=) are of another dialect; write numbers"),
+    ("G0 X1,5", 1, 6, "numbers have a point, no comma"),
+    ("0 BEGIN PGM TEST MM", 1, 1, "this is Heidenhain's dialect; " + CAM),
+    ("12 L X+10 Y-5 F100", 1, 1, "this is Heidenhain's dialect; " + CAM),
+    ("IF [#1 GT 5] GOTO 10", 1, 1, LOOPS + "; let the CAM program write them out"),
+    (" N10 WHILE [1] DO1", 1, 6, LOOPS + "; let the CAM program write them out"),
+    ("IN;SP1;PU0,0;", 1, 1, "this is HPGL, a plotter's language; " + CAM),
+    ("PD10,20;", 1, 1, "this is HPGL, a plotter's language; " + CAM),
+    ("M117 hello", 1, 1, "M117 and M118 show texts of 3D printers; remove them"),
+    ("<svg>", 1, 1, "this is XML or HTML, as SVG is; let a CAM program make G-code of it"),
+    ("C10,-20 ; line 2", 1, 1, "this is a vector file; name it .gve"),
+    ("M98 P1", 1, 1, "M98 is not known; M0 to M9 and M30 are; " + SUBPROGRAMS),
+    ("(never ends here", 1, 1, "a comment that does not end; write )"),
+    ("(one (two) three)", 1, 1, "a comment that does not end; write )"),
     ("L X+10 R0 F", 1, 1, "L without a number, found L"),
     ("G0 X1 I2", 1, 7, "I has no meaning in this line"),
     ("G0 X1 P2", 1, 7, "P has no meaning in this line"),

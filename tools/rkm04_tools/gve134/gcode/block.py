@@ -54,7 +54,7 @@ M_GROUPS: dict[int, str] = {
 }  # fmt: skip
 LETTERS = frozenset("ABCFGIJKMNPRSTXYZ")
 FOREIGN_LETTERS = {
-    "E": "E is of 3D printers",
+    "E": "E is of 3D printers, and no exponent of a number",
     "O": "programs with numbers and subprograms (O) are not known; let one file be one program",
     "B": "the machine has no axis B", "C": "the machine has no axis C",
     "U": "the machine has no axis U", "V": "the machine has no axis V",
@@ -127,6 +127,8 @@ def _take_command(block: Block, index: int, text: str) -> None:
     group = M_GROUPS.get(number) if command % 10 == 0 and command >= 0 else None
     if group is None:
         kind = "; M codes from 82 on are of 3D printers" if number >= 82 else ""
+        if number in (97, 98, 99):
+            kind = "; subprograms are not: let the CAM program write them out"
         block.faults.append((index, f"M{text} is not known; M0 to M9 and M30 are{kind}"))
     elif group in block.commands:
         block.faults.append((index, f"M{text}: the line has another M of its group ({group})"))

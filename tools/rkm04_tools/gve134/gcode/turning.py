@@ -94,6 +94,8 @@ class Turning:
     def end(self) -> Turned:
         """There are no more lines."""
         self._text = ""
+        if self.writer.line == 0 and self.turned.is_good:
+            self.turned.warnings.append(Problem(1, 1, "there is no G-code in this file", ""))
         self.program.end()
         turned = self.turned
         turned.vectors = self.writer.vectors

@@ -25,10 +25,28 @@ O_WORDS = (
     "subprograms, loops and branches (o... sub, call, while, if) are LinuxCNC's and not known "
     "here; let the CAM program write them out, as it does for grbl"
 )
+CAM = "let the CAM program write grbl's G-code"
+DIALECTS = (
+    (r"[Ll]-?[0-9]+(?:,-?[0-9]+){1,3}|[Cc]-?[0-9]+(?:,-?[0-9]+){1,3}",
+     "this is a vector file; name it .gve"),
+    (r"[0-9]+ (?:BEGIN|END|BLK|TOOL|CYCL|CALL|LBL|STOP|CC|CR?|L|FN)\b.*",
+     f"this is Heidenhain's dialect; {CAM}"),
+    (r"(?:IF|WHILE|GOTO|DO|END|ELSE|THEN|ENDIF|FOR|REPEAT|LOOP|DEF|PROC)[0-9]*\b.*",
+     "conditions, loops and jumps are not known here; let the CAM program write them out"),
+    (r"[A-Z]{3,}[0-9]*\(.*", f"calls with parameters are Siemens' dialect; {CAM}"),
+    (r"[A-Z]+_[A-Z0-9_]+\b.*", f"named commands are Klipper's, a 3D printer's; {CAM}"),
+    (r"(?:IN|SP[0-9]|P[UDA][-0-9,]*);.*", f"this is HPGL, a plotter's language; {CAM}"),
+    (r"M(?:117|118)\b.*", "M117 and M118 show texts of 3D printers; remove them"),
+    (r"<.*", "this is XML or HTML, as SVG is; let a CAM program make G-code of it"),
+)  # fmt: skip
+DIALECT = [
+    (re.compile(rf"[ \t]*(?:N[0-9]+[ \t]+)?(?=(?:{form})[ \t]*$)"), why) for form, why in DIALECTS
+]
 FOREIGN = {
     "#": "parameters (#) are not known here; write numbers",
     "[": "expressions ([ ]) are not known here; write numbers",
     "]": "expressions ([ ]) are not known here; write numbers",
+    ",": "numbers have a point, no comma",
     "=": "assignments (=) are of another dialect; write numbers",
     "/": "blocks that may be skipped (/) are not known here; remove the / or the line",
     "*": "checksums (*) are of 3D printers; remove them",
@@ -77,6 +95,9 @@ def read_line(text: str) -> Line:
         return Line([("%", "")], comment, [])
     if match := O_WORD.fullmatch(code):
         return Line([], comment, [Trouble(match.end(1) + 1, O_WORDS)])
+    for form, why in DIALECT:
+        if match := form.match(code) or form.match(text):
+            return Line([], comment, [Trouble(match.end() + 1, why)])
     return Line([], comment, _troubles(code))
 
 
@@ -105,7 +126,7 @@ def _troubles(code: str) -> list[Trouble]:
             place = match.end()
         else:
             chunk = CHUNK.match(code, place)
-            end = chunk.end() if chunk else len(code)
+            end = chunk.end() if chunk and code[place] != "(" else len(code)
             found.append(Trouble(place + 1, _what(code[place:end], code[end:].lstrip(" \t"))))
             place = end
     return found
@@ -117,7 +138,7 @@ def _what(chunk: str, after: str) -> str:
         return FOREIGN[first]
     if first.isascii() and first.isalpha():
         following = (chunk[1:] or after)[:1]
-        if following and following in "#[":
+        if following and following in "#[=":
             return FOREIGN[following]
         return f"{first.upper()} without a number, found {_shown(chunk)}"
     if first in "+-.0123456789":
