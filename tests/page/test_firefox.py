@@ -1,4 +1,4 @@
-"""The page as one file in Firefox: what depends on the browser. All else is tried in Chromium."""
+"""Pages in Firefox: what depends on the browser. All else is tried in Chromium."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import pytest
 from alone_page import write_alone
 from firefox import FIREFOX, Firefox, running
+from pos_page import PosService
 from serial_bridge import SerialBridge
 from served import Served
 
@@ -85,3 +86,22 @@ def test_it_speaks_to_a_unit_on_a_serial_port_where_the_browser_has_them(
     finally:
         bridge.close()
         unit.end()
+
+
+def test_an_axis_of_a_positioning_unit_moves_and_stops(firefox):
+    service = PosService()
+    try:
+        firefox.open(service.url)
+        firefox.wait_for_text("#state-1", "FREE")
+        firefox.click("#way-1")
+        firefox.press("Control", "a")
+        firefox.type("2000.5")
+        firefox.click("#move-1")
+        firefox.wait_for_text("#state-1", "MOVING")
+        firefox.wait_for_text("#target-1", "2,000.500 mm")
+        firefox.press("Escape")
+        firefox.wait_for("document.getElementById('alarm').dataset.kind === 'done'")
+        firefox.wait_for_text("#state-1", "READY")
+        firefox.wait_for("document.getElementById('curves').dataset.samples > 3")
+    finally:
+        service.end()

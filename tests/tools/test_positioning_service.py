@@ -303,6 +303,18 @@ def test_a_stop_gets_through_as_soon_as_the_unit_is_back(desk: PosDesk, relay: R
     assert desk.answer(number)["text"].startswith("all axes stand")
 
 
+def test_on_a_bad_line_a_stop_is_confirmed_by_axes_that_stand(pos_serve: Serve) -> None:
+    served = pos_serve("--unpaced", "--noise", "2000", "--loss", "2000", speed="1")
+    desk = PosDesk(served.place)
+    try:
+        desk.connected()
+        moving(desk)
+        assert desk.ask("halt")["text"].startswith("all axes stand: 1 at ")
+        assert not any(served.control().order("?")["moving"])
+    finally:
+        desk.close()
+
+
 def test_a_stop_without_a_port_is_not_confirmed(desk: PosDesk) -> None:
     desk.ask("disconnect")
 

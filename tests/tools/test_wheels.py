@@ -114,6 +114,14 @@ def test_the_page_is_brought_with_its_unit_and_the_examples(run, tmp_path):
     assert "4-loop.rks" in page
 
 
+def test_the_pages_of_the_other_units_are_brought(installed):
+    (tree,) = installed.glob("lib/python*/site-packages/rkm04_tools/tree/build/service")
+    for unit in ("gve134", "positioning"):
+        assert {f"{unit}.{kind}" for kind in ("html", "js", "css")} <= {
+            path.name for path in tree.iterdir()
+        }
+
+
 @pytest.mark.parametrize(
     ("command", "arguments", "what"),
     [
