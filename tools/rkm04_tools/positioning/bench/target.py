@@ -1,0 +1,91 @@
+"""`bench --target stm32`: the figures of the positioning image beside their goals, modelled."""
+
+from __future__ import annotations
+
+import json
+import os
+from argparse import Namespace
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import asdict
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from rkm04_tools import board_size, target_run
+from rkm04_tools.bar import Bar
+from rkm04_tools.failure import DONE
+from rkm04_tools.positioning.bench import loads, reactions
+from rkm04_tools.target_figures import Figures
+from rkm04_tools.target_rows import NOTE, STACK, Goal, Row, merge, rows_of, rows_table
+from rkm04_tools.target_run import BESIDE, GATE, Model, Rig
+
+UNIT = "positioning"
+WORKERS = 2
+
+MEASURES: Mapping[str, Callable[[Rig], Figures]] = {
+    "full": loads.full,
+    "wide": loads.wide,
+    "alone": reactions.alone,
+    "fast": reactions.fast,
+    "hold": reactions.hold,
+    "slow": reactions.slow,
+}
+
+FIGURES = [
+    Goal("load_full", "load at 4 x 100 000 steps/s, new feeds every 15 ms, 115 200 Bd",
+         "%", 50, budget="load_feeds_percent"),
+    Goal("late_full", "... late pulses", "pulses", 0),
+    Goal("unanswered_full", "... requests not answered", "", 0),
+    Goal("answer_full", "... from a request to its answer, at most", "ms", 20),
+    Goal("load_wide", "load at the same, feeds from half of that on", "%", 50),
+    Goal("late_wide", "... late pulses", "pulses", 0),
+    Goal("unanswered_wide", "... requests not answered", "", 0),
+    Goal("begins_alone", "from a request that has come to the ramp, 4 x 100 000 steps/s: a feed",
+         "us", 1000),
+    Goal("changes_alone", "... to the first pulse at another time", "us", 1000),
+    Goal("late_alone", "... late pulses", "pulses", 0),
+    Goal("begins_change", "... to the ramp: feeds of all axes", "us", 1000),
+    Goal("changes_change", "... to the first pulse at another time", "us", 1000),
+    Goal("late_change", "... late pulses", "pulses", 0),
+    Goal("begins_hold", "... to the ramp: a hold of all axes", "us", 1000),
+    Goal("changes_hold", "... to the first pulse at another time", "us", 1000),
+    Goal("late_hold", "... late pulses", "pulses", 0),
+    Goal("begins_slow", "... to the ramp: feeds of all axes, pulses 512 ms apart", "ms", 1),
+    Goal("late_slow", "... late pulses", "pulses", 0),
+    Goal(STACK, "stack that was used in all runs", "bytes"),
+]  # fmt: skip
+
+
+def run(options: Namespace) -> int:
+    """Measure everything and print it."""
+    with TemporaryDirectory() as folder:
+        rig = target_run.rig(Path(folder), unit=UNIT)
+        sizes = asdict(board_size.measure(rig.elf, rig.image.folder, UNIT))
+        rows = rows_of(FIGURES, measure(rig), sizes, UNIT)
+    if options.json:
+        print(json.dumps(_as_json(rows), indent=2))
+    else:
+        print(f"{rows_table(rows)}\n\n{NOTE}")
+    return DONE
+
+
+def measure(rig: Rig) -> dict[Model, Figures]:
+    """Make all figures with both models, two runs at a time."""
+    figures: dict[Model, Figures] = {GATE: {}, BESIDE: {}}
+    with ThreadPoolExecutor(min(WORKERS, os.cpu_count() or 1)) as pool, Bar("measuring") as bar:
+        tasks: dict[Any, Model] = {}
+        for model in (GATE, BESIDE):
+            for name, function in MEASURES.items():
+                apart = rig.beside(f"{name}-{model.refill}", model)
+                tasks[pool.submit(function, apart)] = model
+        for done, task in enumerate(as_completed(tasks)):
+            bar.show(done + 1, len(tasks))
+            merge(figures[tasks[task]], task.result())
+    return figures
+
+
+def _as_json(rows: list[Row]) -> dict[str, Any]:
+    figures = [{**asdict(row), "met": row.met} for row in rows]
+    models = {"measured": asdict(GATE), "beside": asdict(BESIDE)}
+    return {"note": NOTE, "models": models, "figures": figures}
