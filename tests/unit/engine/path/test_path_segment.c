@@ -237,15 +237,29 @@ void test_each_field_of_a_segment_is_rounded_to_the_nearest(void)
 {
     seed = 1;
     for (unsigned i = 0; i < 100000; i++) {
-        uint32_t length = (uint32_t)draw_size(31);
+        uint32_t length = (uint32_t)(draw_size(31) - draw(1)) | 2U;
         uint32_t steps = draw(2) == 0 ? length : (uint32_t)(1U + draw(32) % length);
         steps = draw(3) == 0 && length > 8 ? length / (uint32_t)(2U + draw(2)) : steps;
-        int32_t accel = (int32_t)(draw_size(30) % PATH_ACCEL_MAX) * ((int32_t)draw(2) - 1);
+        int32_t accel = draw(4) == 0 ? 0 : (int32_t)(draw_size(30) % (PATH_ACCEL_MAX + 1U));
+        accel = draw(1) == 0 ? accel : -accel;
         struct path_pulse at = {
             .ticks = draw(40),
             .fraction = draw(3) == 0 ? (uint32_t)draw(1) << 31U : (uint32_t)draw(32),
             .slope256 = draw_size(60) + (draw(1) << 43U),
         };
         assert_segment(length, steps, accel, &at);
+    }
+}
+
+/* Where the acceleration is just so much that a first pulse is of use, and one more or less. */
+void test_a_first_pulse_is_of_use_up_to_one_acceleration(void)
+{
+    seed = 2;
+    for (unsigned i = 0; i < 10000; i++) {
+        uint64_t slope = UINT64_C(1) << 38U | draw(38U + i % 8U);
+        uint64_t accel = 2U * slope / (STEP_QUANTA / slope + 1U) + i % 3U;
+        if (accel > 1U && accel <= PATH_ACCEL_MAX) {
+            assert_segment(7, 7, (int32_t)accel - 1, &(struct path_pulse){.ticks = i, .slope256 = slope << 8U});
+        }
     }
 }
