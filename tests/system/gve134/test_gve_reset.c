@@ -1,5 +1,6 @@
 /* J at any time; the line of the whole unit: what waits, what is heard, what is sent again. */
 #include "gve_rig.h"
+#include "hal_line.h"
 
 #include <stddef.h>
 
@@ -213,6 +214,48 @@ void test_a_command_that_comes_before_an_answer_is_out_is_executed_after_it(void
     }
     rig_run_ms(1);
     TEST_ASSERT_NOT_EQUAL_HEX8(0, rig_outputs);
+}
+
+/* So slowly that they are still there when the axes stand. */
+static void fill_line(void)
+{
+    host_machine_set_byte_ticks(&machine, 1000U * RIG_BYTE_TICKS);
+    while (hal_line_write('x')) {
+    }
+    rig_heard_count = 0;
+}
+
+static const char *heard_after_what_filled_it(void)
+{
+    rig_run_ms(7000);
+    rig_heard[rig_heard_count] = '\0';
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT32(HOST_LINE_TO_SEND_MAX, rig_heard_count);
+    return &rig_heard[HOST_LINE_TO_SEND_MAX];
+}
+
+void test_an_answer_that_finds_no_room_in_the_line_goes_out_when_there_is_some(void)
+{
+    rig_expect("0L1000", "0");
+    rig_run_ms(300);
+    rig_send("!0H\r");
+    fill_line();
+    rig_run_ms(70);
+    TEST_ASSERT_TRUE(gve_queue_inta(&unit.queue));
+    TEST_ASSERT_FALSE(gve134_is_idle(&unit));
+    rig_send("!0V77\r");
+    TEST_ASSERT_EQUAL_STRING("8\r8\r", heard_after_what_filled_it());
+}
+
+void test_a_reset_waits_for_its_answer_to_go_out(void)
+{
+    rig_expect("0L1000", "0");
+    rig_run_ms(300);
+    rig_send("!0H\r");
+    fill_line();
+    rig_send("!0J\r");
+    TEST_ASSERT_EQUAL_STRING("0\r", heard_after_what_filled_it());
+    host_machine_set_byte_ticks(&machine, RIG_BYTE_TICKS);
+    rig_expect("0@", "0,0");
 }
 
 void test_256_bytes_that_come_while_h_waits_are_kept(void)
