@@ -94,6 +94,11 @@ MODULES = (
         ),
         (),
     ),
+    Module(
+        "path", "engine/path",
+        ("path_divide.c", "path_fixed.c", "path_segment.c", "path_vector.c"), (),
+        ("unit/engine/path", "system/group"),
+    ),
     Module("axis", "engine/axis", ("axis.c", "axis_state.c", "axis_stop.c"), ()),
     Module("gve-speeds", "gve134/speeds", ("gve_speeds.c",), ()),
     Module("gve-guards", "gve134/guards", ("gve_guards.c",), ()),

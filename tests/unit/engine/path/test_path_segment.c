@@ -203,12 +203,12 @@ static uint32_t steps_of(uint64_t slope, int32_t accel, bool exact, uint32_t lef
     return 1U + (uint32_t)(steps < left ? steps : left);
 }
 
-static void assert_segment(uint32_t length, uint32_t steps, int32_t leg_accel, const struct path_pulse *at)
+/* Returns its steps. */
+static uint32_t assert_segment_until(uint32_t last, uint32_t steps, const struct path_pulse *at)
 {
-    course.length = length;
-    course.per_length = path_divisor_of(length);
-    course.leg[0].accel = leg_accel;
-    stretch = (struct path_stretch){.steps = steps, .pulse = 1, .last = (uint32_t)draw_size(31)};
+    uint32_t length = course.length;
+    int32_t leg_accel = course.leg[0].accel;
+    stretch = (struct path_stretch){.steps = steps, .pulse = 1, .last = last};
     struct step_segment made = path_segment_lay(&course, &course.leg[0], &stretch, at);
 
     uint64_t size = (uint64_t)(leg_accel < 0 ? -(int64_t)leg_accel : leg_accel);
@@ -231,6 +231,18 @@ static void assert_segment(uint32_t length, uint32_t steps, int32_t leg_accel, c
     TEST_ASSERT_EQUAL_UINT32(steps_of(slope, accel, rest == 0, stretch.last - 1U), made.steps);
     bool paced = slope >= STEP_QUANTA >> 24U && (accel == 0 || made.steps > 1);
     TEST_ASSERT_EQUAL_UINT32(paced ? STEP_QUANTA / slope : 0U, made.pace_ticks);
+    return made.steps;
+}
+
+/* On a stretch of any length, and on one that is a step longer than what is near enough. */
+static void assert_segment(uint32_t length, uint32_t steps, int32_t leg_accel, const struct path_pulse *at)
+{
+    course.length = length;
+    course.per_length = path_divisor_of(length);
+    course.leg[0].accel = leg_accel;
+    uint32_t near = assert_segment_until(INT32_MAX, steps, at);
+    (void)assert_segment_until(near + 1U, steps, at);
+    (void)assert_segment_until((uint32_t)draw_size(31), steps, at);
 }
 
 void test_each_field_of_a_segment_is_rounded_to_the_nearest(void)
@@ -262,4 +274,12 @@ void test_a_first_pulse_is_of_use_up_to_one_acceleration(void)
             assert_segment(7, 7, (int32_t)accel - 1, &(struct path_pulse){.ticks = i, .slope256 = slope << 8U});
         }
     }
+}
+
+void test_a_slope_is_slow_below_its_limit_only(void)
+{
+    struct path_pulse at = {.ticks = 1000, .slope256 = (STEP_QUANTA >> 24U) << 8U};
+    assert_segment(5, 5, 0, &at);
+    at.slope256 -= 256U;
+    assert_segment(5, 5, 0, &at);
 }
