@@ -99,7 +99,8 @@ def test_settings_are_converted_as_the_page_says() -> None:
 
     assert axis["speed_steps_per_s"] == 320 * 3000 / 60
     assert axis["accel_steps_per_s2"] == 320 * 500
-    assert axis["jump_steps_per_s"] == math.floor(320 * math.sqrt(2.414 * 500 * 0.01))
+    assert axis["jump_steps_per_s"] == math.floor(320 * math.sqrt(8 * 500 * 0.01))
+    assert example()["gve134"]["corner_deviation_mm"] == 0.01
     assert homing["way_steps"] == -320 * 310
     assert homing["speed_steps_per_s"] == 320 * 1500 / 60
     assert homing["back_speed_steps_per_s"] == 320 * 60 / 60

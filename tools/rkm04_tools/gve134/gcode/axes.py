@@ -98,6 +98,8 @@ class Mill:
     axes: tuple[Axis | None, ...]
     spindle: Spindle | None
     probe: Probe | None
+    corner_deviation: float = 0.0
+    """mm, the measure of corners (see `corners`); 0: the axes' jumps alone."""
 
     @cached_property
     def turn_top(self) -> float:
@@ -134,6 +136,7 @@ def mill_of(machine: Machine) -> Mill:
         spindle
         and Spindle(spindle["rpm"], spindle.get("start_s", 0.0), spindle.get("reverse_bit")),
         probe and Probe(probe["interrupt"], probe.get("opens", False)),
+        told.get("corner_deviation_mm", 0.0),
     )
 
 

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from math import sqrt
 
 from rkm04_tools.gve134.gcode.axes import PULSES_LEAST, PULSES_TOP, Axis, Homing, Mill
+from rkm04_tools.gve134.gcode.corners import Corners, Side
 
 STEPS_MAX = 2_147_483_647
 ACCEL_UNIT, ACCEL_TOP = 1000, 8000
@@ -45,6 +46,11 @@ class Writer:
         self._moved = False
         self._port_told = False
         self._speeds = [axis.speed if axis else NO_AXIS_SPEED for axis in mill.axes]
+        self._corners = Corners(mill) if mill.corner_deviation else None
+        self._border = PULSES_TOP
+        """B as it was written last."""
+        self._held: tuple[str, Side | None] | None = None
+        """A vector whose B follows from the next one."""
         self._accels = [axis.accel if axis else ACCEL_TOP * ACCEL_UNIT for axis in mill.axes]
 
     def begin(self, name: str) -> None:
@@ -53,11 +59,16 @@ class Writer:
         self.say(f"; {_plain(name)}, for {_plain(self.mill.name)}; written by gve134 gcode")
         self.say("; ;@wait, ;@pause and ;@probe are for the host, gve134 send and sim")
         self.say("L0,0,0,0\nT1\nVK\nB200000")
+        if self._corners:
+            self.say("$1")  # else B would be the speed of short vectors
         self.say(f"VL{','.join(map(str, self._speeds))}")
         self.say(f"VJ{','.join(map(str, jumps))}")
 
     def say(self, text: str) -> None:
-        """Write a line as it is."""
+        """Write a line as it is; the axes stand before it, or it moves none."""
+        if self._held:
+            self._put(self._held[0])
+            self._held = None
         self._put(f"{text}\n")
 
     def join(self, steps: Steps, rate: float, is_rapid: bool = False) -> None:
@@ -66,15 +77,32 @@ class Writer:
         The rate is in pulses/s of X, Y and Z together, or of the longest axis if they rest; of a
         rapid one the axes' limits alone count.
         """
-        self._pace(steps, rate, is_rapid)
+        modal = self._pace(steps, rate, is_rapid)
         x, y, z, a = steps
-        if self.line == self._told_line:
-            self._put(f"C{x},{y},{z},{a}\n")
-        else:
+        text = f"C{x},{y},{z},{a}\n"
+        if self.line != self._told_line:
             self._told_line = self.line
-            self._put(f"C{x},{y},{z},{a} ; line {self.line}\n")
+            text = f"C{x},{y},{z},{a} ; line {self.line}\n"
+        if self._corners:
+            side = self._corners.side(steps, self._corrected)
+            self._release(self._corners, side)
+            self._held = (text, side)
+            text = ""
+        if modal or text:
+            self._put(modal + text)
         self.vectors += 1
         self._moved = True
+
+    def _release(self, corners: Corners, following: Side | None) -> None:
+        """Write the vector that is held, with the speed of the corner at its end."""
+        if self._held is None:
+            return
+        text, side = self._held
+        border = corners.speed(side, following)
+        if border != self._border:
+            self._border = border
+            text = f"B{border}\n{text}"
+        self._put(text)
 
     def sync(self) -> None:
         """Wait until all that is before has been done."""
@@ -100,7 +128,7 @@ class Writer:
             each.index for each in self.mill.axes if each and each.homing and each.homing.opens
         )
         self.say(f"SW2,{sum(1 << index for index in opens):02X}")
-        self._set_accel(axis.accel // ACCEL_UNIT)
+        self._put(self._accel_text(axis.accel // ACCEL_UNIT))
         run = (homing.way_steps, homing.speed, homing.back_steps, homing.back_speed)
         self.say(f"W{axis.letter}{','.join(map(str, run))} ; line {self.line}")
         self.say(f"N{axis.letter}{homing.position_steps}")
@@ -113,7 +141,7 @@ class Writer:
         self.sync()
         self.wait(AT_REST_S)
         self.say(f"SW3,{bit if sensor.opens else 0:02X}\nSW1,{bit:02X}")
-        self._pace(steps, rate, False)
+        self._put(self._pace(steps, rate, False))
         self.say(f"L{','.join(map(str, steps))} ; line {self.line}")
         self.say(";@probe")
         self.vectors += 1
@@ -142,8 +170,8 @@ class Writer:
             self.say(f"O0,{port:02X}")
         self.port, self._port_told = port, True
 
-    def _pace(self, steps: Steps, rate: float, is_rapid: bool) -> None:
-        """Write V, VK or VN, and A where they change."""
+    def _pace(self, steps: Steps, rate: float, is_rapid: bool) -> str:
+        """V, VK or VN, and A where they change, as lines."""
         x, y, z, a = map(abs, steps)
         longest = max(x, y, z, a)
         if longest > STEPS_MAX:
@@ -159,21 +187,23 @@ class Writer:
         whole = PULSES_TOP if is_rapid else round(rate if corrected else rate * longest / extent)
         if whole < PULSES_LEAST:
             raise TooSlow(f"the feed is too low: the unit makes {PULSES_LEAST} pulses/s at least")
+        modal = ""
         if corrected is not self._corrected:
             self._corrected = corrected
-            self._put("VK\n" if corrected else "VN\n")
+            modal = "VK\n" if corrected else "VN\n"
         if (whole := min(whole, PULSES_TOP)) != self._rate:
             self._rate = whole
-            self._put(f"V{whole}\n")
+            modal += f"V{whole}\n"
         a0, a1, a2, a3 = self._accels
         accel = longest / max(x / a0, y / a1, z / a2, a / a3)
-        self._set_accel(int(accel * (1 + 1e-12)) // ACCEL_UNIT)
+        return modal + self._accel_text(int(accel * (1 + 1e-12)) // ACCEL_UNIT)
 
-    def _set_accel(self, accel: int) -> None:
+    def _accel_text(self, accel: int) -> str:
         accel = min(accel, ACCEL_TOP)
-        if accel != self._accel:
-            self._accel = accel
-            self._put(f"A{accel}\n")
+        if accel == self._accel:
+            return ""
+        self._accel = accel
+        return f"A{accel}\n"
 
 
 def _plain(text: str) -> str:
