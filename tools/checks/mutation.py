@@ -110,19 +110,6 @@ MODULES = (
     Module("gve-unit", "gve134", ("gve134_execute.c", "gve134_packet.c"), (), ("system/gve134",)),
     Module("gve-start", "gve134", ("gve134.c",), (), ("system/gve134",)),
     Module(
-        "gve-command", "gve134/command", ("gve_command.c", "gve_table.c", "gve_words.c"), (),
-        ("unit/gve134/command", "system/gve134"),
-    ),
-    Module(
-        "gve-line", "gve134/line", ("gve_answer.c", "gve_line.c", "gve_receiver.c"), (),
-        ("unit/gve134/line", "system/gve134"),
-    ),
-    Module(
-        "gve-memory", "gve134/memory",
-        ("gve_big.c", "gve_float_put.c", "gve_float_read.c", "gve_memory.c"), (),
-        ("unit/gve134/memory", "system/gve134"),
-    ),
-    Module(
         "pos-modbus", "positioning/modbus",
         (
             "modbus.c", "modbus_crc.c", "modbus_identity.c", "modbus_receiver.c",

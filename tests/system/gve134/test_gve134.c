@@ -1,5 +1,6 @@
 #include "gve_rig.h"
 
+#include "hal_line.h"
 #include "hal_time.h"
 
 void setUp(void)
@@ -123,6 +124,27 @@ void test_an_input_stops_the_axes_though_main_is_late(void)
     host_machine_run(&machine, machine.now + 5U * TICKS_PER_MS, be_late, NULL, NULL);
     rig_run_ms(1000);
     TEST_ASSERT_INT64_WITHIN(10, latched + 625, rig_position[0]);
+}
+
+static unsigned begun; /* answers that H has waited for, in the pass that has seen the stand */
+
+static uint64_t watch_halt(void *context)
+{
+    bool waited = unit.waiting == (uint8_t)GVE134_WAITS_FOR_HALT;
+    uint64_t wake = rig_poll(context);
+    begun += waited && unit.waiting == (uint8_t)GVE134_WAITS_NOT && !hal_line_is_idle();
+    return wake;
+}
+
+void test_the_answer_to_a_halt_begins_in_the_pass_that_sees_the_stand(void)
+{
+    rig_expect("0V5000", "0");
+    rig_expect("0L100000", "0");
+    rig_run_ms(500);
+    rig_send("!0H\r");
+    begun = 0;
+    host_machine_run(&machine, machine.now + 1000U * TICKS_PER_MS, watch_halt, NULL, NULL);
+    TEST_ASSERT_EQUAL_UINT(1, begun);
 }
 
 void test_a_reference_run_finds_the_place_where_the_switch_lets_go(void)
