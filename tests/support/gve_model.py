@@ -35,8 +35,10 @@ def named(item: Item, *names: str) -> bool:
 class Model:
     """One way through a session."""
 
-    def __init__(self, session: Session, done: Done, chooser: Chooser) -> None:
-        """Switch the unit on."""
+    def __init__(
+        self, session: Session, done: Done, chooser: Chooser, memory: bytes | None = None
+    ) -> None:
+        """Switch the unit on, as delivered or with what its memory has."""
         self.session = session
         self.unit = Unit(done, chooser)
         self.runner = Runner(self.unit)
@@ -48,6 +50,8 @@ class Model:
         self.acted: list[Item] = []
         """H that came while others waited: it has acted, and is executed again in its turn."""
         self.brake_tick = FAR
+        if memory is not None:
+            self.unit.state.memory = bytearray(memory)
         self.unit.state.fault = CAUSES[session.cause]
         self.unit.state.inta = session.cause != "power"
         self.unit.done.motors.resets = [each.tick for each in self.items if named(each, "J")]
@@ -267,14 +271,17 @@ def check_changes(
         raise Mismatch(tick, f"{what} becomes {got:02X}")
 
 
-def compare(session: Session, done: Done) -> float:
-    """Compare what a unit did in a session; return by how much the worst pulse is off, in ticks."""
+def compare(session: Session, done: Done, memory: bytes | None = None) -> float:
+    """Compare what a unit did in a session; return by how much the worst pulse is off, in ticks.
+
+    It has this memory, or one as delivered.
+    """
     if done.complaints:
         raise Mismatch(session.end, "; ".join(done.complaints))
     chooser = Chooser()
     worst: Mismatch | None = None
     for _ in range(TRIES_MAX):
-        model = Model(session, done, chooser)
+        model = Model(session, done, chooser, memory)
         try:
             model.go()
         except Mismatch as mismatch:

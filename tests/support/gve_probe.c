@@ -4,6 +4,8 @@
  * Comes in on standard input, line by line; numbers are decimal, ticks count from power-on, lines of a kind come in the
  * order of their ticks:
  *   epoch E             the unit's time at power-on; begins a session
+ *   again -             the power comes back where a run has ended: the flash stays, ticks go on, all else is anew
+ *   cut N               the power fails at the Nth word or erase of the flash since it came
  *   ahead TICKS         pulses are laid so far ahead; at first, one at a time
  *   cause C             why the unit starts: power, watchdog or crystal (it does not run)
  *   byte TICKS          what a byte takes that the unit sends
@@ -144,9 +146,8 @@ static uint64_t pass(void *context)
     return gve134_poll(&((struct probe *)context)->unit);
 }
 
-static void begin(struct probe *probe, uint64_t epoch)
+static void begin(struct probe *probe)
 {
-    host_machine_init(&probe->machine, epoch);
     host_machine_select(&probe->machine);
     probe->machine.listener = (struct host_listener){
         .context = probe,
@@ -264,7 +265,13 @@ static void go(struct probe *probe, uint64_t tick)
 static void obey(struct probe *probe, const char *line)
 {
     if (strncmp(line, "epoch ", 6) == 0) {
-        begin(probe, strtoull(line + 6, NULL, 10));
+        host_machine_init(&probe->machine, strtoull(line + 6, NULL, 10));
+        begin(probe);
+    } else if (strncmp(line, "again ", 6) == 0) {
+        host_machine_restart(&probe->machine);
+        begin(probe);
+    } else if (strncmp(line, "cut ", 4) == 0) {
+        probe->machine.faults.flash_cut_after = (uint32_t)strtoul(line + 4, NULL, 10);
     } else if (strncmp(line, "ahead ", 6) == 0) {
         probe->machine.ahead_ticks = (uint32_t)strtoul(line + 6, NULL, 10);
     } else if (strncmp(line, "cause ", 6) == 0) {

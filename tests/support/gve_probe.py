@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import subprocess
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 from gve_course import Record
@@ -56,6 +57,19 @@ class Probe:
         self.tell([*lines, f"run {session.end}"], reader)
         return reader.done
 
+    def run_cut(self, session: Session, cut: int, after: Session) -> Done:
+        """Run a session in which the power fails at a write of the flash, and the one after it.
+
+        Returns what the unit did in the second one, whose ticks count from when the power was back.
+        """
+        lines = [*begin_of(session), f"cut {cut}", *lines_of(session.edges, session.line)]
+        self.tell([*lines, f"run {session.end}"], Reader(session.end))
+        reader = Reader(after.end, session.end)
+        line = [replace(byte, tick=byte.tick + session.end) for byte in after.line]
+        lines = ["again -", *lines_of((), line), f"run {session.end + after.end}"]
+        self.tell(lines, reader)
+        return reader.done
+
     def tell(self, lines: list[str], reader: Reader) -> None:
         """Have lines obeyed, the last of which runs the unit, and what it does read."""
         assert self._process.stdin
@@ -71,7 +85,9 @@ class Probe:
 class Reader:
     """Reads what the probe tells of a session."""
 
-    def __init__(self, end: int) -> None:
+    def __init__(self, end: int, begin: int = 0) -> None:
+        """Ticks count from the begin on."""
+        self._from = begin
         self.done = Done(Record(end))
         self.tick = 0
         self.sent: list[tuple[int, int]] = []
@@ -83,9 +99,9 @@ class Reader:
         """Read one line; whether it was the last one."""
         kind = words[0]
         if kind == "sent":
-            self._hear(int(words[1]), int(words[2], 16))
+            self._hear(int(words[1]) - self._from, int(words[2], 16))
         elif kind == "signal":
-            self._note(" ".join(words[3:]), int(words[1]), int(words[2]))
+            self._note(" ".join(words[3:]), int(words[1]) - self._from, int(words[2]))
         elif kind == "at":
             self.tick = int(words[1])
         elif kind == "judge":
@@ -94,7 +110,7 @@ class Reader:
             train = self.done.motors.trains[int(words[1]) - 1]
             for word in words[2:]:
                 tick = int(word)
-                train.add(abs(tick), 1 if tick > 0 else -1)
+                train.add(abs(tick) - self._from, 1 if tick > 0 else -1)
         elif kind == "end" and words[1] != "0":
             self.done.complaints.append(f"{words[1]} pulses came too late")
         return kind == "end"
