@@ -2,6 +2,7 @@
 
 enum {
     STALL_MS = 10, /* eight characters at 9600 Bd */
+    LAST = IMAGE_LINE_LAST,
 
     /* The transmitter stays on, as its start would send an idle character first (RM0090 30.3.2). */
     LISTENING = USART_CR1_UE | USART_CR1_TE | USART_CR1_RE | USART_CR1_RXNEIE,
@@ -18,9 +19,12 @@ static struct {
 
 static void receive(uint32_t status)
 {
-    uint8_t value = (uint8_t)USART_DR(STM32_LINE_BASE); /* also ends the errors, RM0090 30.6.1 */
+    uint32_t value = USART_DR(STM32_LINE_BASE) & UINT8_MAX; /* also ends the errors, RM0090 30.6.1 */
     bool broken = (status & (USART_SR_PE | USART_SR_FE | USART_SR_NF | USART_SR_ORE)) != 0;
-    stm32_line.received_in = stm32_line_keep(stm32_line.received_in, TIM2_CNT, value, broken);
+    stm32_line.received_in = stm32_line_keep(stm32_line.received_in, TIM2_CNT, (uint8_t)value, broken);
+    if (value == (uint32_t)LAST) {
+        stm32_event = true;
+    }
 }
 
 static void let_go(void)
@@ -66,7 +70,7 @@ void stm32_line_interrupt(void)
 {
     bool drove = bus.driving;
     serve();
-    if (IMAGE_LINE_WAKES || (drove && !bus.driving)) {
+    if (drove && !bus.driving) {
         stm32_event = true;
     }
 }

@@ -204,7 +204,7 @@ static void append(unsigned motor, uint32_t now, uint32_t ahead_ticks)
     uint32_t waiting = count_waiting(channel);
     uint32_t last = channel->last_tick;
     bool far = !is_before(last, now + (uint32_t)FAR_TICKS);
-    bool in_time = far || !is_before(last, TIM2_CNT + (uint32_t)APPEND_TICKS);
+    bool in_time = !is_before(last, now + (uint32_t)(APPEND_TICKS + TICKS_PER_US));
     if (waiting > (uint32_t)WAITING_MAX) {
         channel->from_tick = channel->due_tick;
         return;
@@ -285,7 +285,18 @@ void stm32_step_interrupt(void)
     }
 }
 
-/* The interrupt lays more as soon as it may. */
+/* The interrupt comes when a motor is due, if not before. */
+static void call_for(const struct stm32_channel *channel)
+{
+    uint32_t due = channel->due_tick;
+    if (is_before(due, TIM2_CCR4)) {
+        TIM2_CCR4 = due;
+        if (is_before(due, TIM2_CNT + (uint32_t)SOON_TICKS)) {
+            TIM_EGR(TIM2_BASE) = TIM_EGR_CC4G;
+        }
+    }
+}
+
 void hal_step_run(unsigned motor)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
@@ -297,7 +308,9 @@ void hal_step_run(unsigned motor)
     if (!channel->active || !is_before(now, channel->from_tick)) {
         refill(motor, now, RUN_TICKS);
     }
-    TIM_EGR(TIM2_BASE) = TIM_EGR_CC4G;
+    if (channel->active) {
+        call_for(channel);
+    }
 }
 
 unsigned hal_step_waiting(unsigned motor)
@@ -354,7 +367,9 @@ unsigned hal_step_take_back(unsigned motor, unsigned count)
            !stop_before(channel, laid - back, now)) {
         back--;
     }
-    TIM_EGR(TIM2_BASE) = TIM_EGR_CC4G;
+    if (channel->active) {
+        call_for(channel);
+    }
     return back;
 }
 

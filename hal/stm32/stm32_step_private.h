@@ -49,7 +49,10 @@ enum {
      * that has less than NEAR_TICKS ahead is served along with others. */
     HORIZON_TICKS = 512 * TICKS_PER_US,
     NEAR_TICKS = HORIZON_TICKS / 2,
-    RUN_TICKS = 20 * TICKS_PER_US, /* what main lays, with all interrupts held off */
+
+    /* What is laid with all interrupts held off: so much that the interrupt is not due before four motors that stop
+     * together have begun to brake. */
+    RUN_TICKS = 2 * LEAD_TICKS,
 
     /* At most, from an edge until the next one is in the compare register and the one after it in the stream: four
      * streams asked at once while the processor has the bus take 40 ticks. */

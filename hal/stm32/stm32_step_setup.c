@@ -247,6 +247,7 @@ void stm32_step_start(bool may_move)
     }
     stm32_step.asks[0] = TIM_DIER_CC4IE;
     TIM_DIER(TIM2_BASE) = TIM_DIER_CC4IE;
+    TIM_EGR(TIM2_BASE) = TIM_EGR_CC4G; /* from its first time on the interrupt says when it comes next */
 }
 
 void stm32_step_set_client(const struct hal_client *client)

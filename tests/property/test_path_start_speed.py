@@ -14,7 +14,7 @@ import motion_probe
 import pytest
 from chance import SEED
 from motion_probe import Move
-from path_chains import any_chain, any_size
+from path_chains import SPEED_MAX, any_chain, any_size
 from path_probe import SECTION, STOP, Case, Change, deviation, run
 from path_reference import ACCEL_UNITS, SPEED_UNITS, Vector
 from reference import FRACTION_BITS, Section
@@ -111,9 +111,8 @@ def test_a_change_or_stop_of_a_move_is_one_of_a_chain() -> None:
 @pytest.mark.parametrize("batch", range(5))
 def test_every_pulse_of_a_chain_with_a_start_speed_is_on_its_tick(batch: int) -> None:
     rng = random.Random(f"{SEED} {batch}")
-    chains = [
-        any_chain(rng, start_speed=any_size(rng, 400_000 * SPEED_UNITS)) for _ in range(CHAINS // 5)
-    ]
+    top = SPEED_MAX * SPEED_UNITS
+    chains = [any_chain(rng, start_speed=any_size(rng, top)) for _ in range(CHAINS // 5)]
     for case, made in zip(chains, run(chains), strict=True):
         found = deviation(case, made)
         assert found.ticks <= GOAL_TICKS, f"axis {found.axis}, pulse {found.pulse}: {case.line}"

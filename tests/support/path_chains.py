@@ -13,7 +13,7 @@ from path_probe import ADD, JOIN, NEVER, SPEED, STOP, Case, Change
 from path_reference import ACCEL_UNITS, AXES, SPEED_UNITS, Vector
 from reference import TICK_HZ
 
-SPEED_MAX = 200_000
+SPEED_MAX = 500_000
 ACCEL_MAX = 8_000_000
 STEPS_MAX = 2**31 - 1
 VECTORS_MAX = 128
@@ -131,7 +131,7 @@ def long_corners() -> list[Case]:
     Some pulses are compared, those at the ends of segments among them, where roundings show most.
     """
     steep, longest = (1, 16_000_000, 3, 7), (STEPS_MAX, STEPS_MAX - 1, 12_345, 1)
-    limits = ((SPEED_MAX, ACCEL_MAX), (10_000, 1e6), (400_000, 1e5))
+    limits = ((SPEED_MAX, ACCEL_MAX), (10_000, 1e6), (500_000, 1e5))
     return [
         *(Case((vector(steep, v, a),), stride=9973) for v, a in limits),
         *(Case((vector(longest, v, a),), stride=1_000_003) for v, a in limits),

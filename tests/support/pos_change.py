@@ -15,7 +15,7 @@ from pos_words import MS, SPEED_UNITS, Unsure
 CHANGE = MS
 """A change takes effect within this, or at the next pulse."""
 
-LEAD = MS * 36 // 100
+LEAD = MS * 34 // 100
 """Planning takes so long: pulses that are due before come as they were."""
 
 SLOW_CHANGE = 20 * MS

@@ -56,6 +56,7 @@ FOLDERS = (
 )
 ARM_FOLDERS = (*STAGES, "hal/include", "hal/stm32", f"hal/stm32/boards/{BOARD}")
 CLASS_2 = "/stm32_gpio_"
+HALF_DUPLEX = "line_half"
 """Files that only RKM04 is built with; others go with either unit."""
 ARM_TARGET = ("--target=arm-none-eabi", "-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=soft")
 NEWLIB = "/usr/include/newlib"
@@ -118,7 +119,7 @@ def findings(text: str) -> Iterator[str]:
 
 def arm_includes(file: str) -> list[str]:
     """With the header of an image that fits the file."""
-    unit = "rkm04" if CLASS_2 in file else "gve134"
+    unit = "rkm04" if CLASS_2 in file or HALF_DUPLEX in file else "gve134"
     return [*includes((f"firmware/{unit}/image",)), *includes(ARM_FOLDERS)]
 
 

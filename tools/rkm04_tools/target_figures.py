@@ -18,7 +18,7 @@ RAMPS = b"S500 V16000 A60000 F8000 R"
 RAMPS_SECONDS = 0.85
 """How long that takes at most."""
 
-SPEED_LIMIT = 400_000
+SPEED_LIMIT = 500_000
 """STEP_SPEED_MAX: what the step generator is built for."""
 RATE_LEAST, RATE_STEP = 10_000, 1.01
 """The search for the highest rate ends with one that held and one 1 % above that did not."""

@@ -7,7 +7,7 @@
  * begins with group_start and is over when group_take_end has said so. What a stop has left of the path stays:
  * group_start goes on with it, group_forget drops it.
  *
- * A change takes effect at a whole step of the longest axis, the first that is due 0.35 ms after it was asked for, or
+ * A change takes effect at a whole step of the longest axis, the first that is due 0.33 ms after it was asked for, or
  * up to 0.2 ms later where many sections get other speeds. Each channel is frozen from there on while the path is
  * planned; where the plan is late, so are the pulses, and the motors are where the path says all the same.
  */

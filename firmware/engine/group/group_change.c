@@ -8,9 +8,9 @@
 
 enum {
     /* From the plan's begin to the place: what planning takes, and the lead of the step output. */
-    LEAD_TICKS = 350 * TICKS_PER_US,
+    LEAD_TICKS = 330 * TICKS_PER_US,
     LEAD_TICKS_MAX = 8 * LEAD_TICKS,
-    LOOK_TICKS = TICKS_PER_US, /* more for each section that is looked at, with another speed or not */
+    LOOK_TICKS = TICKS_PER_US * 2 / 3, /* more for each section that is looked at, with another speed or not */
     PATIENCE_TICKS = 500 * TICKS_PER_US,
     GO_ON_TICKS = 370 * TICKS_PER_US, /* so much is handed over after the place at once */
     FIRST_TICKS = 4 * TICKS_PER_MS,   /* and the first segment of each axis, if it is due by then */

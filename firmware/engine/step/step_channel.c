@@ -21,28 +21,27 @@ static const struct step_segment *queue_slot(const struct step_channel *channel,
     return &channel->queue[count % STEP_QUEUE_SEGMENTS];
 }
 
-/* Moves a cursor to the first pulse of the next segment in the queue. False if there is none. */
-static inline bool cursor_begin_segment(struct step_cursor *cursor, const struct step_channel *channel, uint32_t head)
+/* Moves a cursor to the first pulse of the next segment in the queue: there is one. */
+static inline void cursor_begin_segment(struct step_cursor *cursor, const struct step_segment *segment)
 {
-    if (cursor->tail == head) {
-        return false;
-    }
-    const struct step_segment *segment = queue_slot(channel, cursor->tail);
     step_generator_load(&cursor->generator, segment);
     cursor->end += segment->steps;
     cursor->left = segment->steps - 1U;
     cursor->tail++;
-    return true;
 }
 
 static bool cursor_advance(struct step_cursor *cursor, const struct step_channel *channel, uint32_t head)
 {
-    if (cursor->left == 0) {
-        return cursor_begin_segment(cursor, channel, head);
+    if (cursor->left != 0) {
+        cursor->left--;
+        (void)step_generator_next(&cursor->generator);
+        return true;
     }
-    cursor->left--;
-    (void)step_generator_next(&cursor->generator);
-    return true;
+    bool more = cursor->tail != head;
+    if (more) {
+        cursor_begin_segment(cursor, queue_slot(channel, cursor->tail));
+    }
+    return more;
 }
 
 void step_channel_follow(struct step_cursor *cursor, const struct step_channel *channel, uint64_t pulse)
@@ -71,6 +70,7 @@ void step_channel_begin(struct step_channel *channel, uint32_t tick, bool backwa
     step_generator_start(&channel->cursor.generator, tick);
     channel->cursor.end = 0;
     channel->cursor.left = 0;
+    channel->pushed = 0;
     step_channel_keep_nothing(channel);
     channel->closed = false;
     channel->frozen = false;
@@ -100,6 +100,7 @@ void step_channel_append(struct step_channel *channel, const struct step_segment
     uint32_t place = head % STEP_QUEUE_SEGMENTS;
     uint32_t bit = UINT32_C(1) << place;
     channel->queue[place] = *segment;
+    channel->pushed += segment->steps;
     channel->backward = channel->turn ? channel->backward | bit : channel->backward & ~bit;
     atomic_store_explicit(&channel->head, head + 1U, memory_order_release);
 }
@@ -233,37 +234,51 @@ static inline void channel_keep(struct step_channel *channel, struct hal_step_ro
     if (step_cursor_pulse(young) > step_cursor_pulse(&channel->cursor) - room->waiting) {
         return;
     }
-    if (young->tail != atomic_load_explicit(&channel->taken, memory_order_relaxed)) {
-        atomic_store_explicit(&channel->taken, young->tail, memory_order_release);
-        room->main_has_work = step_channel_room(channel) >= channel->wake_room;
+    uint32_t tail = young->tail;
+    if (tail != atomic_load_explicit(&channel->taken, memory_order_relaxed)) {
+        uint32_t head = atomic_load_explicit(&channel->head, memory_order_relaxed);
+        atomic_store_explicit(&channel->taken, tail, memory_order_release);
+        room->main_has_work = STEP_QUEUE_SEGMENTS - (head - tail) >= channel->wake_room;
     }
     channel->young ^= 1U;
     channel->kept[channel->young] = channel->cursor;
 }
 
-/* False at the end of what is queued, and before a marked segment until all pulses before it have been made: main is to
- * be told of it then, and not before. */
-static bool channel_lay_first(struct step_channel *channel, struct hal_step_room *room, unsigned place)
+/* Before a segment that is marked or goes the other way. False: all pulses before a marked one must have been made, as
+ * main is to be told of it then, and not before; a portion goes one way. */
+BASE_APART static bool channel_heed(struct step_channel *channel, struct hal_step_room *room, unsigned place,
+                                    bool marked)
 {
-    uint32_t head = atomic_load_explicit(&channel->head, memory_order_acquire);
-    uint32_t tail = channel->cursor.tail;
-    bool marked = tail != head && queue_slot(channel, tail)->marked;
-    bool backward = (channel->backward >> tail % STEP_QUEUE_SEGMENTS & 1U) != 0;
-    bool turns = tail != head && backward != (channel->direction < 0);
+    bool turns = room->backward != (channel->direction < 0);
     if ((marked && place + room->waiting > 0) || (turns && place > 0)) {
         return false;
     }
-    if (BASE_SELDOM(turns)) {
+    if (turns) {
         step_channel_turn_over(channel);
-    }
-    if (!cursor_begin_segment(&channel->cursor, channel, head)) {
-        return false;
     }
     if (marked) {
         atomic_store_explicit(&channel->marked, true, memory_order_relaxed);
         room->main_has_work = true;
     }
-    room->backward = backward;
+    return true;
+}
+
+/* False at the end of what is queued, and where the next segment has to wait. */
+static bool channel_lay_first(struct step_channel *channel, struct hal_step_room *room, unsigned place)
+{
+    uint32_t tail = channel->cursor.tail;
+    if (tail == atomic_load_explicit(&channel->head, memory_order_acquire)) {
+        return false;
+    }
+    const struct step_segment *segment = queue_slot(channel, tail);
+    bool before = channel->direction < 0;
+    room->backward = (channel->backward >> tail % STEP_QUEUE_SEGMENTS & 1U) != 0;
+    if (BASE_SELDOM(segment->marked || room->backward != before) &&
+        !channel_heed(channel, room, place, segment->marked)) {
+        room->backward = before;
+        return false;
+    }
+    cursor_begin_segment(&channel->cursor, segment);
     step_lay_pulse(&channel->cursor.generator, room, place);
     return true;
 }

@@ -50,6 +50,7 @@ struct step_channel {
     uint32_t backward;      /* of each place of the queue a bit: its segment goes backward */
     uint32_t recalled;      /* while frozen: pulses taken back that the cursor has passed */
     uint64_t until;         /* while frozen: ordinal of the last pulse that may be laid */
+    uint64_t pushed;        /* ordinal of the last pulse of what has been pushed */
     uint64_t turned;        /* ordinal of the last pulse before the last turn; those before it have been made */
     int64_t origin;         /* pulse k after the last turn is at origin + direction*k, steps */
 };
@@ -110,7 +111,8 @@ bool step_channel_replace(struct step_channel *channel, const struct step_cursor
                           const struct step_segment *segments, unsigned count);
 
 /* Takes back what is laid of the last `back` pulses that have been pushed, and lays none of them until
- * step_channel_thaw_held. False, and all goes on, if it is too late. Not while the motor brakes. */
+ * step_channel_thaw_held. False, and all goes on, if it is too late, or if the queue has no room for a segment that
+ * comes instead. Not while the motor brakes. */
 bool step_channel_freeze(struct step_channel *channel, uint64_t back);
 
 /* Drops the last `back` pulses that have been pushed, as they were frozen; `segment` comes instead, which goes backward

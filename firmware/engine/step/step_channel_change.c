@@ -52,6 +52,7 @@ static void channel_truncate(struct step_channel *channel, uint64_t pulse)
         segment->steps = keep < segment->steps ? (uint32_t)keep : segment->steps;
         keep -= segment->steps;
     }
+    channel->pushed = pulse;
     atomic_store_explicit(&channel->head, head, memory_order_relaxed);
 }
 
@@ -104,6 +105,7 @@ static void channel_slow_down(struct step_channel *channel, int32_t accel, uint6
     cursor->generator.accel = -accel;
     cursor->end = until > pulse ? until : pulse;
     cursor->left = (uint32_t)(cursor->end - pulse);
+    channel->pushed = cursor->end;
     atomic_store_explicit(&channel->head, cursor->tail, memory_order_relaxed);
     channel->closed = true;
     step_channel_keep_nothing(channel);
@@ -130,6 +132,7 @@ static void channel_join(struct step_channel *channel, const struct step_segment
     step_generator_join(&cursor->generator, segment, laid);
     cursor->end = step_cursor_pulse(cursor) - laid + segment->steps;
     cursor->left = segment->steps - laid;
+    channel->pushed = cursor->end;
     step_channel_keep_nothing(channel);
     if (segment->marked) {
         atomic_store_explicit(&channel->marked, true, memory_order_relaxed);
@@ -169,6 +172,7 @@ static void channel_end_at(struct step_channel *channel, uint64_t pulse)
     struct step_cursor *cursor = &channel->cursor;
     cursor->end = pulse;
     cursor->left = 0;
+    channel->pushed = pulse;
     atomic_store_explicit(&channel->head, cursor->tail, memory_order_relaxed);
     step_channel_keep_nothing(channel);
     channel_turn_back(channel);
@@ -193,16 +197,6 @@ void step_channel_halt(struct step_channel *channel)
     }
 }
 
-static uint64_t channel_pushed(const struct step_channel *channel)
-{
-    uint64_t pulse = channel->cursor.end;
-    uint32_t head = atomic_load_explicit(&channel->head, memory_order_relaxed);
-    for (uint32_t tail = channel->cursor.tail; tail != head; tail++) {
-        pulse += channel->queue[tail % STEP_QUEUE_SEGMENTS].steps;
-    }
-    return pulse;
-}
-
 /* The cursor goes back to the last pulse that is laid. */
 void step_channel_thaw_held(struct step_channel *channel)
 {
@@ -220,16 +214,29 @@ void step_channel_thaw_held(struct step_channel *channel)
     }
 }
 
+/* Whether the queue has a place for what comes after a pulse instead of what has been pushed. */
+static bool channel_has_room_after(const struct step_channel *channel, uint64_t pulse)
+{
+    uint32_t count = channel->cursor.tail - atomic_load_explicit(&channel->taken, memory_order_relaxed);
+    uint32_t tail = channel->cursor.tail;
+    for (uint64_t end = channel->cursor.end; end < pulse; tail++) {
+        end += channel->queue[tail % STEP_QUEUE_SEGMENTS].steps;
+        count++;
+    }
+    return count < (uint32_t)STEP_QUEUE_SEGMENTS;
+}
+
 bool step_channel_freeze(struct step_channel *channel, uint64_t back)
 {
     hal_step_hold();
-    uint64_t pulse = channel_pushed(channel) - back;
+    uint64_t pulse = channel->pushed - back;
     uint64_t laid = step_cursor_pulse(&channel->cursor);
     uint32_t much = pulse < laid ? (uint32_t)(laid - pulse) : 0;
+    bool room = much != 0 || channel_has_room_after(channel, pulse);
     channel->recalled = much != 0 ? hal_step_take_back(channel->motor, much) : 0;
     channel->until = pulse;
     channel->frozen = true;
-    bool in_time = channel->recalled == much;
+    bool in_time = room && channel->recalled == much;
     if (!in_time) {
         step_channel_thaw_held(channel);
     }
@@ -240,7 +247,7 @@ bool step_channel_freeze(struct step_channel *channel, uint64_t back)
 void step_channel_recall(struct step_channel *channel, uint64_t back, const struct step_segment *segment, bool backward)
 {
     hal_step_hold();
-    uint64_t pulse = channel_pushed(channel) - back;
+    uint64_t pulse = channel->pushed - back;
     struct step_cursor way = *step_channel_base(channel, pulse);
     bool ends = channel->recalled != 0 && segment == NULL;
     if (channel->recalled != 0) {

@@ -58,18 +58,21 @@ uint32_t step_generator_search(struct step_generator *generator, uint32_t interv
 static inline void step_generator_take_motion(struct step_generator *generator, const struct step_segment *segment)
 {
     generator->accel = segment->accel;
-    generator->pace_ticks = segment->pace_ticks;
-    generator->pace_rest = STEP_QUANTA - segment->pace_ticks * segment->slope;
+    if (segment->accel == 0) {
+        generator->pace_ticks = segment->pace_ticks;
+        generator->pace_rest = STEP_QUANTA - segment->pace_ticks * segment->slope;
+    }
 }
 
 /* Goes on with a segment, on its first pulse. */
 static inline void step_generator_load(struct step_generator *generator, const struct step_segment *segment)
 {
     bool told = segment->accel != 0 && segment->pace_ticks != 0;
+    uint32_t interval = segment->tick - generator->tick;
     step_generator_take_motion(generator, segment);
     generator->residual = segment->residual;
     generator->slope = segment->slope;
-    generator->interval = told ? segment->pace_ticks : segment->tick - generator->tick;
+    generator->interval = told ? segment->pace_ticks : interval;
     generator->tick = segment->tick;
 }
 

@@ -11,9 +11,6 @@
 #endif
 #define IMAGE_LINE_FULL_DUPLEX 1
 
-/* Whether each byte on a half-duplex line wakes main. */
-#define IMAGE_LINE_WAKES 1
-
 /* The width of a pulse at STEP; 0: that of the board. */
 #define IMAGE_STEP_HIGH_NS 2500U
 

@@ -8,9 +8,8 @@
 #define IMAGE_LINE_BD 19200U
 #define IMAGE_LINE_FULL_DUPLEX 0
 
-/* Whether each byte on the line wakes main. It needs no byte at once: a frame ends with more silence than there is time
- * between two passes. */
-#define IMAGE_LINE_WAKES 0
+/* The byte that wakes main at once: none. A frame ends with more silence than there is time between two passes. */
+#define IMAGE_LINE_LAST 0x100U
 
 /* Small rather than fast, but for the steps. */
 #define IMAGE_SMALL 1

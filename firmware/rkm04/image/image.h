@@ -8,8 +8,9 @@
 #define IMAGE_LINE_BD 19200U
 #define IMAGE_LINE_FULL_DUPLEX 0
 
-/* Whether each byte on the line wakes main. */
-#define IMAGE_LINE_WAKES 1
+/* The byte that wakes main at once; others wait for its next pass, a millisecond at most. It closes a frame, and a
+ * broadcast counts from then on. */
+#define IMAGE_LINE_LAST 0x7EU
 
 /* The width of a pulse at STEP; 0: that of the board. */
 #define IMAGE_STEP_HIGH_NS 0U

@@ -97,7 +97,7 @@ static void begin_dense(void)
 
 void test_a_stop_waits_where_the_queues_end_before_it_can_take_effect(void)
 {
-    for (uint64_t us = 199000; us < 201500; us += 53) {
+    for (uint64_t us = 199000; us < 201500; us += 11) {
         begin_dense();
         run_us(us);
         TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
@@ -111,7 +111,7 @@ void test_a_stop_waits_where_the_queues_end_before_it_can_take_effect(void)
 
 void test_speeds_wait_where_the_queues_end_before_they_can_take_effect(void)
 {
-    for (uint64_t us = 199000; us < 201500; us += 53) {
+    for (uint64_t us = 199000; us < 201500; us += 11) {
         uint32_t speed = 50000;
         const struct group_speeds speeds = {.of = slow, .context = &speed};
         begin_dense();

@@ -3,8 +3,8 @@
 
 enum {
     SECTIONS = 60,
-    LEAD_TICKS = 350 * TICKS_PER_US,
-    LOOK_TICKS = 84,  /* 1 us, for each section that is looked at */
+    LEAD_TICKS = 330 * TICKS_PER_US,
+    LOOK_TICKS = 56,  /* for each section that is looked at */
     STEP_TICKS = 420, /* at 200 000 steps/s */
 };
 
@@ -186,7 +186,7 @@ void test_a_place_is_looked_for_up_to_eight_leads_ahead(void)
     TEST_ASSERT_TRUE(is_planned_though_kept(300));
     TEST_ASSERT_TRUE(is_planned_though_kept(1200));
     TEST_ASSERT_TRUE(is_planned_though_kept(2600));
-    TEST_ASSERT_FALSE(is_planned_though_kept(3000));
+    TEST_ASSERT_FALSE(is_planned_though_kept(2800));
 }
 
 void test_what_is_due_before_a_place_is_handed_over_at_once(void)
@@ -245,12 +245,12 @@ void test_the_speed_at_a_step_is_that_of_the_path(void)
 
 /* ---- without main ---------------------------------------------------------------------------------------------- */
 
-/* Down from 200 000 steps/s in 20 000 steps; the first 0.35 ms take 70. */
+/* Down from 200 000 steps/s in 20 000 steps; the first 0.33 ms take 66. */
 static void expect_stop_from(int64_t at)
 {
     run_busy();
     run_to_the_end();
-    TEST_ASSERT_INT64_WITHIN(3, at + 70 + 20000, position[0]);
+    TEST_ASSERT_INT64_WITHIN(3, at + 66 + 20000, position[0]);
     start();
     run_to_the_end();
     assert_arrived();

@@ -212,3 +212,15 @@ void test_a_mark_outlives_that_its_pulses_are_taken_back_and_laid_again(void)
 
     TEST_ASSERT_TRUE(step_channel_take_mark(&channel));
 }
+
+/* What comes instead of the pulses that are dropped needs a place. */
+void test_a_full_queue_is_frozen_only_where_a_place_gets_free(void)
+{
+    begin_unasked(5, 50);
+    for (uint32_t before = 55; step_channel_room(&channel) != 0; before += 2) {
+        push(before, 2);
+    }
+    TEST_ASSERT_FALSE(step_channel_freeze(&channel, 0));
+    TEST_ASSERT_FALSE(step_channel_freeze(&channel, 1));
+    TEST_ASSERT_TRUE(step_channel_freeze(&channel, 2));
+}
