@@ -131,7 +131,8 @@ COMMANDS = (
         ("override 80 --port COM5", "override up"),
         (
             "A number is the per cent of the last V (1 to 1000); up and down change by a "
-            "sixteenth; last is 100 %. It stays for vectors that come later.",
+            "sixteenth; last is 100 %. It stays for vectors that come later. While gve134 send "
+            "runs its keys do this: it has the line.",
         ),
     ),
     CommandRow(
