@@ -120,7 +120,7 @@ class Steering:
             raise Restarted(unit.link.name, executed=False)
         text = f"{halted_text(halted)}; {sender.executed_text(halted.positions)}"
         print(f"gve134: {text}; {sender.spindle_text}", file=sys.stderr)
-        print("gve134: g goes on, Ctrl-C ends the job", file=sys.stderr, flush=True)
+        print("gve134: g goes on, Ctrl-C ends the job and leaves the line to others", file=sys.stderr, flush=True)
         self._wait_for_go()
         answer = unit.link.ask("G")
         if answer.code not in (answers.DONE, answers.NOTHING_TO_GO_ON):
