@@ -171,6 +171,7 @@ static enum pos_error check(const struct pos_axis *axis, const struct pos_order 
 enum pos_error pos_axis_order(struct pos_axis *axis, struct pos_control_record *control, const struct pos_order *order,
                               const struct pos_allowed *allowed)
 {
+    pos_axis_look(axis); /* a way counts from where the axis is, braking too */
     enum pos_error error = check(axis, order, allowed);
     if (error != POS_OK) {
         return refuse(axis, error);

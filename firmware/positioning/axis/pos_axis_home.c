@@ -74,12 +74,3 @@ uint32_t pos_home_feed(const struct pos_axis *axis)
 {
     return pos_axis_setting(axis, axis->phase == (uint8_t)POS_PHASE_FIND ? POS_AXIS_HOME_FEED : POS_AXIS_HOME_SLOW);
 }
-
-/* The switch may have become active while the axis stood. */
-void pos_home_start(struct pos_axis *axis, uint8_t inputs)
-{
-    axis->frame.referenced = false;
-    if (axis->phase == (uint8_t)POS_PHASE_FIND && pos_axis_is_active(axis, POS_AXIS_REFERENCE, inputs)) {
-        enter(axis, POS_PHASE_LEAVE, inputs);
-    }
-}

@@ -222,6 +222,17 @@ static void end(struct pos_axis *axis, uint8_t inputs)
     }
 }
 
+/* The switch may be found just as the axis leaves a stand: its stop found nothing to stop. */
+static void stop_at_switch(struct pos_axis *axis)
+{
+    hal_step_hold();
+    bool found = axis->watch.reference_hit;
+    hal_step_release();
+    if (found) {
+        hold(axis);
+    }
+}
+
 /* A stop that cannot be taken back any more comes to its end first, and so does one at the switch, which may be found
  * just in this moment. */
 static void resume(struct pos_axis *axis, uint32_t speed)
@@ -231,12 +242,7 @@ static void resume(struct pos_axis *axis, uint32_t speed)
     }
     axis->speed = speed;
     tell_speed(axis);
-    hal_step_hold();
-    bool found = axis->watch.reference_hit;
-    hal_step_release();
-    if (found) {
-        hold(axis);
-    }
+    stop_at_switch(axis);
 }
 
 static enum pos_axis_register limit_of(const struct pos_axis *axis)
@@ -279,6 +285,9 @@ uint64_t pos_axis_poll(struct pos_axis *axis, uint8_t inputs)
     if (ended) {
         end(axis, inputs);
         wake = hal_time_now();
+    }
+    if (axis->found && !pos_axis_is_busy(axis)) {
+        pos_home_follow(axis, inputs); /* the switch has changed in a hold */
     }
     if (axis->waits && !pos_axis_is_busy(axis)) {
         initiate(axis, inputs);
@@ -329,7 +338,7 @@ static void watch_limit(struct pos_axis *axis, int8_t input)
 void pos_axis_start(struct pos_axis *axis, uint64_t start_tick, uint8_t inputs)
 {
     if (axis->phase != (uint8_t)POS_PHASE_NONE) {
-        pos_home_start(axis, inputs);
+        axis->frame.referenced = false;
     }
     int8_t input = limit_input(axis);
     if (pos_watch_is_active(input, inputs)) {
@@ -345,4 +354,5 @@ void pos_axis_start(struct pos_axis *axis, uint64_t start_tick, uint8_t inputs)
     watch_limit(axis, input);
     tell_begin(axis, start_tick);
     pos_drive_start(&axis->drive, axis->speed, start_tick);
+    stop_at_switch(axis);
 }

@@ -43,7 +43,4 @@ void pos_home_begin(struct pos_axis *axis, uint8_t inputs);
 void pos_home_follow(struct pos_axis *axis, uint8_t inputs);
 uint32_t pos_home_feed(const struct pos_axis *axis);
 
-/* A part of homing is about to leave its stand. */
-void pos_home_start(struct pos_axis *axis, uint8_t inputs);
-
 #endif

@@ -179,6 +179,26 @@ void test_a_switch_that_becomes_active_while_homing_is_held_is_not_missed(void)
     TEST_ASSERT_EQUAL_INT64(stood - 4, rig_position[0]);
 }
 
+void test_a_switch_that_is_left_while_homing_is_held_has_been_left_where_the_axis_stands(void)
+{
+    home(19, 70);
+    for (unsigned i = 0; i < 5000 && unit.axes[0].phase != (uint8_t)POS_PHASE_LEAVE; i++) {
+        run_ms(1);
+    }
+    (void)pos_control(&unit, NULL, FEED(1000), 0, 1);
+    run_ms(300);
+    TEST_ASSERT_EQUAL_HEX(0x0003, rig_status(1) & 0xFDFFU);
+    int64_t stood = rig_position[0];
+    TEST_ASSERT_TRUE(stood >= 300);
+    switch_from = stood + 1;
+    run_ms(10);
+    assert_home(70);
+    (void)pos_control(&unit, NULL, FEED(1000), 1, 1);
+    run_ms(3000);
+    assert_home(70);
+    TEST_ASSERT_EQUAL_INT64(stood, rig_position[0]);
+}
+
 void test_a_homing_that_is_given_up_leaves_positions_as_they_were(void)
 {
     home(19, 777);

@@ -477,3 +477,14 @@ void test_exceptions_come_in_their_order_and_change_nothing(void)
     TEST_ASSERT_EQUAL_UINT(4, rig_ask("01 06 00 28 00 01"));
     TEST_ASSERT_EQUAL_UINT(0, rig_ask("01 06 00 86 00 01"));
 }
+
+void test_the_way_of_an_absolute_measure_counts_from_where_the_axis_brakes(void)
+{
+    take();
+    mode(10000);
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, UINT32_C(1000) << 16U, 1, 1));
+    rig_run_ms(300);
+    TEST_ASSERT_TRUE(rig_position[0] > 0);
+    take();
+    TEST_ASSERT_EQUAL_INT(POS_ERROR_WAY, pos_mode_abs(&unit, NULL, -INT32_MAX, 500, 1));
+}
