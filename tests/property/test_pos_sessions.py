@@ -1,13 +1,16 @@
 """Random sessions with the positioning unit, each held against the model of the contract.
 
 `RKM04_PROGRAMS=11000` tries that many sessions instead of a few hundred; the seeds of the sessions
-count from 0, so that `pos_sessions.session(SEED)` is a session again.
+count from 0, and `pos_sessions.session(SEED)` is a session again. Some more have seeds that nobody
+has tried before; they are printed with what they found.
 """
 
 from __future__ import annotations
 
 import os
+import secrets
 from collections import Counter
+from collections.abc import Iterable
 
 import pytest
 from pos_model import compare
@@ -15,21 +18,21 @@ from pos_run import run_session
 from pos_sessions import session
 from pos_words import MS, Mismatch, Unsure
 
-SESSIONS = int(os.environ.get("RKM04_PROGRAMS", "300"))
+SESSIONS = int(os.environ.get("RKM04_PROGRAMS", "200"))
 BATCH = 1000
-WRONG_SHARE_MAX = 0.05
-"""Of sessions in which the model loses the place of a change: most come between two pulses, after
-one that planning could not touch any more."""
+FRESH = 40
+FRESH_WRONG_MAX = 3
+WRONG_SHARE_MAX = 0.02
+"""A change in a slow cruise waits for the next pulse if an earlier one is pending there: a fault of
+the engine that sessions meet now and then."""
 
-UNSURE_SHARE_MAX = 0.35
-"""What is open at once is more than the model can follow."""
+UNSURE_SHARE_MAX = 0.1
+"""What is open at once may be more than the model can follow: pos_model.py tells what."""
 
 
-@pytest.mark.parametrize("batch", range(-(-SESSIONS // BATCH)))
-def test_any_session_goes_as_the_contract_says(batch: int) -> None:
+def tried(seeds: Iterable[int]) -> tuple[Counter[str], list[str]]:
     count: Counter[str] = Counter()
     wrong = []
-    seeds = range(batch * BATCH, min(SESSIONS, (batch + 1) * BATCH))
     for seed in seeds:
         spoken, done = run_session(session(seed))
         try:
@@ -40,8 +43,22 @@ def test_any_session_goes_as_the_contract_says(batch: int) -> None:
             wrong.append(f"session {seed}: {mismatch}")
         else:
             count["compared"] += 1
-            count["registers"] += len(done.samples)
+            count["registers"] += sum(len(sample.values) for sample in done.samples)
             count["pulses"] += sum(len(train.ticks) for train in done.trains)
     print(f"sessions held against the model: {dict(count)}", *wrong, sep="\n")
-    assert len(wrong) <= WRONG_SHARE_MAX * len(seeds), "\n".join(wrong)
-    assert count["unsure"] < UNSURE_SHARE_MAX * len(seeds)
+    return count, wrong
+
+
+@pytest.mark.parametrize("batch", range(-(-SESSIONS // BATCH)))
+def test_any_session_goes_as_the_contract_says(batch: int) -> None:
+    seeds = range(batch * BATCH, min(SESSIONS, (batch + 1) * BATCH))
+    count, wrong = tried(seeds)
+    assert len(wrong) <= max(1, WRONG_SHARE_MAX * len(seeds)), "\n".join(wrong)
+    assert count["unsure"] <= UNSURE_SHARE_MAX * len(seeds)
+
+
+def test_sessions_that_nobody_has_tried_go_as_the_contract_says() -> None:
+    first = secrets.randbelow(2**32)
+    print(f"the seeds are {first} to {first + FRESH - 1}")
+    _, wrong = tried(range(first, first + FRESH))
+    assert len(wrong) <= FRESH_WRONG_MAX, "\n".join(wrong)

@@ -13,6 +13,7 @@ from pos_motion import Motion, Train
 from pos_refusal import refusal
 from pos_session import Act
 from pos_target import Goal, Origin, Seat, absolute, relative
+from pos_ways import Ways
 from pos_words import (
     MEASURES,
     MS,
@@ -20,12 +21,11 @@ from pos_words import (
     Code,
     Error,
     Settings,
-    Unsure,
     is_active,
 )
 
 EDGE_LATE = 60 * US
-"""An edge of an input is seen so late, if it follows another one."""
+"""An edge of an input is noted so late, if it follows another one."""
 
 INITIATOR = 2 * MS
 """From a stand to the start of what waits for it: a pass for the initiator, one for the start."""
@@ -36,9 +36,9 @@ RENEWING = MEASURES | {Code.POS_INIT, Code.POS_RESET}
 class Axis:
     """The state of an axis."""
 
-    def __init__(self, train: Train, late: int = CHANGE) -> None:
+    def __init__(self, train: Train, late: int, ways: Ways) -> None:
         """Switch the unit on; changes take effect within so many ticks, or at the next pulse."""
-        self.late = late
+        self.late, self.ways = late, ways
         self.settings = Settings()
         self.bits = Bits()
         self.history: list[tuple[float, float, Bits]] = [(0, 0, Bits())]
@@ -49,16 +49,16 @@ class Axis:
         self.goal: Goal | None = None
         self.programmed: Act | None = None
         self.cut = False
+        self.target = 0
+        """The step at which the measure ends."""
         self.order = Order(0, 0, 1, 0)
         self.homing: Homing | None = None
         self.captured: set[int] = set()
         """What CAPTURED_STEPS may be; empty: nothing was captured."""
         self.initiated = 0
         """By then the initiator has done its work."""
-        self.at_once = False
-        """And has found nothing to do."""
-        self.stood = -math.inf
-        """Until then the unit may not have noticed that the axis stands."""
+        self.before: tuple[Origin, Bits] | None = None
+        """What was before it, if it has found nothing to do."""
         self.crystal = True
         self.damaged = False
 
@@ -86,11 +86,8 @@ class Axis:
     def take(self, act: Act) -> None:
         """Execute an instruction."""
         bits = self.bits
-        near = self.motion.stand()[0] - MS if bits.jede else math.inf
-        if (act.tick > near or act.tick < self.stood) and self._matters(act):
-            raise Unsure("an instruction just when the axis comes to stand")
-        if self.at_once and act.tick < self.initiated and act.code in RENEWING:
-            raise Unsure("an instruction just when a measure of no pulses ends")
+        if self.before and act.tick < self.initiated and act.code in RENEWING:
+            self._undo()
         if act.code == Code.POS_CONTROL:
             self._control(act)
         else:
@@ -107,13 +104,23 @@ class Axis:
                 self._measure(act)
         self.note(act.tick, act.tick + MS)
 
-    def _matters(self, act: Act) -> bool:
+    def _undo(self) -> None:
+        """A measure of no pulses that is replaced at once may not have been looked at."""
+        if self.before and self.ways.choose():
+            self.origin, bits = self.before
+            for name in ("referenced", "pol", "err", "error", "disp", "prog"):
+                setattr(self.bits, name, getattr(bits, name))
+            self.goal = self.homing = None
+            self.cut = False
+        self.before = None
+
+    def minds(self, act: Act) -> bool:
         """Whether it makes a difference if the axis stands or is about to."""
         if self.homing and self.homing.part:
             return act.code != Code.POS_CAPTURE
-        if act.code in MEASURES:
-            return self.bits.prog
-        return act.code in (Code.POS_INIT, Code.POS_RESET) and self.goal is not None
+        return act.code in MEASURES or (
+            act.code in (Code.POS_INIT, Code.POS_RESET) and self.goal is not None
+        )
 
     def goal_of(self, act: Act) -> Goal:
         """What a measure aims at."""
@@ -127,12 +134,12 @@ class Axis:
         bits.error, bits.feed = Error.NONE, 0
         self._give_up(tick)
 
-    def _give_up(self, tick: int, accel: int = 0, late: int = 0) -> None:
+    def _give_up(self, tick: int, accel: int = 0) -> None:
         """Forget the measure; brake, with an acceleration of its own if it is not 0."""
         self.goal, self.programmed, self.homing, self.cut = None, None, None, False
         self.bits.homing = False
         if self.bits.jede:
-            self.want(tick, replace(self.order, speed=0, accel=accel or self.order.accel), late)
+            self.want(tick, replace(self.order, speed=0, accel=accel or self.order.accel))
         else:
             self.settle()
 
@@ -159,23 +166,24 @@ class Axis:
     def initiate(self, act: Act, low: float, high: float) -> None:
         """The axis stands: the measure is there."""
         bits = self.bits
-        bits.inic, self.at_once = False, False
-        self.programmed, self.cut, self.homing = None, False, None
+        bits.inic = False
+        self.before = replace(self.origin), replace(bits)
+        self.programmed, self.goal, self.cut, self.homing = None, None, False, None
         accel = self.settings.accel(act.values[-1])
         if act.code == Code.POS_HOME:
             self.homing = Homing(self, act, accel)
             self.homing.initiate()
-            self.at_once = bits.pol
         else:
             self.goal = self.goal_of(act)
-            step = self._inside(self.goal.step)
+            step = self.target = self._inside(self.goal.step)
             self.cut = step != self.goal.step
             self.lay_out(self.seat.pulses_to(step), accel)
             bits.cont = self.order.end > 0
             bits.pol = not bits.cont
             if bits.pol:
-                self.at_once = True
                 self._reached(low, high)
+        if bits.cont:
+            self.before = None
         self.note(low, high + MS)
         self.go(low, high)
 
@@ -188,9 +196,8 @@ class Axis:
         exact = self.origin.reference + (limit - self.origin.position) * settings.ratio
         sign = 1 if step > here else -1
         last = math.floor(sign * exact) * sign
-        beyond = self.origin.position_of(settings, last + sign)
-        if (beyond - limit) * sign <= 0 and (step - last) * sign > 0:
-            raise Unsure("a step whose position is inside only if it is rounded")
+        while (self.origin.position_of(settings, last + sign) - limit) * sign <= 0:
+            last += sign
         return sign * min(sign * step, max(sign * here, sign * last))
 
     def lay_out(self, pulses: int, accel: int) -> None:
@@ -248,13 +255,18 @@ class Axis:
             return False
         return self.active(name)
 
-    def want(self, tick: int, order: Order, late: int = 0) -> None:
+    def stays(self) -> None:
+        """The start that was to come does not."""
+        self.motion.prepare(self.motion.sign)
+        self.bits.jede = False
+
+    def want(self, tick: int, order: Order) -> None:
         """Want something else of an axis that moves."""
         if order != self.order:
             self.order = order
-            self.motion.change(tick, order, late or self.late)
+            self.motion.change(tick, order, self.late)
 
-    def fault(self, error: Error, low: int, high: float, late: int = 0) -> None:
+    def fault(self, error: Error, low: int, high: float) -> None:
         """A fault ends the measure."""
         bits = self.bits
         bits.err = True
@@ -262,14 +274,13 @@ class Axis:
             bits.error = error
         bits.prog = bits.pol = bits.inic = bits.cont = False
         bits.feed = 0
-        self._give_up(low, self.settings.accel(self.settings.error_accel), late)
+        self._give_up(low, self.settings.accel(self.settings.error_accel))
         self.note(low, high + MS)
 
     def stands(self) -> None:
         """The axis has come to stand."""
         low, high = self.motion.stand()
         bits = self.bits
-        self.stood = high + (INITIATOR if self.programmed or self.homing else MS)
         if self.homing and self.homing.stands(low, high):
             return
         bits.jede = False
@@ -277,8 +288,9 @@ class Axis:
             self.settle()
             act = self.programmed
             if act:
+                self.note(low, high + MS)
                 self.initiate(act, low, high + INITIATOR)
-        elif self.motion.every(lambda c: c.reaches, "an axis that may have reached its measure"):
+        elif self.motion.every(self.ways, lambda c: c.reaches):
             self.settle_at_end()
             bits.pol, bits.cont = True, False
             self._reached(low, high)

@@ -8,23 +8,25 @@ from dataclasses import replace
 from fractions import Fraction
 
 from pos_curve import BITS, GAIN, Curve, Leg, Order, moving, started
-from pos_family import FEW, Family, alone
+from pos_family import Family, Observed, alone, apart, resolution
 from pos_loose import Loose, loose, rested
 from pos_words import MS, SPEED_UNITS, Unsure
 
 CHANGE = MS
 """A change takes effect within this, or at the next pulse."""
 
-LEAD = MS * 34 // 100
-"""Planning takes so long: pulses that are due before come as they were."""
-
 SLOW_CHANGE = 20 * MS
 """Likewise below 1 step/s."""
 
-NEVER = 2**62
+SETTLED = 1 / 256
+"""Steps; curves that are nearer than this are as one."""
 
 Places = tuple[int, int, int]
 """Places in a step, the first and the last of them; 1 place in a step: pulses."""
+
+
+Option = tuple[int, Curve, Places]
+"""After how many pulses, on which curve, where."""
 
 
 def ceil_tick(time: int) -> int:
@@ -85,44 +87,104 @@ def _from_rests(families: Sequence[Family], order: Order, low: int, late: int) -
 
 
 def changed(
-    families: Sequence[Family], seen: int, tick: int, order: Order, late: int
+    families: Sequence[Family], seen: int, window: tuple[int, int], order: Order, ahead: Observed
 ) -> list[Family]:
-    """The families in which something else is wanted from a tick on, after so many pulses."""
+    """The families in which something else is wanted from a tick on, or so much later.
+
+    `seen` pulses have come before, those `ahead` until the window is over.
+    """
     found: list[Family] = []
-    blind: list[tuple[Curve, Places]] = []
-    waiting, moving_on = _parted(families, tick)
+    blind: list[Option] = []
+    tick, late = window
+    waiting, moving_on = _parted(families, window)
     found += [_restarted(family, order) for family in waiting]
+    known: dict[int, list[Curve]] = {}
     for family in moving_on:
-        sources = [family.base] if family.base and _undone(family, tick) else []
-        if family.wide and _few(family, seen, tick, late):
-            found += _of_wide(family, seen, tick, order, late)
-            blind += _between_of(family, seen, tick, late)
-        elif family.starts and family.wide:
-            raise Unsure("a change before a start has shown itself")
-        else:
-            sources += family.closed(tick)
-        for curve in sources:
-            found += _of_curve(curve, seen, tick, order, late)
-    if blind:
-        if late > CHANGE and any(c.ticks(seen + 1, seen + 1, tick)[0] < late for c, _ in blind):
-            raise Unsure("a late change before a start has shown itself")
-        found.append(_blindly(blind, seen, (tick, late), order))
+        if family.base and _undone(family, tick):
+            _put(known.setdefault(seen, []), family.base, tick)
+        for made, part, last in _shown(family, seen, ahead, tick):
+            if _settled(part, tick):
+                for curve in part.closed(tick):
+                    _put(known.setdefault(made, []), curve, tick)
+            else:
+                found += _of_wide(part, made, window, order, last=last)
+                blind += ((made, *each) for each in _between_of(part, made, window))
+    for made, curves in known.items():
+        for curve in curves:
+            found += _of_curve(curve, made, tick, order, late)
+    for group in _alike(blind):
+        found.append(_blindly(group, window, order))
     return found
 
 
-def _parted(families: Sequence[Family], tick: int) -> tuple[list[Family], list[Family]]:
-    """Those that have not left the stand at a tick, and the others."""
+def _put(curves: list[Curve], curve: Curve, tick: int) -> None:
+    """Keep a curve, or make one that is as good as the same wider by it."""
+    for index, other in enumerate(curves):
+        if other.legs == curve.legs or _kind(other, tick) == _kind(curve, tick):
+            gap = apart(other, curve, tick << BITS)
+            if gap <= resolution(curve, tick):
+                curves[index] = replace(other, blur=max(other.blur, curve.blur + gap))
+                return
+    curves.append(curve)
+
+
+def _kind(curve: Curve, tick: int) -> tuple[int, Fraction | int]:
+    """Whether a curve is on a ramp at a tick, else how fast it is."""
+    leg = _leg_during(curve, tick)
+    return (leg.sign, 0 if leg.sign else leg.square2) if leg else (0, 0)
+
+
+def _shown(
+    family: Family, seen: int, ahead: Observed, tick: int
+) -> Iterator[tuple[int, Family, bool]]:
+    """What is known of a family at a change, if that comes behind none, one, two of the pulses.
+
+    The last one is known well enough, or all pulses have come.
+    """
+    parts = [family]
+    for index in range(len(ahead) + 1):
+        settled = [part for part in parts if _settled(part, tick)]
+        yield from ((seen + index, part, True) for part in settled)
+        parts = [part for part in parts if not _settled(part, tick)]
+        over = index == len(ahead)
+        yield from ((seen + index, part, over) for part in parts)
+        if over or not parts:
+            return
+        number, next_pulse = seen + index + 1, ahead[index : index + 1]
+        at = int(next_pulse[0])
+        parts = [replace(f, kept={}) for part in parts for f in part.seen(number, next_pulse)]
+        parts = [part for part in parts if part.narrow(number, next_pulse, at) is None]
+
+
+def _settled(family: Family, tick: int) -> bool:
+    """Whether all curves of a family are as one, but for a little."""
+    if not family.wide:
+        return True
+    if isinstance(family, Loose):
+        return False
+    first, last = family.both
+    if _kind(first, tick) != _kind(last, tick):
+        return False
+    return apart(first, last, tick << BITS) <= SETTLED
+
+
+def _parted(
+    families: Sequence[Family], window: tuple[int, int]
+) -> tuple[list[Family], list[Family]]:
+    """Those that have not left the stand when the unit notices a change, and those that have."""
     waiting, moving_on = [], []
+    tick, late = window
     for family in families:
-        if not family.both[0].waits(tick) and not family.both[-1].waits(tick):
+        if not any(curve.waits(tick) for curve in family.both):
             moving_on.append(family)
-        elif all(curve.waits(tick) for curve in family.both):
+        elif not family.starts:
+            if not all(curve.waits(tick) for curve in family.both):
+                raise Unsure("a change just when the axis starts")
             waiting.append(family)
-        elif isinstance(family, Loose) or not family.starts:
-            raise Unsure("a change just when the axis starts")
         else:
-            waiting.append(replace(family, low=tick, kept={}))
-            moving_on.append(replace(family, high=tick - 1, kept={}))
+            waiting.append(replace(family, low=max(tick, family.low), kept={}))
+            if family.low <= tick + late:
+                moving_on.append(replace(family, high=min(family.high, tick + late), kept={}))
     return waiting, moving_on
 
 
@@ -130,46 +192,42 @@ def _restarted(family: Family, order: Order) -> Family:
     """The starts that come, with something else wanted."""
     if isinstance(family, Loose):
         shape, ticks = family.shape, (family.low, family.high)
-        return loose(lambda n: shape(n).restarted(order), (family.first, family.last), ticks)
+        places = family.first, family.last
+        return loose(lambda n: shape(n).restarted(order), places, ticks, family.skip)
     make = family.make
     return replace(family, make=lambda i: make(i).restarted(order), kept={})
 
 
-def _between_of(family: Family, seen: int, tick: int, late: int) -> Iterator[tuple[Curve, Places]]:
-    """Places between pulses; for a curve that is nearer to its next pulse there may be others."""
+def _between_of(
+    family: Family, made: int, window: tuple[int, int]
+) -> Iterator[tuple[Curve, Places]]:
+    """Places before the next pulse; for a curve that is nearer to that there may be others."""
     curves = family.spread
     found = [
-        (curve, places)
+        (curve, (per_step, max(low, made * per_step), min(high, (made + 1) * per_step - 1)))
         for curve in curves
-        for places in _places(curve, seen, tick, late)
-        if places[0] > 1
+        for per_step, low, high in _between(curve, *window)
     ]
+    found = [(curve, places) for curve, places in found if places[1] <= places[2]]
     if found and len({id(curve) for curve, _ in found}) < len(curves):
         curve, (per_step, low, _) = min(found, key=lambda each: each[1][1])
-        found = [(curve, (per_step, low, (seen + 1) * per_step - 1))]
+        found = [(curve, (per_step, low, (made + 1) * per_step - 1))]
     yield from found
 
 
-def _few(family: Family, seen: int, tick: int, late: int) -> bool:
-    """Whether a change comes at one of a few pulses, if at a pulse."""
-    numbers = _numbers(family, seen, tick, late)
-    return not numbers or max(numbers) - min(numbers) <= FEW
-
-
-def _numbers(family: Family, seen: int, tick: int, late: int) -> list[int]:
-    places = [p for curve in family.both for p in _places(curve, seen, tick, late)]
-    return [number for per_step, *ends in places if per_step == 1 for number in ends]
-
-
-def _of_wide(family: Family, seen: int, tick: int, order: Order, late: int) -> Iterator[Family]:
-    """A change of curves that are too many to follow each, but for those between pulses."""
-    numbers = _numbers(family, seen, tick, late)
-    for number in range(min(numbers), max(numbers) + 1) if numbers else ():
-        yield _composed(family, order, number)
+def _of_wide(
+    family: Family, made: int, window: tuple[int, int], order: Order, *, last: bool
+) -> Iterator[Family]:
+    """A change at the next pulse, of curves that are too many to follow each; or none in time."""
+    tick, late = window
     both = family.both
+    options = [list(_places(curve, made, tick, late)) for curve in both]
+    if any(low <= made + 1 <= high for places in options for low, high in _pulses(places)):
+        yield _composed(family, order, made + 1)
+    if not last or (family.starts and any(curve.waits(tick) for curve in both)):
+        return
     soon = any(ceil_tick(curve.rest_time) <= tick + late for curve in both)
-    leads_on = any(list(_places(curve, seen, tick, late)) for curve in both)
-    if not soon and leads_on and seen < min(curve.count for curve in both):
+    if not soon and all(options) and made < min(curve.count for curve in both):
         return
     if not order.speed or all(curve.reaches for curve in both):
         yield family
@@ -181,35 +239,45 @@ def _of_wide(family: Family, seen: int, tick: int, order: Order, late: int) -> I
         raise Unsure("a change when the axis may have reached its measure or not")
 
 
+def _pulses(places: Sequence[Places]) -> Iterator[tuple[int, int]]:
+    """From which pulse to which one some places lie; places between two are of the next one."""
+    for per_step, low, high in places:
+        yield -(-low // per_step), -(-high // per_step)
+
+
 def _composed(family: Family, order: Order, number: int) -> Family:
     place = Fraction(number)
     if isinstance(family, Loose):
         shape, ticks = family.shape, (family.low, family.high)
-        return loose(lambda n: shape(n).changed(place, order), (family.first, family.last), ticks)
+        places = family.first, family.last
+        return loose(lambda n: shape(n).changed(place, order), places, ticks, family.skip)
     make = family.make
-    return Family(
-        lambda i: make(i).changed(place, order), family.low, family.high, starts=family.starts
-    )
+    changed_there = replace(family, make=lambda i: make(i).changed(place, order), kept={})
+    return replace(changed_there, base=None)
 
 
-def _blindly(
-    options: Sequence[tuple[Curve, Places]], seen: int, window: tuple[int, int], order: Order
-) -> Family:
+def _alike(options: Sequence[Option]) -> list[list[Option]]:
+    """The options between the same pulses at the same speed together."""
+    groups: dict[tuple[int, int, Fraction], list[Option]] = {}
+    for made, curve, places in options:
+        key = made, places[0], _at(curve, places).square2
+        groups.setdefault(key, []).append((made, curve, places))
+    return list(groups.values())
+
+
+def _blindly(options: Sequence[Option], window: tuple[int, int], order: Order) -> Family:
     """A change at constant speed, when where the axis is then is known only about."""
-    per_steps = {places[0] for _, places in options}
-    squares = {_at(curve, places).square2 for curve, places in options}
-    if len(squares) > 1 or len(per_steps) > 1:
-        raise Unsure("a change at a speed that is not known")
-    square2, per_step = squares.pop(), per_steps.pop()
-    low = max(min(places[1] for _, places in options), seen * per_step)
-    high = min(max(places[2] for _, places in options), (seen + 1) * per_step - 1)
+    made, first, (per_step, *_) = options[0]
+    square2 = _at(first, options[0][2]).square2
+    ends = (min(places[1] for *_, places in options), max(places[2] for *_, places in options))
     tick, late = window
     late = max(late, SLOW_CHANGE) if square2 < 2 * SPEED_UNITS**2 else late
-    blur = max(curve.blur for curve, _ in options)
+    blur = max(curve.blur for _, curve, _ in options)
     return loose(
         lambda n: moving(Fraction(n, per_step), square2, 0, order, blur),
-        (low, max(low, high)),
+        ends,
         (tick, tick + late),
+        made,
     )
 
 
@@ -233,7 +301,8 @@ def _of_curve(curve: Curve, seen: int, tick: int, order: Order, late: int) -> It
     for per_step, low, high in options:
         yield _family(curve, order, per_step, low, high)
     rests = ceil_tick(curve.rest_time)
-    if options and rests > tick + late and seen < curve.count:
+    before = any(low < curve.rest * per_step for per_step, low, _ in options)
+    if before and rests > tick + late and seen < curve.count:
         return
     if curve.reaches or not order.speed:
         yield alone(curve)
@@ -249,50 +318,57 @@ def _family(curve: Curve, order: Order, per_step: int, low: int, high: int) -> F
 
 
 def _places(curve: Curve, seen: int, tick: int, late: int) -> Iterator[Places]:
-    """Where a change may take effect: at pulses up to the first that planning leaves time for.
+    """Where a change may take effect, if the unit notices it at any time up to `late`.
 
-    And at constant speed between pulses, if it is not later than `late`.
+    That is the next pulse from then on; at constant speed it is where the axis is then.
     """
+    cruises = [
+        (per_step, max(low, seen * per_step), high)
+        for per_step, low, high in _between(curve, tick, late)
+        if high >= seen * per_step
+    ]
+    yield from cruises
     first = seen + 1
-    due = last = soon = NEVER
-    since = tick
-    if curve.rest_time > tick << BITS and first <= curve.count and curve.leg_at(first):
-        due, last = ceil_tick(curve.time_of(first)), first
-        while last < curve.count and curve.time_of(last) < tick + LEAD << BITS:
-            since = ceil_tick(curve.time_of(last))
-            last += 1
-        soon = ceil_tick(curve.time_of(last))
-        while last < curve.count and curve.time_of(last + 1) <= tick + late << BITS:
-            last += 1
-    between: list[Places] = []
-    if due == NEVER or soon > tick + LEAD + late // 2:
-        between = list(_between(curve, since, tick + max(late, CHANGE) - since, soon))
-    cruises = between and _leg_during(curve, tick).sign == 0
-    if due < NEVER and (not cruises or due <= tick + 2 * late):
+    if first > curve.count or curve.rest_time <= tick << BITS:
+        return
+    end = tick + late << BITS
+    last = max(seen, math.floor(curve.place_at(end)))
+    made = curve.leg_at(last) if last > seen else None
+    since = max(tick << BITS, made.time_at(last) if made else 0)
+    ramps = any(leg.sign and leg.time < end and leg.end_time > since for leg in curve.legs)
+    if last < curve.count and ramps:
+        last += 1
+    for per_step, low, high in cruises:
+        before, after = -(-low // per_step) - 1, high // per_step + 1
+        if first <= before:
+            yield 1, first, min(last, before)
+        first = max(first, after)
+    if first <= last:
         yield 1, first, last
-    yield from between
 
 
-def _leg_during(curve: Curve, tick: int) -> Leg:
+def _leg_during(curve: Curve, tick: int) -> Leg | None:
     """The leg at a tick; the first one, if none has begun."""
     begun = [leg for leg in curve.legs if leg.time <= tick << BITS]
-    return begun[-1] if begun else curve.legs[0]
+    return begun[-1] if begun else next(iter(curve.legs), None)
 
 
-def _between(curve: Curve, tick: int, late: int, due: int) -> Iterator[tuple[int, int, int]]:
-    """Places between pulses where a change may take effect at constant speed."""
+def _between(curve: Curve, tick: int, late: int) -> Iterator[Places]:
+    """Places where a change may take effect at constant speed."""
     for leg in curve.legs:
-        slow = leg.square2 < 2 * SPEED_UNITS**2
-        window = max(SLOW_CHANGE, late) if slow else late
+        if leg.sign:
+            continue
         low = max(tick << BITS, leg.time)
-        high = min(min(due, tick + window) << BITS, leg.end_time)
-        if leg.sign or low >= high:
+        slow = leg.square2 < 2 * SPEED_UNITS**2
+        high = min(tick + (max(SLOW_CHANGE, late) if slow else late) << BITS, leg.end_time)
+        if low > high:
             continue
         per_step = GAIN * leg.accel
         first = math.ceil(leg.place_at(low) * per_step)
         last = math.floor(leg.place_at(high) * per_step)
+        first = max(first, math.floor(leg.x0 * per_step) + 1)
         if first <= last:
-            yield per_step, max(first, math.floor(leg.x0 * per_step) + 1), last
+            yield per_step, first, last
 
 
 def _parting(curve: Curve, other: Curve) -> int:

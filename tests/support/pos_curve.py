@@ -20,6 +20,9 @@ from pos_words import SPEED_UNITS, Unsure
 from reference import TICK_HZ
 
 BITS = 96
+SLOWEST = 1 / TICK_HZ / 256
+"""Steps per tick."""
+
 GAIN = 1024
 """v² changes by 1024·a a step."""
 
@@ -75,7 +78,7 @@ class Leg:
         """When the leg ends."""
         return self.time_at(self.x1)
 
-    @property
+    @cached_property
     def pulses(self) -> range:
         """The numbers of its pulses."""
         return range(math.floor(self.x0) + 1, math.floor(self.x1) + 1)
@@ -155,6 +158,8 @@ class Curve:
     """N."""
     blur: float = 0.0
     """By how many steps it may be wrong, as pulses did not tell where a change took effect."""
+    blur_ticks: float = 0.0
+    """By how many ticks it may be wrong, as it was changed at a pulse when it was wrong."""
     start: int = -1
     """Which leg is the first after a stand; -1: none."""
 
@@ -192,11 +197,24 @@ class Curve:
                 result[low - first : high - first + 1] = leg.ticks(np.arange(low, high + 1), base)
         return result
 
-    def speed_at(self, pulse: int) -> float:
-        """The speed at a pulse, in steps per tick."""
-        leg = self.leg_at(pulse)
-        square2 = leg.square2_at(pulse) if leg else Fraction(0)
-        return math.sqrt(square2 / 2) / SPEED_UNITS / TICK_HZ
+    def speeds(self, first: int, last: int) -> Ticks:
+        """The speeds at the pulses from `first` to `last`, in steps per tick; 0 for none."""
+        squares2 = np.zeros(last - first + 1)
+        for leg in self.legs:
+            low, high = max(first, leg.pulses.start), min(last, leg.pulses.stop - 1)
+            if low <= high:
+                way = np.arange(low, high + 1) - float(leg.x0)
+                squares2[low - first : high - first + 1] = float(leg.square2) + leg.gain2 * way
+        return np.sqrt(np.maximum(squares2, 0) / 2) / SPEED_UNITS / TICK_HZ
+
+    def speed_after(self, time: int) -> float:
+        """The speed at a time, in steps per tick."""
+        for leg in self.legs:
+            if time < leg.end_time:
+                first = math.sqrt(leg.square2 / 2)
+                change = leg.sign * leg.accel * max(0, time - leg.time) / (TICK_HZ << BITS)
+                return (first + 2 * change) / SPEED_UNITS / TICK_HZ
+        return 0.0
 
     def shifted(self, time: int) -> Curve:
         """The same curve, later."""
@@ -220,7 +238,10 @@ class Curve:
         if kept:
             kept[-1] = replace(kept[-1], x1=Fraction(x))
         legs = (*kept, *lay(Fraction(x), at, time, order))
-        return replace(finished(legs, Fraction(x), time, order.end, self.blur), start=self.start)
+        speed = max(math.sqrt(at / 2) / SPEED_UNITS / TICK_HZ, SLOWEST)
+        blur_ticks = max(self.blur_ticks, self.blur / speed)
+        curve = finished(legs, Fraction(x), time, order.end, self.blur)
+        return replace(curve, start=self.start, blur_ticks=blur_ticks)
 
     def waits(self, tick: int) -> bool:
         """Whether it has not left the stand at a tick."""

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from pos_curve import BITS, Curve, Ticks
-from reference import TICK_HZ
+from pos_curve import BITS, SLOWEST, Curve, Ticks
 
 TOLERANCE = 1.0 + 2**-6
 """Ticks; the little is for floats, and for the ends of families."""
@@ -17,10 +16,13 @@ TOLERANCE = 1.0 + 2**-6
 CLOSE = 2**-7
 """So well are these found."""
 
-SAME = 2**-10
+CLOSE_TICKS = 2.0
 SPREAD = 8
 FEW = 6
 """So many curves of a family are followed each by itself."""
+
+SAMPLES = 10
+"""Of a family that is nearly one curve."""
 
 Observed = NDArray[np.int64]
 
@@ -40,6 +42,8 @@ class Family:
     """Without the change; None: it cannot be undone."""
     starts: bool = False
     """The instant is a start tick."""
+    skip: int = 0
+    """Pulses up to this one came before it, and have been compared."""
     error: float = 0.0
     """By how many ticks more than allowed pulses may be beside a curve."""
     kept: dict[int, Curve] = field(default_factory=dict)
@@ -73,13 +77,25 @@ class Family:
         """Those that are followed each by itself from a tick on."""
         if not self.wide:
             return [self.curve(number) for number in range(self.low, self.high + 1)]
-        gaps = FEW - 1
-        numbers = {self.low + (self.high - self.low) * i // gaps for i in range(FEW)}
-        blur = apart(self.curve(self.low), self.curve(self.high), tick << BITS) / gaps
-        return [replace(c, blur=c.blur + blur) for c in map(self.curve, sorted(numbers))]
+        first, last = self.both
+        width = apart(first, last, tick << BITS)
+        gaps = min(SAMPLES, int(width / resolution(first, tick)))
+        if not gaps:
+            return [replace(first, blur=first.blur + width)]
+        numbers = {self.low + (self.high - self.low) * i // gaps for i in range(gaps + 1)}
+        curves = map(self.curve, sorted(numbers))
+        return [replace(curve, blur=curve.blur + width / gaps) for curve in curves]
 
-    def seen(self, number: int, tick: int) -> list[Family]:
-        """What comes of it when the next pulse, of this number, is seen at a tick."""
+    def shapes(self) -> tuple[int, int, Callable[[int], Curve]]:
+        """The numbers of the curves, and what makes them."""
+        return self.low, self.high, self.curve
+
+    def within(self, low: int, high: int) -> Family:
+        """The curves from one number to another."""
+        return replace(self, low=low, high=high, kept={})
+
+    def seen(self, number: int, ticks: Observed) -> list[Family]:
+        """What comes of it when the next pulses, from this number on, are seen."""
         return [self]
 
     def narrow(self, first: int, ticks: Observed, until: int) -> float | None:
@@ -87,6 +103,10 @@ class Family:
 
         Returns by how many ticks the best one is wrong, if none agrees.
         """
+        done = max(0, self.skip + 1 - first)
+        if done > len(ticks):
+            return None
+        first, ticks = first + done, ticks[done:]
         lows = self._errors(self.low, first, ticks, until)
         if self.low == self.high:
             return max(lows) if max(lows) > 0 else None
@@ -160,13 +180,38 @@ def apart(curve: Curve, other: Curve, time: int) -> float:
     return float(max(map(abs, ways)))
 
 
+def resolution(curve: Curve, tick: int) -> float:
+    """By how many steps curves may differ that pulses can hardly tell from each other."""
+    times = [leg.time for leg in curve.legs if leg.end_time > tick << BITS]
+    speeds = [curve.speed_after(max(time, tick << BITS)) for time in (tick << BITS, *times)]
+    return CLOSE_TICKS * max(max(speeds), SLOWEST)
+
+
 def tolerance(curve: Curve, first: int, last: int) -> Ticks:
     """By how many ticks each pulse may be beside the curve."""
     allowed = np.full(last - first + 1, TOLERANCE)
-    if curve.blur:
-        for number in range(first, min(last, curve.count) + 1):
-            allowed[number - first] += curve.blur / max(curve.speed_at(number), 1 / TICK_HZ / 256)
+    if curve.blur or curve.blur_ticks:
+        speeds = np.maximum(curve.speeds(first, last), SLOWEST)
+        if curve.reaches and curve.legs and curve.legs[-1].sign < 0:
+            # where the last ramp is does not depend on what was before it: only when
+            ramp = np.arange(first, last + 1) > float(curve.legs[-1].x0)
+            speeds[ramp] = np.maximum(speeds[ramp], curve.speed_after(curve.legs[-1].time))
+        beside = curve.blur / speeds
+        allowed += np.maximum(beside, curve.blur_ticks)
     return allowed
+
+
+def parted(family: Family, holds: Callable[[Curve], bool]) -> list[Family]:
+    """The curves for which something holds, and the others: those of one end, and of the other."""
+    low, high, curve = family.shapes()
+    first = holds(curve(low))
+    if holds(curve(high)) == first:
+        return [family]
+    below, above = low, high
+    while above - below > 1:
+        middle = (below + above) // 2
+        below, above = (middle, above) if holds(curve(middle)) == first else (below, middle)
+    return [family.within(low, below), family.within(above, high)]
 
 
 def alone(curve: Curve) -> Family:

@@ -74,7 +74,7 @@ class Homing:
             return
         if active != (self.part == TO_SWITCH):
             return
-        if any(f.starts and tick <= f.high for f in axis.motion.families):
+        if axis.motion.may_wait(tick) and axis.motion.waits(axis.ways, tick):
             raise Unsure("the switch changes just when a part of the homing begins")
         self.stops = True
         if self.part == OFF_SWITCH:
@@ -94,7 +94,7 @@ class Homing:
         if self.stops:
             self._next_part(low, high)
             return True
-        if not axis.motion.every(lambda c: c.reaches, "a homing that may have come to its end"):
+        if not axis.motion.every(axis.ways, lambda c: c.reaches):
             return False
         if self.part == TO_REFERENCE:
             axis.bits.jede = False

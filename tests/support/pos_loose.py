@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from pos_curve import BITS, Curve
 from pos_family import Family, Observed, crossing
@@ -42,13 +42,25 @@ class Loose(Family):
         behind, ahead = self.both
         return [behind, *super().spread, ahead]
 
+    def shapes(self) -> tuple[int, int, Callable[[int], Curve]]:
+        """The numbers of the places, and what leaves them."""
+        return self.first, self.last, lambda n: self.shape(n).shifted(self.low << BITS)
+
+    def within(self, low: int, high: int) -> Family:
+        """Those from some of the places."""
+        return replace(self, first=low, last=high, kept={})
+
     def narrow(self, first: int, ticks: Observed, until: int) -> float | None:
         """Without a pulse there is nothing to be told."""
         return None
 
-    def seen(self, number: int, tick: int) -> list[Family]:
+    def seen(self, number: int, ticks: Observed) -> list[Family]:
         """The families of those places from which the pulse comes then, or a little beside."""
         families: list[Family] = []
+        done = max(0, self.skip + 1 - number)
+        if done >= len(ticks):
+            return [self]
+        number, tick = number + done, int(ticks[done])
         ends = self._reaching(number)
         if ends is None:
             return families
@@ -76,7 +88,7 @@ class Loose(Family):
         high = since(lambda n: _begin(make(-n)) - self.high - 2, -ends[1], -ends[0])
         if low is None or high is None or low > -high:
             return None
-        return Family(make, low, -high, error=ERROR)
+        return Family(make, low, -high, skip=self.skip, error=ERROR)
 
     def _from(self, number: int, time: int) -> Callable[[int], Curve]:
         def make(n: int) -> Curve:
@@ -99,7 +111,9 @@ def since(value: Callable[[int], float], low: int, high: int) -> int | None:
     return None if below > 0 else crossing(value, (low, high), (above, below))
 
 
-def loose(shape: Callable[[int], Curve], places: tuple[int, int], ticks: tuple[int, int]) -> Loose:
+def loose(
+    shape: Callable[[int], Curve], places: tuple[int, int], ticks: tuple[int, int], skip: int = 0
+) -> Loose:
     """Curves from some places, at some ticks."""
     first, last = places
     middle = shape((first + last) // 2)
@@ -110,6 +124,7 @@ def loose(shape: Callable[[int], Curve], places: tuple[int, int], ticks: tuple[i
         shape=shape,
         first=first,
         last=last,
+        skip=skip,
     )
 
 
@@ -119,4 +134,4 @@ def rested(family: Family, start: Callable[[Curve], Curve], ticks: tuple[int, in
         old, places = family.shape, (family.first, family.last)
     else:
         old, places = family.curve, (family.low, family.high)
-    return loose(lambda n: start(old(n)), places, ticks)
+    return loose(lambda n: start(old(n)), places, ticks, family.skip)

@@ -9,15 +9,18 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from pos_change import CHANGE, begun, changed
 from pos_curve import BITS, Curve, Order
-from pos_family import Family, alone, rest_ticks
+from pos_family import Family, alone, parted, rest_ticks
+from pos_ways import Ways
 from pos_words import Mismatch, Unsure
 
 FAMILIES_MAX = 64
+WORK_MAX = 2500
+"""Curves of an axis that are compared in a session, each as often as it is."""
 
 
 @dataclass
@@ -26,6 +29,8 @@ class Train:
 
     ticks: list[int] = field(default_factory=list)
     signs: list[int] = field(default_factory=list)
+    work: int = 0
+    """How many curves have been compared with it."""
     growing: random.Random | None = None
     """The model makes the pulses itself, and draws what is open from this."""
 
@@ -76,9 +81,12 @@ class Motion:
     def change(self, tick: int, order: Order, late: int = CHANGE) -> None:
         """Something else is wanted from a tick on, or a little later."""
         self.verify(tick)
-        self._keep(changed(self.families, self.seen, tick, order, late))
+        first = self.offset + self.seen
+        ahead = self.train.array[first : self.train.count_until(tick + late)]
+        self._keep(changed(self.families, self.seen, (tick, late), order, ahead))
 
     def _keep(self, families: list[Family]) -> None:
+        self._work(len(families))
         rng = self.train.growing
         if rng:
             family = rng.choice(families)
@@ -100,8 +108,9 @@ class Motion:
         ticks = self.train.array[self.offset + self.seen : self.train.count_until(until)]
         if len(ticks):
             self.families = [
-                f for family in self.families for f in family.seen(self.seen + 1, int(ticks[0]))
+                f for family in self.families for f in family.seen(self.seen + 1, ticks)
             ]
+        self._work(len(self.families))
         wrong = [family.narrow(self.seen + 1, ticks, until) for family in self.families]
         kept = [f for f, error in zip(self.families, wrong, strict=True) if error is None]
         if not kept:
@@ -110,6 +119,12 @@ class Motion:
         if any(sign != self.sign for sign in signs):
             raise Mismatch(int(ticks[0]), "a pulse in the wrong direction")
         self.families, self.seen = kept, self.seen + len(ticks)
+
+    def _work(self, curves: int) -> None:
+        """Count what has to be followed: all ways together."""
+        self.train.work += curves
+        if self.train.work > WORK_MAX:
+            raise Unsure("too much to follow")
 
     def _nothing(self, until: int) -> None:
         extra = self.train.count_until(until) - self.offset - self.seen
@@ -144,9 +159,51 @@ class Motion:
         times = [rest_ticks(curve) for curve in self.curves()]
         return min(times), max(times)
 
-    def every(self, holds: Callable[[Curve], bool], what: str) -> bool:
-        """Whether something holds for all curves, or for none."""
-        answers = {holds(curve) for curve in self.curves()}
-        if len(answers) > 1:
-            raise Unsure(what)
-        return answers == {True}
+    # --- what is open ---
+
+    def every(self, ways: Ways, holds: Callable[[Curve], bool]) -> bool:
+        """Whether something holds for all curves; if for some, one of two ways is gone."""
+        parts = [part for family in self.families for part in parted(family, holds)]
+        answers = {holds(part.both[0]) for part in parts}
+        answer = answers == {True} if len(answers) == 1 else not ways.choose()
+        self.families = [part for part in parts if holds(part.both[0]) == answer]
+        return answer
+
+    def rests_early(self, ways: Ways, far: int) -> None:
+        """Some stand long before others: one or the other way is gone."""
+        border = self.stand()[0] + far
+        before = self.stand()
+        self.every(ways, lambda curve: rest_ticks(curve) < border)
+        if self.stand() == before:
+            raise Unsure("an axis that may stand long before another pulse, or after it")
+
+    def stood(self, ways: Ways, tick: int, unseen: int) -> bool:
+        """Whether it stands at a tick, and the unit, which may be late, has seen it."""
+        late = self._those(lambda curve: rest_ticks(curve) > tick - unseen)
+        if late and not ways.choose():
+            self.families = late
+            return False
+        self.families = self._those(lambda curve: rest_ticks(curve) <= tick)
+        if not self.families:
+            raise Mismatch(tick, "the axis cannot stand yet")
+        return True
+
+    def _those(self, holds: Callable[[Curve], bool]) -> list[Family]:
+        parts = [part for family in self.families for part in parted(family, holds)]
+        return [part for part in parts if holds(part.both[0])]
+
+    def may_wait(self, tick: int) -> bool:
+        """Whether it may not have left the stand at a tick."""
+        return any(family.starts and tick <= family.high for family in self.families)
+
+    def waits(self, ways: Ways, tick: int) -> bool:
+        """Whether it has not left the stand."""
+        moving = [
+            family if family.high < tick else replace(family, high=tick - 1, kept={})
+            for family in self.families
+            if not family.starts or family.low < tick
+        ]
+        if moving and not ways.choose():
+            self.families = moving
+            return False
+        return True

@@ -95,6 +95,8 @@ class Writer:
         if rng.random() < 0.3:
             self.setting("backlash", round(rng.choice((1, 3, 20)) / float(self.settings.ratio)))
         if rng.random() < 0.2:
+            self.setting("invert", 1)
+        if rng.random() < 0.2:
             self.setting("highest_feed", self.feeds(300, 20_000))
         for at, name in enumerate(("limit_minus", "limit_plus", "reference", "capture")):
             if rng.random() < 0.5:
