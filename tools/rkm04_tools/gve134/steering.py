@@ -26,6 +26,7 @@ HELP = (
     "keys: + faster, - slower, 0 about the speed at the start, space halts, g goes on; "
     "Ctrl-C halts and ends"
 )
+HELD = "g goes on, Ctrl-C ends the job and leaves the line to others"
 STEPS_PER_TURN = 4
 LATE_SECONDS = 0.5
 """A halt that cannot be obeyed between two commands until then ends the job, as Ctrl-C does."""
@@ -120,7 +121,7 @@ class Steering:
             raise Restarted(unit.link.name, executed=False)
         text = f"{halted_text(halted)}; {sender.executed_text(halted.positions)}"
         print(f"gve134: {text}; {sender.spindle_text}", file=sys.stderr)
-        print("gve134: g goes on, Ctrl-C ends the job and leaves the line to others", file=sys.stderr, flush=True)
+        print(f"gve134: {HELD}", file=sys.stderr, flush=True)
         self._wait_for_go()
         answer = unit.link.ask("G")
         if answer.code not in (answers.DONE, answers.NOTHING_TO_GO_ON):
