@@ -108,7 +108,6 @@ MODULES = (
         ("unit/gve134/queue", "system/gve134"),
     ),
     Module("gve-unit", "gve134", ("gve134_execute.c", "gve134_packet.c"), (), ("system/gve134",)),
-    Module("gve-start", "gve134", ("gve134.c",), (), ("system/gve134",)),
     Module(
         "pos-modbus", "positioning/modbus",
         (
