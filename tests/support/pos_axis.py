@@ -86,7 +86,8 @@ class Axis:
     def take(self, act: Act) -> None:
         """Execute an instruction."""
         bits = self.bits
-        if self.before and act.tick < self.initiated and act.code in RENEWING:
+        renews = act.code in RENEWING and (act.code != Code.POS_INIT or not refusal(self, act))
+        if self.before and act.tick < self.initiated and renews:
             self._undo()
         if act.code == Code.POS_CONTROL:
             self._control(act)

@@ -24,6 +24,9 @@ FEW = 6
 SAMPLES = 10
 """Of a family that is nearly one curve."""
 
+SAMPLED = 0.25
+"""Ticks more for a curve that stands for those beside it."""
+
 Observed = NDArray[np.int64]
 
 
@@ -75,16 +78,19 @@ class Family:
 
     def closed(self, tick: int) -> list[Curve]:
         """Those that are followed each by itself from a tick on."""
-        if not self.wide:
-            return [self.curve(number) for number in range(self.low, self.high + 1)]
-        first, last = self.both
-        width = apart(first, last, tick << BITS)
-        gaps = min(SAMPLES, int(width / resolution(first, tick)))
-        if not gaps:
-            return [replace(first, blur=first.blur + width)]
-        numbers = {self.low + (self.high - self.low) * i // gaps for i in range(gaps + 1)}
-        curves = map(self.curve, sorted(numbers))
-        return [replace(curve, blur=curve.blur + width / gaps) for curve in curves]
+        gaps, width = max(1, self.high - self.low), 0.0
+        if self.wide:
+            first, last = self.both
+            width = apart(first, last, tick << BITS)
+            gaps = min(SAMPLES, int(width / resolution(first, tick)))
+        parts = max(1, gaps)
+        numbers = {self.low + (self.high - self.low) * i // parts for i in range(gaps + 1)}
+        return [
+            replace(
+                curve, blur=curve.blur + width / parts, blur_ticks=max(curve.blur_ticks, self.error)
+            )
+            for curve in map(self.curve, sorted(numbers))
+        ]
 
     def shapes(self) -> tuple[int, int, Callable[[int], Curve]]:
         """The numbers of the curves, and what makes them."""
@@ -197,7 +203,7 @@ def tolerance(curve: Curve, first: int, last: int) -> Ticks:
             ramp = np.arange(first, last + 1) > float(curve.legs[-1].x0)
             speeds[ramp] = np.maximum(speeds[ramp], curve.speed_after(curve.legs[-1].time))
         beside = curve.blur / speeds
-        allowed += np.maximum(beside, curve.blur_ticks)
+        allowed += SAMPLED + np.maximum(beside, curve.blur_ticks)
     return allowed
 
 

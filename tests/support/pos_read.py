@@ -52,6 +52,8 @@ def expected(axis: Axis, tick: int) -> dict[str, Container]:
     told: dict[str, Container] = {}
     if axis.bits.jede and axis.motion.stand()[0] <= tick:
         return told
+    if axis.before and tick <= axis.initiated:
+        return told
     known = states(axis, tick)
     for name in known[0].registers:
         told[name] = {bits.registers[name] for bits in known}
