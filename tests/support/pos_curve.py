@@ -245,7 +245,8 @@ class Curve:
 
     def waits(self, tick: int) -> bool:
         """Whether it has not left the stand at a tick."""
-        return self.start >= 0 and self.legs[self.start].time >= tick << BITS
+        leaves = 0 <= self.start < len(self.legs)
+        return leaves and self.legs[self.start].time >= tick << BITS
 
     def restarted(self, order: Order) -> Curve:
         """The curve that leaves the stand at the same time, as something else is wanted."""
