@@ -81,6 +81,25 @@ static struct wide between_steps(const struct look *look, uint64_t grains_per_st
     return place;
 }
 
+/* Finds a place between steps in the cruise that the path is in, or comes to before `until_tick`. */
+static bool find_between(struct look look, uint64_t until_tick, uint64_t grains_per_step, struct path_entry *entry)
+{
+    const struct path_leg *end = &look.course->leg[look.course->legs];
+    while (look.leg != end && look.leg->accel != 0) {
+        look.leg++;
+    }
+    if (look.leg == end || look.leg->time.high >= until_tick) {
+        return false;
+    }
+    look.tick = look.tick > look.leg->time.high ? look.tick : look.leg->time.high + 1U;
+    struct path_entry between = path_course_cruise_at(look.leg, between_steps(&look, grains_per_step), grains_per_step);
+    bool stays = !path_wide_is_at_least(between.time, path_course_at(look.course, look.leg, look.leg->end).time);
+    if (stays) {
+        *entry = between;
+    }
+    return stays;
+}
+
 /* Finds a place in a section; false if the path rests in it before one comes. */
 static bool find_in(const struct look *look, uint64_t patience_ticks, uint64_t grains_per_step,
                     struct path_entry *entry)
@@ -88,21 +107,15 @@ static bool find_in(const struct look *look, uint64_t patience_ticks, uint64_t g
     uint64_t rest = 0;
     uint64_t last = wide_divide(look->course->end, look->course->grains_per_step, &rest);
     uint64_t step = find_step(look);
-    if (step <= last) {
+    bool follows = step <= last;
+    if (follows) {
         *entry = path_course_step(look->course, step);
         entry->place = path_wide_multiply(grains_per_step, step);
     }
-    bool soon = step <= last && entry->time.high <= look->tick + patience_ticks;
-    if (!soon && look->leg->accel == 0 && !is_due(look->leg->time, look->tick)) {
-        struct path_entry between =
-            path_course_cruise_at(look->leg, between_steps(look, grains_per_step), grains_per_step);
-        struct wide end = path_course_at(look->course, look->leg, look->leg->end).time;
-        if (!path_wide_is_at_least(between.time, end)) {
-            *entry = between;
-            return true;
-        }
-    }
-    return step <= last;
+    uint64_t until_tick = look->tick + patience_ticks;
+    bool soon = follows && entry->time.high <= until_tick;
+    bool begins = is_due(look->leg->time, look->tick);
+    return soon || (!begins && find_between(*look, until_tick, grains_per_step, entry)) || follows;
 }
 
 /* The last section that is entered before a tick, none before the plan's origin; laid, if the path goes so
