@@ -11,6 +11,7 @@ enum {
     LEAD_TICKS = 330 * TICKS_PER_US,
     LEAD_TICKS_MAX = 8 * LEAD_TICKS,
     LOOK_TICKS = TICKS_PER_US * 2 / 3, /* more for each section that is looked at, with another speed or not */
+    REACH_TICKS = 100 * TICKS_PER_MS,  /* a place that is further ahead waits until the motors are nearer */
     PATIENCE_TICKS = 500 * TICKS_PER_US,
     GO_ON_TICKS = 370 * TICKS_PER_US, /* so much is handed over after the place at once */
     FIRST_TICKS = 4 * TICKS_PER_MS,   /* and the first segment of each axis, if it is due by then */
@@ -110,9 +111,13 @@ enum change {
     LATER, /* its queues are full, and end before that */
 };
 
-/* Hands over what is due before a place, if need be; false if there is no room for all of it. */
+/* Hands over what is due before a place, if need be; false if there is no room for all of it, or it is far ahead: a
+ * pulse that is due in more than half a turn of the 32-bit counter must not be handed over, nor one after it. */
 static bool reach(struct group *group, const struct path_place *place, uint64_t back[PATH_AXES])
 {
+    if (place->entry.time.high > hal_time_now() + (uint64_t)REACH_TICKS) {
+        return false;
+    }
     if (path_back(&group->path, place, back)) {
         return true;
     }
