@@ -7,7 +7,7 @@ enum axis_state axis_state_next(enum axis_state state, enum axis_event event)
     static const uint8_t next[AXIS_STATES][AXIS_EVENTS] = {
         [AXIS_STANDING] = {[AXIS_BEGIN] = AXIS_MOVING, [AXIS_REFUSE] = AXIS_ENDED},
         [AXIS_MOVING] = {[AXIS_STOP] = AXIS_BRAKING, [AXIS_HALT] = AXIS_STOPPING, [AXIS_LAST] = AXIS_ENDED},
-        [AXIS_BRAKING] = {[AXIS_PLANNED] = AXIS_STOPPING, [AXIS_LAST] = AXIS_ENDED},
+        [AXIS_BRAKING] = {[AXIS_PLANNED] = AXIS_STOPPING, [AXIS_RESUME] = AXIS_MOVING, [AXIS_LAST] = AXIS_ENDED},
         [AXIS_STOPPING] = {[AXIS_RESUME] = AXIS_MOVING, [AXIS_LAST] = AXIS_ENDED},
         [AXIS_ENDED] = {[AXIS_TAKE] = AXIS_STANDING},
     };

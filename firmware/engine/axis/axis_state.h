@@ -5,7 +5,7 @@
  *               BEGIN    REFUSE   STOP      HALT       PLANNED    RESUME   LAST     TAKE
  *   STANDING    MOVING   ENDED    -         -          -          -        -        -
  *   MOVING      -        -        BRAKING   STOPPING   -          -        ENDED    -
- *   BRAKING     -        -        -         -          STOPPING   -        ENDED    -
+ *   BRAKING     -        -        -         -          STOPPING   MOVING   ENDED    -
  *   STOPPING    -        -        -         -          -          MOVING   ENDED    -
  *   ENDED       -        -        -         -          -          -        -        STANDING
  *

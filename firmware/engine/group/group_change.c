@@ -11,7 +11,7 @@ enum {
     LEAD_TICKS = 330 * TICKS_PER_US,
     LEAD_TICKS_MAX = 8 * LEAD_TICKS,
     LOOK_TICKS = TICKS_PER_US * 2 / 3, /* more for each section that is looked at, with another speed or not */
-    REACH_TICKS = 100 * TICKS_PER_MS,  /* a place that is further ahead waits until the motors are nearer */
+    REACH_TICKS = TICK_HZ,
     PATIENCE_TICKS = 500 * TICKS_PER_US,
     GO_ON_TICKS = 370 * TICKS_PER_US, /* so much is handed over after the place at once */
     FIRST_TICKS = 4 * TICKS_PER_MS,   /* and the first segment of each axis, if it is due by then */
@@ -111,8 +111,8 @@ enum change {
     LATER, /* its queues are full, and end before that */
 };
 
-/* Hands over what is due before a place, if need be; false if there is no room for all of it, or it is far ahead: a
- * pulse that is due in more than half a turn of the 32-bit counter must not be handed over, nor one after it. */
+/* Hands over what is due before a place, if need be; false if there is no room for all of it, or it is so far ahead
+ * that 32 bits of a tick could take it for past: then it waits until the motors are nearer. */
 static bool reach(struct group *group, const struct path_place *place, uint64_t back[PATH_AXES])
 {
     if (place->entry.time.high > hal_time_now() + (uint64_t)REACH_TICKS) {
@@ -180,9 +180,15 @@ static enum change change(struct group *group)
 /* Nothing is left to stop where it rests by itself; vectors that came too late to join wait. */
 static void plan_stop(struct group *group)
 {
-    if (change(group) != LATER) {
+    enum axis_cause cause = group_cause(group);
+    if (change(group) == LATER) {
+        return;
+    }
+    hal_step_hold();
+    if (group_cause(group) == cause) { /* a fault that has come meanwhile is to be planned yet */
         (void)axis_state_enter(&group->state, AXIS_PLANNED);
     }
+    hal_step_release();
 }
 
 void group_plan(struct group *group)

@@ -114,8 +114,7 @@ static bool find_in(const struct look *look, uint64_t patience_ticks, uint64_t g
     }
     uint64_t until_tick = look->tick + patience_ticks;
     bool soon = follows && entry->time.high <= until_tick;
-    bool begins = is_due(look->leg->time, look->tick);
-    return soon || (!begins && find_between(*look, until_tick, grains_per_step, entry)) || follows;
+    return soon || find_between(*look, until_tick, grains_per_step, entry) || follows;
 }
 
 /* The last section that is entered before a tick, none before the plan's origin; laid, if the path goes so

@@ -250,7 +250,7 @@ BASE_APART static bool channel_heed(struct step_channel *channel, struct hal_ste
                                     bool marked)
 {
     bool turns = room->backward != (channel->direction < 0);
-    if ((marked && place + room->waiting > 0) || (turns && place > 0)) {
+    if (place > 0 || (marked && room->waiting > 0)) {
         return false;
     }
     if (turns) {

@@ -30,7 +30,9 @@ void test_a_moving_axis_can_be_stopped_halted_or_come_to_its_end(void)
 
 void test_a_braking_axis_takes_no_second_stop(void)
 {
-    assert_row(AXIS_BRAKING, (enum axis_state[AXIS_EVENTS]){[AXIS_PLANNED] = AXIS_STOPPING, [AXIS_LAST] = AXIS_ENDED});
+    assert_row(AXIS_BRAKING,
+               (enum axis_state[AXIS_EVENTS]){
+                   [AXIS_PLANNED] = AXIS_STOPPING, [AXIS_RESUME] = AXIS_MOVING, [AXIS_LAST] = AXIS_ENDED});
 }
 
 void test_a_stopping_axis_comes_to_rest_or_is_resumed(void)
