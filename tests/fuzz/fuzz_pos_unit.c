@@ -47,15 +47,16 @@ static const size_t lengths[PIECES] = {18, 18, 18, 24, 10, 8, 4, 10};
 
 /* ---- settings that are stored ---------------------------------------------------------------------------------- */
 
-/* What was confirmed is stored; what was not may be, if the power has failed; what was refused is not. */
+/* What was confirmed is stored; what was not may be, if the power has failed or nobody knows what the unit has heard;
+ * what was refused is not. */
 static void note_store(uint32_t executed)
 {
-    bool cut = run.fuzz->machine.faults.flash_cut_after != 0;
+    bool open = run.fuzz->machine.faults.flash_cut_after != 0 || run.line.vague;
     bool refused = run.fuzz->executed == executed;
-    if (run.line.vague || (refused && !cut)) {
+    if (refused && !open) {
         return;
     }
-    run.kept_count = cut && run.kept_count < (uint32_t)KEPT_MAX ? run.kept_count : cut ? KEPT_MAX - 1U : 0;
+    run.kept_count = open && run.kept_count < (uint32_t)KEPT_MAX ? run.kept_count : open ? KEPT_MAX - 1U : 0;
     run.kept[run.kept_count++] = run.fuzz->unit.registers;
 }
 
