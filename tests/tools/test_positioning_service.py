@@ -357,6 +357,7 @@ def test_a_restart_while_the_port_was_away_is_noticed_although_the_unit_runs_for
     desk.axis(lambda a: a["state"] == "TAKEN", 3)
     relay.cut()
     desk.state(lambda m: m["away"])
+    time.sleep(1.0)
     other = pos_serve("--unpaced", speed="1").place
     time.sleep(2.0)
     relay.to(other)  # started after the first one, but its UPTIME has gone beyond what was seen
@@ -381,8 +382,8 @@ def test_a_stop_is_confirmed_by_a_unit_that_has_restarted(
     desk: PosDesk, relay: Relay, pos_serve: Serve
 ) -> None:
     moving(desk)
+    time.sleep(1.0)
     other = pos_serve("--unpaced", speed="1").place
-    time.sleep(0.5)
     relay.muted = True
     number = desk.say("halt")
     relay.to(other)

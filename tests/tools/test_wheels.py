@@ -21,10 +21,12 @@ EXAMPLES = ROOT / "tools" / "examples"
 TARGET = TARGETS["linux-x86_64"]
 NOT_ON_WINDOWS = ("fcntl", "grp", "posix", "pty", "pwd", "resource", "termios", "tty")
 IMPORT_ALL = """
-import pkgutil, importlib, sys
-import matplotlib, numpy, pymodbus.client, serial, uvicorn, starlette.staticfiles
+import pkgutil, importlib, sys, types
+import matplotlib, numpy, pymodbus.client, serial.tools.list_ports, uvicorn, starlette.staticfiles
 for name in {absent}:
     sys.modules[name] = None
+sys.modules["msvcrt"] = types.ModuleType("msvcrt")
+sys.platform = "win32"
 import rkm04_tools
 for found in pkgutil.walk_packages(rkm04_tools.__path__, "rkm04_tools."):
     if not found.name.endswith("__main__") and found.name != "rkm04_tools.usage":

@@ -1,5 +1,6 @@
 #include "path.h"
 
+#include "base_hint.h"
 #include "path_fixed.h"
 #include "path_lay.h"
 #include "path_look.h"
@@ -101,8 +102,8 @@ static bool find_between(struct look look, uint64_t until_tick, uint64_t grains_
 }
 
 /* Finds a place in a section; false if the path rests in it before one comes. */
-static bool find_in(const struct look *look, uint64_t patience_ticks, uint64_t grains_per_step,
-                    struct path_entry *entry)
+BASE_APART static bool find_in(const struct look *look, uint64_t patience_ticks, uint64_t grains_per_step,
+                               struct path_entry *entry)
 {
     uint64_t rest = 0;
     uint64_t last = wide_divide(look->course->end, look->course->grains_per_step, &rest);
