@@ -11,7 +11,7 @@ enum {
     LEAD_TICKS = 330 * TICKS_PER_US,
     LEAD_TICKS_MAX = 8 * LEAD_TICKS,
     LOOK_TICKS = TICKS_PER_US * 2 / 3, /* more for each section that is looked at, with another speed or not */
-    REACH_TICKS = TICK_HZ,
+    REACH_TICKS = TICK_HZ,             /* a place that is further ahead waits until the motors are nearer */
     PATIENCE_TICKS = 500 * TICKS_PER_US,
     GO_ON_TICKS = 370 * TICKS_PER_US, /* so much is handed over after the place at once */
     FIRST_TICKS = 4 * TICKS_PER_MS,   /* and the first segment of each axis, if it is due by then */
@@ -108,11 +108,11 @@ static void plan_from(struct group *group, const struct path_place *place, const
 enum change {
     CHANGED,
     RESTS, /* it comes to rest before a change can take effect */
-    LATER, /* its queues are full, and end before that */
+    LATER, /* its queues are full, and end before that, or it is far ahead */
 };
 
-/* Hands over what is due before a place, if need be; false if there is no room for all of it, or it is so far ahead
- * that 32 bits of a tick could take it for past: then it waits until the motors are nearer. */
+/* Hands over what is due before a place, if need be; false if there is no room for all of it, or it is far ahead: 32
+ * bits of a tick could take a pulse of minutes ahead for past. */
 static bool reach(struct group *group, const struct path_place *place, uint64_t back[PATH_AXES])
 {
     if (place->entry.time.high > hal_time_now() + (uint64_t)REACH_TICKS) {
@@ -252,8 +252,9 @@ bool group_resume(struct group *group)
 {
     hal_run_hold_plan();
     unsigned cause = atomic_load_explicit(&group->cause, memory_order_relaxed);
+    bool planned = is_in(group, AXIS_STOPPING);
     bool resumes = axis_state_enter(&group->state, AXIS_RESUME);
-    if (resumes && change(group) != CHANGED) {
+    if (resumes && planned && change(group) != CHANGED) {
         (void)axis_state_enter(&group->state, AXIS_HALT);
         resumes = false;
     }

@@ -121,14 +121,16 @@ bool path_next(struct path *path, unsigned axis, uint64_t until_tick, struct pat
 /* From when on a path is to be changed. */
 struct path_wish {
     uint64_t tick;
-    uint64_t patience_ticks; /* in a cruise a place between steps is taken if no step is due within so many more */
+    uint64_t patience_ticks; /* in a cruise, also one that begins within so many more, a place between steps is
+                                taken if no step is due within them */
     uint32_t accel;          /* for a stop with an acceleration of its own, 1 to PATH_ACCEL_MAX; else 0 */
 };
 
 /* The first whole step of the longest axis that is due at or after the wish, or, in a cruise, a place between steps
- * about then. Where the path left its stand or was changed last counts as a step, so that what comes together acts
- * together; not between steps for a stop with an acceleration of its own. False if the path comes to rest before. Lays
- * sections up to the wish, goes back over those of the ring at most, and looks at five steps at most. */
+ * about then, or where the cruise begins. Where the path left its stand or was changed last counts as a step, so that
+ * what comes together acts together; not between steps for a stop with an acceleration of its own. False if the path
+ * comes to rest before. Lays sections up to the wish, goes back over those of the ring at most, and looks at five steps
+ * at most. */
 bool path_find(struct path *path, const struct path_wish *wish, struct path_place *place);
 
 /* Whether a path that is stopped at a place with an acceleration of its own comes to rest before its end. */

@@ -177,6 +177,24 @@ void test_a_fault_takes_the_place_of_a_stop_that_is_yet_to_be_planned(void)
     TEST_ASSERT_TRUE(group_has_rest(&group));
 }
 
+void test_a_stop_that_is_yet_to_be_planned_is_taken_back_without_a_plan(void)
+{
+    begin(10 * TICKS_PER_MS);
+    machine.faults.keep_ticks = 20 * TICKS_PER_MS;
+    add(2000, 0, 0, 0, 5000);
+    start();
+    run_us(60000);
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
+    TEST_ASSERT_EQUAL_UINT(AXIS_BRAKING, atomic_load(&group.state));
+    TEST_ASSERT_TRUE(group_resume(&group));
+    TEST_ASSERT_EQUAL_UINT(AXIS_MOVING, atomic_load(&group.state));
+    TEST_ASSERT_EQUAL_INT(AXIS_CAUSE_NONE, group_cause(&group));
+    machine.faults.keep_ticks = 0;
+    run_us(5000);
+    stop_and_go_on_to_the_end();
+    assert_arrived();
+}
+
 void test_what_has_not_been_handed_over_before_a_place_is_handed_over_first(void)
 {
     for (unsigned i = 0; i < RING; i++) {
