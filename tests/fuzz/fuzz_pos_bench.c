@@ -14,6 +14,7 @@ enum {
     LIMIT_TICKS = 2 * TICKS_PER_MS, /* a pass or two */
     EPOCHS = 4,
     SPACE_MAX = 6,
+    STORE_SETTINGS = 1,
 };
 
 enum code {
@@ -201,10 +202,12 @@ static bool was_busy(uint32_t axes, bool *still)
     return was;
 }
 
-static bool writes_store(const struct pos_write *write)
+/* What it writes to STORE; 0: nothing. */
+static uint32_t store_of(const struct pos_write *write)
 {
     uint32_t next = 0;
-    return pos_write_next(write, POS_USE_STORE, &next) != NULL;
+    const struct pos_written *written = pos_write_next(write, POS_USE_STORE, &next);
+    return written != NULL ? written->value : 0;
 }
 
 static void require_exception(uint8_t exception, const struct modbus_request *request, struct pos_write *write)
@@ -223,7 +226,7 @@ static void require_exception(uint8_t exception, const struct modbus_request *re
         FUZZ_REQUIRE(exception != MODBUS_EXCEPTION_BUSY && !still); /* it came to rest in this pass */
     } else {
         FUZZ_REQUIRE(exception == MODBUS_EXCEPTION_NONE || exception == MODBUS_EXCEPTION_BUSY ||
-                     (exception == MODBUS_EXCEPTION_FAILURE && writes_store(write)));
+                     (exception == MODBUS_EXCEPTION_FAILURE && store_of(write) != 0));
     }
 }
 
@@ -307,7 +310,7 @@ static void require_executed(const struct pos_write *write)
     uint32_t next = 0;
     bool instructed[POS_AXES] = {false};
     pos_write_apply(write, before);
-    if (!writes_store(write)) {
+    if (store_of(write) == 0) {
         FUZZ_REQUIRE(same_of_use(before, &live.unit.registers, POS_USE_SETTING));
         FUZZ_REQUIRE(live.before.flash_operations == live.machine.flash_operations);
     }
@@ -349,6 +352,7 @@ static void require_request(void)
     } else {
         require_executed(&write);
         live.executed++;
+        live.stores += store_of(&write) == STORE_SETTINGS ? 1U : 0U;
     }
 }
 

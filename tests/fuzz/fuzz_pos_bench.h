@@ -56,6 +56,7 @@ struct fuzz_pos {
     uint32_t passes;
     uint64_t heard_tick;              /* the end of the last frame to this unit that an independent reader found good */
     uint32_t executed;                /* requests that have got no exception */
+    uint32_t stores;                  /* those of them that stored all settings */
     uint8_t sent[FUZZ_POS_HEARD_MAX]; /* by the unit, since the harness has read it */
     uint32_t sent_count;
     uint64_t hash;

@@ -49,11 +49,10 @@ static const size_t lengths[PIECES] = {18, 18, 18, 24, 10, 8, 4, 10};
 
 /* What was confirmed is stored; what was not may be, if the power has failed or nobody knows what the unit has heard;
  * what was refused is not. */
-static void note_store(uint32_t executed)
+static void note_store(uint32_t stores)
 {
     bool open = run.fuzz->machine.faults.flash_cut_after != 0 || run.line.vague;
-    bool refused = run.fuzz->executed == executed;
-    if (refused && !open) {
+    if (run.fuzz->stores == stores && !open) {
         return;
     }
     run.kept_count = open && run.kept_count < (uint32_t)KEPT_MAX ? run.kept_count : open ? KEPT_MAX - 1U : 0;
@@ -160,11 +159,11 @@ static void do_setting(struct fuzz_stream *stream, unsigned operand)
     uint8_t which = fuzz_take_byte(stream);
     uint16_t pair = fuzz_take_pair(stream);
     unsigned axis = operand % 5U;
-    uint32_t executed = run.fuzz->executed;
+    uint32_t stores = run.fuzz->stores;
     if (operand >= 30U) {
         write_one(STORE, (uint16_t)(operand - 29U));
         if (operand == 30U) {
-            note_store(executed);
+            note_store(stores);
         }
         return;
     }
@@ -185,10 +184,10 @@ static void do_frame(struct fuzz_stream *stream, unsigned operand)
     size_t length = 0;
     uint8_t bytes[FUZZ_POS_FRAME_ROOM];
     const uint8_t *given = fuzz_take_bytes(stream, operand + 1U, &length);
-    uint32_t executed = run.fuzz->executed;
+    uint32_t stores = run.fuzz->stores;
     memcpy(bytes, given, length);
     fuzz_pos_line_ask(&run.line, bytes, (uint32_t)length);
-    note_store(executed); /* it may be one */
+    note_store(stores); /* it may be one */
 }
 
 static void do_bytes(struct fuzz_stream *stream, unsigned operand)

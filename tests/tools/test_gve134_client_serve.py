@@ -56,6 +56,21 @@ class ServedGve:
             assert time.monotonic() < end, state
             time.sleep(0.01)
 
+    def until_quiet(self) -> None:
+        """Wait until nothing has moved for half a second of unit time.
+
+        A unit is idle between packets, too: what a host has sent comes at the rate of the line.
+        """
+        since, travel = 0.0, None
+
+        def is_quiet(state: Any) -> bool:
+            nonlocal since, travel
+            if state["travel"] != travel or not state["idle"]:
+                since, travel = state["seconds"], state["travel"]
+            return bool(state["seconds"] - since > 0.5)
+
+        self.until(is_quiet)
+
     def end(self) -> None:
         self.process.send_signal(signal.SIGTERM)
         self.process.communicate(timeout=PATIENCE_S)
@@ -317,7 +332,7 @@ def test_a_host_that_is_killed_leaves_whole_packets_only(
     served.until(lambda state: state["positions"][0] > 500)
     process.kill()
     process.communicate(timeout=PATIENCE_S)
-    served.until(lambda state: state["idle"] and not any(state["moving"]))
+    served.until_quiet()
 
     at = gve("position", "--json").json
     assert (at["Y"], at["Z"]) == (2 * at["X"], -at["X"] // 10)

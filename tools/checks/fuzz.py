@@ -47,7 +47,7 @@ class Result:
     good: bool
 
 
-def run(name: str, seconds: int) -> Result:
+def run(name: str, seconds: int, seed: int) -> Result:
     """Replay the corpus of a fuzzer, and with `seconds` explore from it."""
     explored = BUILD / "explored" / name
     found = BUILD / "found"
@@ -58,7 +58,7 @@ def run(name: str, seconds: int) -> Result:
         "nice", "-n", str(NICE), str(BUILD / "bin" / f"fuzz-{name}"), *map(str, folders),
         "-print_final_stats=1", f"-artifact_prefix={found}/{name}-",
         f"-timeout={RUN_SECONDS_MAX}", f"-max_len={INPUT_BYTES_MAX[name]}",
-        f"-max_total_time={seconds}" if seconds else "-runs=0",
+        f"-max_total_time={seconds}" if seconds else "-runs=0", f"-seed={seed}",
     ]  # fmt: skip
     done = subprocess.run(
         command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
@@ -68,16 +68,17 @@ def run(name: str, seconds: int) -> Result:
     return Result(int(counted[1]) if counted else 0, done.stdout, done.returncode == 0)
 
 
-def replay_and_run(name: str, seconds: int) -> list[Result]:
+def replay_and_run(name: str, seconds: int, seed: int) -> list[Result]:
     """The corpus alone, then the exploration."""
-    return [run(name, each) for each in ((0, seconds) if seconds else (0,))]
+    return [run(name, each, seed) for each in ((0, seconds) if seconds else (0,))]
 
 
-def explore(seconds: int) -> int:
+def explore(seconds: int, seed: int = 0) -> int:
     """Run all fuzzers, two at a time; return how many have found something."""
     failed = total = 0
     with ThreadPoolExecutor(WORKERS) as pool:
-        done = pool.map(replay_and_run, INPUT_BYTES_MAX, [seconds] * len(INPUT_BYTES_MAX))
+        names = list(INPUT_BYTES_MAX)
+        done = pool.map(replay_and_run, names, [seconds] * len(names), [seed] * len(names))
     for name, results in zip(INPUT_BYTES_MAX, done, strict=True):
         for result in results:
             total += result.runs
@@ -93,7 +94,12 @@ def explore(seconds: int) -> int:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=int, default=0, help="explore for so long, each")
-    return 1 if explore(parser.parse_args().seconds) else 0
+    parser.add_argument(
+        "--seed", type=int, default=0,
+        help="the same sources and corpora get the same inputs in the same order; 0: others each time",
+    )  # fmt: skip
+    options = parser.parse_args()
+    return 1 if explore(options.seconds, options.seed) else 0
 
 
 if __name__ == "__main__":

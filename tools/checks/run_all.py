@@ -27,6 +27,9 @@ from types import MappingProxyType
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
 FUZZ_SECONDS = 10  # of exploration, each fuzzer
+FUZZ_SEED = (
+    1  # a run of some minutes tries the same inputs as the last one; a long one tries others
+)
 LONG_MINUTES = 4  # the same with --long
 SOAK_MINUTES = 24 * 60  # of unit time, with --long
 NICENESS = 10  # of what runs beside the Python tests
@@ -174,7 +177,11 @@ def fuzzers(seconds: int) -> Count:
     """A check for the corpora and the exploration from them; what it prints are the runs."""
     if not build("fuzz"):
         return Count(failed=1)
-    command = [sys.executable, "-P", "tools/checks/fuzz.py", "--seconds", str(seconds)]
+    seed = FUZZ_SEED if seconds == FUZZ_SECONDS else 0
+    command = [
+        sys.executable, "-P", "tools/checks/fuzz.py",
+        "--seconds", str(seconds), "--seed", str(seed),
+    ]  # fmt: skip
     good = succeeds(*command, show=True)
     return Count(passed=1) if good else Count(failed=1)
 
