@@ -96,7 +96,7 @@ def main() -> int:
     parser.add_argument("--seconds", type=int, default=0, help="explore for so long, each")
     parser.add_argument(
         "--seed", type=int, default=0,
-        help="the same sources and corpora get the same inputs in the same order; 0: others each time",
+        help="the same sources and corpora get the same inputs in the same order; 0: others",
     )  # fmt: skip
     options = parser.parse_args()
     return 1 if explore(options.seconds, options.seed) else 0
