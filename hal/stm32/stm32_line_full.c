@@ -61,6 +61,7 @@ static struct {
     uint32_t fetched_tick;
     bool looked;           /* main has had what was there */
     bool lost;             /* bytes before the next one are missing */
+    bool out;              /* what main gave is known to have been sent: no more looks at the transmitter */
     volatile bool refused; /* main waits for room */
 } full;
 
@@ -211,6 +212,7 @@ bool hal_line_write(uint8_t byte)
         return false;
     }
     stm32_line.sending[stm32_line.sending_in % SENDING_MAX] = byte;
+    full.out = false;
     uint32_t before = hold();
     stm32_line.sending_in++;
     USART_CR1(STM32_LINE_BASE) = SENDING;
@@ -220,7 +222,8 @@ bool hal_line_write(uint8_t byte)
 
 bool hal_line_is_idle(void)
 {
-    return stm32_line.sending_out == stm32_line.sending_in && (fetch() & USART_SR_TC) != 0;
+    full.out = full.out || (stm32_line.sending_out == stm32_line.sending_in && (fetch() & USART_SR_TC) != 0);
+    return full.out;
 }
 
 void stm32_line_tick(void)

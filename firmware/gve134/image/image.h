@@ -21,6 +21,6 @@
 #define IMAGE_PWM 1
 
 /* The stack; tools/rkm04_tools/board_size.py proves how much of it can be needed. */
-#define IMAGE_STACK_BYTES 4016
+#define IMAGE_STACK_BYTES 3952
 
 #endif
