@@ -1,8 +1,8 @@
 #include "fuzz_commands.h"
 
 #include <stdbool.h>
-#include <string.h>
 
+#include "fuzz_stream.h"
 #include "program_listing.h"
 
 enum {
@@ -45,11 +45,5 @@ size_t fuzz_insert_command(uint8_t *data, size_t size, size_t max_size, size_t h
     if (draw(&seed, 8) == 0 && text[length - 1] >= '0' && text[length - 1] < '9') {
         text[length - 1]++;
     }
-    if (size < head || size + length > max_size) {
-        return size;
-    }
-    size_t at = head + seed % (size - head + 1U);
-    memmove(data + at + length, data + at, size - at);
-    memcpy(data + at, text, length);
-    return size + length;
+    return fuzz_insert(data, size, max_size, head, seed, text, length);
 }

@@ -336,11 +336,5 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsi
     char line[TEXT_ROOM];
     size = LLVMFuzzerMutate(data, size, max_size);
     size_t length = make_line(line, seed / 2U);
-    if (seed % 2U == 0 || size + length > max_size) {
-        return size;
-    }
-    size_t place = seed / 256U % (size + 1);
-    memmove(&data[place + length], &data[place], size - place);
-    memcpy(&data[place], line, length);
-    return size + length;
+    return seed % 2U == 0 ? size : fuzz_insert(data, size, max_size, 0, seed / 256U, line, length);
 }

@@ -17,6 +17,7 @@
 #include <string.h>
 
 #include "base_tick.h"
+#include "fuzz_host.h"
 #include "fuzz_stream.h"
 #include "gve134.h"
 #include "host_machine.h"
@@ -28,25 +29,9 @@ enum {
     BYTES_MAX = 600,
     TEXT_ROOM = 120,
     BYTE_TICKS = 800,
-    EDGE_UNIT_US = 10,
     TIME_UNIT_US = 50,
-    APART_TICKS_MIN = 5 * TICKS_PER_US - 2,
-    AHEAD_TICKS = 512 * TICKS_PER_US,
-    LATE_TICKS = 5 * TICKS_PER_US, /* the tick interrupt after an edge, as on a board */
-    END_MS = 1200,                 /* what is damaged or half a command is over then */
-    EPOCHS = 4,
+    END_MS = 1200, /* what is damaged or half a command is over then */
     HEARD_MAX = 64,
-};
-
-#define HASH_SEED UINT64_C(0xCBF29CE484222325)
-#define HASH_PRIME UINT64_C(0x100000001B3)
-
-/* 0, a wrap of the 32-bit counter after 30 ms, one after 3 s, and some other time. */
-static const uint64_t epochs[EPOCHS] = {
-    0,
-    (UINT64_C(7) << 32U) - UINT64_C(30) * TICKS_PER_MS,
-    (UINT64_C(1) << 32U) - UINT64_C(3) * TICK_HZ,
-    UINT64_C(0x123456789ABCD),
 };
 
 struct bench {
@@ -70,14 +55,14 @@ static struct bench b;
 
 static void mix(uint64_t number)
 {
-    b.hash = (b.hash ^ number) * HASH_PRIME;
+    b.hash = fuzz_digest(b.hash, number);
 }
 
 static void step_seen(void *context, uint64_t tick, unsigned motor, bool backward)
 {
     (void)context;
     FUZZ_REQUIRE(gve_queue_moves(&b.unit.queue));
-    FUZZ_REQUIRE(b.pulse_tick[motor] == 0 || tick - b.pulse_tick[motor] >= (uint64_t)APART_TICKS_MIN);
+    FUZZ_REQUIRE(b.pulse_tick[motor] == 0 || tick - b.pulse_tick[motor] >= (uint64_t)FUZZ_APART_TICKS_MIN);
     FUZZ_REQUIRE(b.turn_tick[motor] == 0 || tick - b.turn_tick[motor] >= HOST_SETUP_TICKS);
     b.pulse_tick[motor] = tick;
     b.pin[motor] += backward ? -1 : 1;
@@ -149,7 +134,7 @@ static void run(uint64_t ticks)
 
 static void switch_on(void)
 {
-    b.machine.faults.late_tick_ticks = LATE_TICKS;
+    b.machine.faults.late_tick_ticks = FUZZ_LATE_TICKS;
     gve134_init(&b.unit);
     gve134_start(&b.unit);
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
@@ -160,9 +145,9 @@ static void switch_on(void)
 static void begin(unsigned epoch)
 {
     memset(&b, 0, sizeof b);
-    b.hash = HASH_SEED;
-    host_machine_init(&b.machine, epochs[epoch % EPOCHS]);
-    b.machine.ahead_ticks = AHEAD_TICKS;
+    b.hash = FUZZ_DIGEST_SEED;
+    host_machine_init(&b.machine, fuzz_epoch_tick(epoch));
+    b.machine.ahead_ticks = FUZZ_AHEAD_TICKS;
     b.machine.listener = (struct host_listener){
         .step = step_seen, .direction = direction_seen, .line = line_seen, .output = output_seen};
     host_machine_set_byte_ticks(&b.machine, BYTE_TICKS);
@@ -205,11 +190,8 @@ static void ask(const char *text, size_t length)
 
 static void take_text(struct fuzz_stream *stream, bool line)
 {
-    const char *text = (const char *)stream->bytes + stream->next;
-    size_t left = stream->length - stream->next;
-    const char *end = memchr(text, 0, left);
-    size_t length = end != NULL ? (size_t)(end - text) : left;
-    stream->next += end != NULL ? length + 1U : length;
+    size_t length = 0;
+    const char *text = (const char *)fuzz_take_text(stream, &length);
     if (line) {
         ask(text, length);
     } else if (length <= BYTES_MAX) {
@@ -217,39 +199,16 @@ static void take_text(struct fuzz_stream *stream, bool line)
     }
 }
 
-static void do_edge_later(struct fuzz_stream *stream, unsigned operand)
-{
-    uint64_t time = fuzz_take_byte(stream);
-    b.edge = (struct host_input){
-        .tick = b.machine.now + time * time * EDGE_UNIT_US * TICKS_PER_US,
-        .input = (uint8_t)(1U + operand % 8U),
-        .level = operand / 8U % 2U != 0,
-    };
-    host_machine_set_script(&b.machine, &b.edge, 1);
-}
-
 static void do_trouble(unsigned operand)
 {
-    struct host_faults *faults = &b.machine.faults;
-    uint32_t at = b.machine.flash_operations + 1U + operand / 4U;
-    switch (operand % 4U) {
-    case 0:
-        faults->flash_fail_at = at;
-        break;
-    case 1:
-        faults->flash_silent_at = at;
-        break;
-    case 2:
-        faults->flash_cut_after = at;
-        break;
-    default:
-        host_machine_restart(&b.machine);
-        memset(b.turn_tick, 0, sizeof b.turn_tick);
-        b.machine.faults.start_cause = (enum hal_board_cause)(operand / 4U % 4U);
-        b.machine.faults.no_crystal = operand / 16U != 0;
-        switch_on();
-        break;
+    if (fuzz_order_flash_fault(&b.machine, operand)) {
+        return;
     }
+    host_machine_restart(&b.machine);
+    memset(b.turn_tick, 0, sizeof b.turn_tick);
+    b.machine.faults.start_cause = (enum hal_board_cause)(operand / 4U % 4U);
+    b.machine.faults.no_crystal = operand / 16U != 0;
+    switch_on();
 }
 
 static void do_operation(struct fuzz_stream *stream)
@@ -264,7 +223,7 @@ static void do_operation(struct fuzz_stream *stream)
         host_machine_set_input(&b.machine, 1U + operand % 8U, operand / 8U % 2U != 0);
         break;
     case 5:
-        do_edge_later(stream, operand);
+        fuzz_order_edge(&b.machine, &b.edge, stream, operand);
         break;
     case 6: {
         uint64_t time = fuzz_take_byte(stream);
@@ -314,13 +273,7 @@ static uint64_t run_once(struct fuzz_stream stream, unsigned epoch)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    struct fuzz_stream stream = fuzz_stream_of(data, size);
-    uint8_t head = fuzz_take_byte(&stream);
-    uint64_t hash = run_once(stream, head);
-    if ((head & 0x80U) != 0) {
-        FUZZ_REQUIRE(run_once(stream, head + 1U) == hash);
-    }
-    return 0;
+    return fuzz_run_at_epochs(data, size, run_once);
 }
 
 /* Two times in three, puts the example of a command somewhere as a line, with some time after it. */
@@ -335,11 +288,5 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsi
     line[0] = 0;
     line[length++] = 6;
     line[length++] = (char)(seed >> 24U);
-    if (seed % 3U == 0 || size == 0 || size + length > max_size) {
-        return size;
-    }
-    size_t place = 1U + seed / 256U % size;
-    memmove(&data[place + length], &data[place], size - place);
-    memcpy(&data[place], line, length);
-    return size + length;
+    return seed % 3U == 0 ? size : fuzz_insert(data, size, max_size, 1, seed / 256U, line, length);
 }

@@ -145,10 +145,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (unsigned i = 0; i < MESSAGES_MAX && !fuzz_stream_is_over(&stream); i++) {
         uint8_t head = fuzz_take_byte(&stream);
         host_machine_set_input(&fuzz->machine, 1U + head / 8U % 8U, head / 64U % 2U != 0);
-        const uint8_t *message = stream.bytes + stream.next;
-        const uint8_t *end = memchr(message, 0, stream.length - stream.next);
-        size_t length = end != NULL ? (size_t)(end - message) : stream.length - stream.next;
-        stream.next += length + 1U;
+        size_t length = 0;
+        const uint8_t *message = fuzz_take_text(&stream, &length);
         do_message(fuzz, message, (uint32_t)length);
         fuzz_unit_run(fuzz, (uint64_t)(head % 8U) * 2U * TICKS_PER_MS);
     }
@@ -160,14 +158,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed)
 {
     size = LLVMFuzzerMutate(data, size, max_size);
-    if (seed % 4U == 0 && size + 4U <= max_size && size > 0) {
-        size_t at = 1U + seed / 4U % size;
-        memmove(data + at + 4, data + at, size - at);
-        data[at] = 0;
-        data[at + 1] = (uint8_t)(seed >> 20U);
-        data[at + 2] = (uint8_t)(1U + (seed >> 16U) % 8U);
-        data[at + 3] = (uint8_t)('0' + (seed >> 12U) % 5U);
-        return size + 4U;
+    if (seed % 4U == 0) {
+        const uint8_t begin[] = {0, (uint8_t)(seed >> 20U), (uint8_t)(1U + (seed >> 16U) % 8U),
+                                 (uint8_t)('0' + (seed >> 12U) % 5U)};
+        return fuzz_insert(data, size, max_size, 1, seed / 4U, begin, sizeof begin);
     }
     return seed % 4U == 1 ? size : fuzz_insert_command(data, size, max_size, 1, seed / 4U);
 }

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fuzz_crc.h"
 #include "fuzz_stream.h"
 #include "modbus_corpus.h"
 #include "pos_bench.h"
@@ -41,25 +42,9 @@ struct run {
     uint64_t tick;
 };
 
-/* By 8005 from the high bit down, with bytes and rest turned round. */
-static uint32_t crc_of(const uint8_t *bytes, uint32_t length)
-{
-    uint32_t rest = 0xFFFF;
-    uint32_t turned = 0;
-    for (uint32_t bit = 0; bit < length * 8U; bit++) {
-        uint32_t in = ((uint32_t)bytes[bit / 8U] >> (bit % 8U)) & 1U;
-        uint32_t out = (rest >> 15U) ^ in;
-        rest = ((rest << 1U) & 0xFFFFU) ^ (out * 0x8005U);
-    }
-    for (uint32_t bit = 0; bit < 16U; bit++) {
-        turned |= ((rest >> bit) & 1U) << (15U - bit);
-    }
-    return turned;
-}
-
 static bool has_crc(const uint8_t *bytes, uint32_t length)
 {
-    uint32_t crc = crc_of(bytes, length - 2U);
+    uint32_t crc = fuzz_crc(bytes, length - 2U);
     return bytes[length - 2U] == (crc & 0xFFU) && bytes[length - 1U] == (crc >> 8U);
 }
 
@@ -193,7 +178,7 @@ static size_t make_request(uint8_t room[FRAME_ROOM], unsigned seed)
         seed = seed * 1664525U + 1013904223U;
         room[1U + seed / 65536U % (length - 1U)] = (uint8_t)(seed >> 8U);
     }
-    uint32_t crc = crc_of(room, (uint32_t)length);
+    uint32_t crc = fuzz_crc(room, (uint32_t)length);
     room[length++] = (uint8_t)(crc & 0xFFU);
     room[length++] = (uint8_t)(crc >> 8U);
     room[length++] = SILENCE;
@@ -206,11 +191,5 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsi
     uint8_t request[FRAME_ROOM];
     size = LLVMFuzzerMutate(data, size, max_size);
     size_t length = make_request(request, seed / 2U);
-    if (seed % 2U == 0 || size + length > max_size) {
-        return size;
-    }
-    size_t place = seed / 256U % (size + 1);
-    memmove(&data[place + length], &data[place], size - place);
-    memcpy(&data[place], request, length);
-    return size + length;
+    return seed % 2U == 0 ? size : fuzz_insert(data, size, max_size, 0, seed / 256U, request, length);
 }

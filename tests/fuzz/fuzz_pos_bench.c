@@ -3,16 +3,13 @@
 #include <string.h>
 
 #include "base_tick.h"
+#include "fuzz_host.h"
 #include "fuzz_stream.h"
 #include "hal_board.h"
 #include "hal_time.h"
 
 enum {
-    APART_TICKS_MIN = 5 * TICKS_PER_US - 2,
-    AHEAD_TICKS = 512 * TICKS_PER_US,
-    LATE_TICKS = 5 * TICKS_PER_US,  /* the tick interrupt after an edge, as on a board */
     LIMIT_TICKS = 2 * TICKS_PER_MS, /* a pass or two */
-    EPOCHS = 4,
     SPACE_MAX = 6,
     STORE_SETTINGS = 1,
 };
@@ -27,22 +24,11 @@ enum code {
     CODE_CAPTURE,
 };
 
-#define HASH_SEED UINT64_C(0xCBF29CE484222325)
-#define HASH_PRIME UINT64_C(0x100000001B3)
-
-/* 0, a wrap of the 32-bit counter after 30 ms, one after 3 s, and some other time. */
-static const uint64_t epochs[EPOCHS] = {
-    0,
-    (UINT64_C(7) << 32U) - UINT64_C(30) * TICKS_PER_MS,
-    (UINT64_C(1) << 32U) - UINT64_C(3) * TICK_HZ,
-    UINT64_C(0x123456789ABCD),
-};
-
 static struct fuzz_pos live;
 
 static void mix(uint64_t number)
 {
-    live.hash = (live.hash ^ number) * HASH_PRIME;
+    live.hash = fuzz_digest(live.hash, number);
 }
 
 /* ---- pins ------------------------------------------------------------------------------------------------------ */
@@ -67,7 +53,7 @@ static void step_seen(void *context, uint64_t tick, unsigned motor, bool backwar
     live.pin[motor] += backward ? -1 : 1;
     FUZZ_REQUIRE(pos_axis_is_busy(axis) && pos_axis_moves(axis));
     FUZZ_REQUIRE(axis->negative == backward);
-    FUZZ_REQUIRE(live.pulse_tick[motor] == 0 || tick - live.pulse_tick[motor] >= (uint64_t)APART_TICKS_MIN);
+    FUZZ_REQUIRE(live.pulse_tick[motor] == 0 || tick - live.pulse_tick[motor] >= (uint64_t)FUZZ_APART_TICKS_MIN);
     FUZZ_REQUIRE(live.turn_tick[motor] == 0 || tick - live.turn_tick[motor] >= HOST_SETUP_TICKS);
     int64_t outside = outside_um(axis, live.pin[motor]);
     FUZZ_REQUIRE(outside == 0 || outside <= outside_um(axis, before));
@@ -431,7 +417,7 @@ void fuzz_pos_run(struct fuzz_pos *fuzz, uint64_t ticks)
 
 static void switch_on(void)
 {
-    live.machine.faults.late_tick_ticks = LATE_TICKS;
+    live.machine.faults.late_tick_ticks = FUZZ_LATE_TICKS;
     memset(live.pin, 0, sizeof live.pin);
     memset(live.turn_tick, 0, sizeof live.turn_tick);
     live.heard_tick = live.machine.now;
@@ -443,9 +429,9 @@ static void switch_on(void)
 struct fuzz_pos *fuzz_pos_begin(unsigned epoch)
 {
     memset(&live, 0, sizeof live);
-    live.hash = HASH_SEED;
-    host_machine_init(&live.machine, epochs[epoch % EPOCHS]);
-    live.machine.ahead_ticks = AHEAD_TICKS;
+    live.hash = FUZZ_DIGEST_SEED;
+    host_machine_init(&live.machine, fuzz_epoch_tick(epoch));
+    live.machine.ahead_ticks = FUZZ_AHEAD_TICKS;
     live.machine.listener = (struct host_listener){
         .step = step_seen, .direction = direction_seen, .line = line_seen, .output = output_seen, .input = input_seen};
     host_machine_select(&live.machine);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base_tick.h"
+#include "fuzz_crc.h"
 #include "fuzz_stream.h"
 
 enum {
@@ -15,27 +16,12 @@ void fuzz_pos_line_begin(struct fuzz_pos_line *line, struct fuzz_pos *fuzz)
     *line = (struct fuzz_pos_line){.fuzz = fuzz, .deaf = true, .last_tick = fuzz->machine.now};
 }
 
-static uint32_t crc_of(const uint8_t *bytes, uint32_t length)
-{
-    uint32_t rest = 0xFFFF;
-    uint32_t turned = 0;
-    for (uint32_t bit = 0; bit < length * 8U; bit++) {
-        uint32_t in = ((uint32_t)bytes[bit / 8U] >> (bit % 8U)) & 1U;
-        uint32_t out = (rest >> 15U) ^ in;
-        rest = ((rest << 1U) & 0xFFFFU) ^ (out * 0x8005U);
-    }
-    for (uint32_t bit = 0; bit < 16U; bit++) {
-        turned |= ((rest >> bit) & 1U) << (15U - bit);
-    }
-    return turned;
-}
-
 static bool is_good(const uint8_t *bytes, uint32_t length)
 {
     if (length < 4 || length > 256) {
         return false;
     }
-    uint32_t crc = crc_of(bytes, length - 2U);
+    uint32_t crc = fuzz_crc(bytes, length - 2U);
     return bytes[length - 2U] == (crc & 0xFFU) && bytes[length - 1U] == (crc >> 8U);
 }
 
@@ -134,7 +120,7 @@ void fuzz_pos_line_ask(struct fuzz_pos_line *line, const uint8_t *bytes, uint32_
     uint8_t frame[FUZZ_POS_FRAME_ROOM];
     uint32_t executed = line->fuzz->executed;
     memcpy(frame, bytes, length);
-    uint32_t crc = crc_of(frame, length);
+    uint32_t crc = fuzz_crc(frame, length);
     frame[length] = (uint8_t)(crc & 0xFFU);
     frame[length + 1U] = (uint8_t)(crc >> 8U);
     fuzz_pos_line_put(line, frame, length + 2U, UINT32_MAX);

@@ -16,12 +16,12 @@
 #include <string.h>
 
 #include "base_tick.h"
+#include "fuzz_host.h"
 #include "fuzz_pos_line.h"
 #include "fuzz_stream.h"
 
 enum {
     OPERATIONS_MAX = 48,
-    EDGE_UNIT_US = 10,
     TIME_UNIT_US = 50,
     STORE = 40,
     UNIT_SETTINGS = 3,
@@ -203,19 +203,11 @@ static void do_bytes(struct fuzz_stream *stream, unsigned operand)
 
 static void do_edge(struct fuzz_stream *stream, unsigned operand)
 {
-    unsigned input = 1U + operand % 8U;
-    bool level = operand / 8U % 2U != 0;
     if (operand / 16U == 0) {
-        host_machine_set_input(&run.fuzz->machine, input, level);
+        host_machine_set_input(&run.fuzz->machine, 1U + operand % 8U, operand / 8U % 2U != 0);
         return;
     }
-    uint64_t time = fuzz_take_byte(stream);
-    run.edge = (struct host_input){
-        .tick = run.fuzz->machine.now + time * time * EDGE_UNIT_US * TICKS_PER_US,
-        .input = (uint8_t)input,
-        .level = level,
-    };
-    host_machine_set_script(&run.fuzz->machine, &run.edge, 1);
+    fuzz_order_edge(&run.fuzz->machine, &run.edge, stream, operand);
 }
 
 /* The same once more: no word is executed again, nothing that is stored is written again. */
@@ -343,13 +335,7 @@ static uint64_t run_once(struct fuzz_stream stream, unsigned epoch)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    struct fuzz_stream stream = fuzz_stream_of(data, size);
-    uint8_t head = fuzz_take_byte(&stream);
-    uint64_t hash = run_once(stream, head);
-    if ((head & 0x80U) != 0) {
-        FUZZ_REQUIRE(run_once(stream, head + 1U) == hash);
-    }
-    return 0;
+    return fuzz_run_at_epochs(data, size, run_once);
 }
 
 /* What chance alone would take long to write; axis, and bytes by chance. */
@@ -384,11 +370,5 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsi
     uint8_t piece[PIECE_ROOM];
     size_t length = put_piece(piece, seed / 3U, seed / 32U);
     size = LLVMFuzzerMutate(data, size, max_size);
-    if (seed % 3U == 0 || size == 0 || size + length > max_size) {
-        return size;
-    }
-    size_t place = 1U + seed / 256U % size;
-    memmove(&data[place + length], &data[place], size - place);
-    memcpy(&data[place], piece, length);
-    return size + length;
+    return seed % 3U == 0 ? size : fuzz_insert(data, size, max_size, 1, seed / 256U, piece, length);
 }

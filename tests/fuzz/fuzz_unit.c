@@ -16,6 +16,7 @@
 #include "base_tick.h"
 #include "frames.h"
 #include "fuzz_commands.h"
+#include "fuzz_host.h"
 #include "fuzz_stream.h"
 #include "fuzz_unit_bench.h"
 
@@ -118,11 +119,8 @@ static void do_request(struct talk *t, const uint8_t *message, uint32_t length, 
 
 static void do_message(struct talk *t, struct fuzz_stream *stream, bool broadcast)
 {
-    const uint8_t *message = stream->bytes + stream->next;
-    size_t left = stream->length - stream->next;
-    const uint8_t *end = memchr(message, 0, left);
-    size_t length = end != NULL ? (size_t)(end - message) : left;
-    stream->next += end != NULL ? length + 1U : length;
+    size_t length = 0;
+    const uint8_t *message = fuzz_take_text(stream, &length);
     if (length != 0 && length <= MESSAGE_MAX) {
         do_request(t, message, (uint32_t)length, broadcast);
     }
@@ -160,11 +158,8 @@ static void do_again(struct talk *t, unsigned place)
 
 static void take_noise(struct talk *t, struct fuzz_stream *stream)
 {
-    const uint8_t *bytes = stream->bytes + stream->next;
-    size_t left = stream->length - stream->next;
-    const uint8_t *end = memchr(bytes, 0, left);
-    size_t length = end != NULL ? (size_t)(end - bytes) : left;
-    stream->next += end != NULL ? length + 1U : length;
+    size_t length = 0;
+    const uint8_t *bytes = fuzz_take_text(stream, &length);
     if (length > 0 && length <= FRAME_MAX) {
         do_noise(t, bytes, (uint32_t)length);
     }
@@ -172,23 +167,10 @@ static void take_noise(struct talk *t, struct fuzz_stream *stream)
 
 static void do_trouble(struct talk *t, unsigned operand)
 {
-    struct host_faults *faults = &t->fuzz->machine.faults;
-    uint32_t at = t->fuzz->machine.flash_operations + 1U + operand / 4U;
-    switch (operand % 4U) {
-    case 0:
-        faults->flash_fail_at = at;
-        break;
-    case 1:
-        faults->flash_silent_at = at;
-        break;
-    case 2:
-        faults->flash_cut_after = at;
-        break;
-    default:
+    if (!fuzz_order_flash_fault(&t->fuzz->machine, operand)) {
         fuzz_unit_restart(t->fuzz);
         t->open = false;
         t->answered = false;
-        break;
     }
 }
 
@@ -242,27 +224,17 @@ static uint64_t run_once(struct fuzz_stream stream, unsigned epoch)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    struct fuzz_stream stream = fuzz_stream_of(data, size);
-    uint8_t head = fuzz_take_byte(&stream);
-    uint64_t digest = run_once(stream, head);
-    if ((head & 0x80U) != 0) {
-        FUZZ_REQUIRE(run_once(stream, head + 1U) == digest);
-    }
-    return 0;
+    return fuzz_run_at_epochs(data, size, run_once);
 }
 
 /* The beginning of a request of some kind, or a command somewhere. */
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed)
 {
     size = LLVMFuzzerMutate(data, size, max_size);
-    if (seed % 4U == 0 && size + 4U <= max_size && size > 0) {
-        size_t at = 1U + seed / 4U % size;
-        memmove(data + at + 4, data + at, size - at);
-        data[at] = 0;
-        data[at + 1] = (uint8_t)((seed >> 20U) % 3U);
-        data[at + 2] = (uint8_t)(1U + (seed >> 16U) % 8U);
-        data[at + 3] = (uint8_t)('0' + (seed >> 12U) % 5U);
-        return size + 4U;
+    if (seed % 4U == 0) {
+        const uint8_t begin[] = {0, (uint8_t)((seed >> 20U) % 3U), (uint8_t)(1U + (seed >> 16U) % 8U),
+                                 (uint8_t)('0' + (seed >> 12U) % 5U)};
+        return fuzz_insert(data, size, max_size, 1, seed / 4U, begin, sizeof begin);
     }
     return seed % 4U == 1 ? size : fuzz_insert_command(data, size, max_size, 1, seed / 4U);
 }

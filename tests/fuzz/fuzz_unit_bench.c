@@ -5,21 +5,13 @@
 #include <string.h>
 
 #include "base_tick.h"
+#include "fuzz_host.h"
 #include "fuzz_stream.h"
 
 enum {
     COPIED_BYTES = offsetof(struct fuzz_unit, machine) + offsetof(struct host_machine, flash),
     ERASED = 0xFF,
-    LINE_BYTE_TICKS = 800,         /* the line is quicker than it should be, so that long answers take no time */
-    LATE_TICKS = 5 * TICKS_PER_US, /* the tick interrupt after an edge, as on a board */
-};
-
-/* 0, a wrap of the 32-bit counter after 30 ms, one after 3 s, and some other time. */
-static const uint64_t epochs[FUZZ_EPOCHS] = {
-    0,
-    (UINT64_C(7) << 32U) - UINT64_C(30) * TICKS_PER_MS,
-    (UINT64_C(1) << 32U) - UINT64_C(3) * TICK_HZ,
-    UINT64_C(0x123456789ABCD),
+    LINE_BYTE_TICKS = 800, /* the line is quicker than it should be, so that long answers take no time */
 };
 
 static struct fuzz_unit live;
@@ -53,7 +45,7 @@ static bool is_over(void *context)
 
 static void switch_on(void)
 {
-    live.machine.faults.late_tick_ticks = LATE_TICKS;
+    live.machine.faults.late_tick_ticks = FUZZ_LATE_TICKS;
     rkm04_init(&live.unit);
     rkm04_start(&live.unit);
 }
@@ -62,7 +54,7 @@ static void make_fresh(unsigned which)
 {
     memset(&live, 0, sizeof live);
     live.judged = (struct judged_unit){.unit = &live.unit, .judge = &live.judge, .machine = &live.machine};
-    judge_unit_begin(&live.judged, epochs[which]);
+    judge_unit_begin(&live.judged, fuzz_epoch_tick(which));
     host_machine_set_byte_ticks(&live.machine, LINE_BYTE_TICKS);
     live.machine.listener.line = on_line;
     switch_on();

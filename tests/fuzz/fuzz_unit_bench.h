@@ -16,7 +16,6 @@
 #include "rkm04.h"
 
 enum {
-    FUZZ_EPOCHS = 4,
     FUZZ_PULSES_MAX = 1500,
     FUZZ_PASSES_MAX = 1500,
     FUZZ_SENT_MAX = 2 * MESSAGES_ANSWER_BYTES_MAX + 64,
