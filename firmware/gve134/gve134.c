@@ -211,7 +211,6 @@ static void serve(struct gve134 *unit, const struct gve_request *request)
     } else {
         serve_command(unit, request, &reply);
     }
-    send(unit, hal_time_now());
 }
 
 /* What H or W has waited for. */
@@ -237,7 +236,6 @@ static void act_at_once(struct gve134 *unit)
         return;
     }
     if (gve_line_ends_with(&unit->line, GVE_RESET)) {
-        unit->waiting = (uint8_t)GVE134_WAITS_NOT;
         do {
             (void)gve_line_next(&unit->line, &request);
         } while (!is_command(&request, GVE_RESET));

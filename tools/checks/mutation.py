@@ -107,7 +107,19 @@ MODULES = (
         "gve-queue", "gve134/queue", ("gve_queue.c", "gve_queue_home.c", "gve_queue_stop.c"), (),
         ("unit/gve134/queue", "system/gve134"),
     ),
-    Module("gve-unit", "gve134", ("gve134_execute.c", "gve134_packet.c"), (), ("system/gve134",)),
+    Module(
+        "gve-unit", "gve134", ("gve134.c", "gve134_execute.c", "gve134_packet.c"), (),
+        ("system/gve134",),
+    ),
+    Module("gve-command", "gve134/command", ("gve_command.c", "gve_table.c", "gve_words.c"), ()),
+    Module(
+        "gve-line", "gve134/line", ("gve_answer.c", "gve_line.c", "gve_receiver.c"), (),
+        ("unit/gve134/line", "system/gve134"),
+    ),
+    Module(
+        "gve-memory", "gve134/memory",
+        ("gve_big.c", "gve_float_put.c", "gve_float_read.c", "gve_memory.c"), (),
+    ),
     Module(
         "pos-modbus", "positioning/modbus",
         (

@@ -258,6 +258,21 @@ void test_a_reset_waits_for_its_answer_to_go_out(void)
     rig_expect("0@", "0,0");
 }
 
+void test_a_reset_switches_outputs_off_before_its_answer_is_out(void)
+{
+    rig_expect("0O0,F0", "0");
+    rig_expect("7V300", "0");
+    rig_expect("0L1000", "0");
+    rig_run_ms(300);
+    rig_send("!0H\r");
+    TEST_ASSERT_EQUAL_HEX8(0xF1, rig_outputs);
+    fill_line();
+    rig_send("!0J\r");
+    TEST_ASSERT_EQUAL_HEX8(0, rig_outputs);
+    TEST_ASSERT_EQUAL_UINT32(0, rig_pwm);
+    TEST_ASSERT_EQUAL_STRING("0\r", heard_after_what_filled_it());
+}
+
 void test_256_bytes_that_come_while_h_waits_are_kept(void)
 {
     static char burst[300];

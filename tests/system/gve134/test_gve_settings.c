@@ -264,6 +264,48 @@ void test_positions_wrap_as_numbers_of_32_bits(void)
     memset(rig_position, 0, sizeof rig_position);
 }
 
+static bool shows_data(void)
+{
+    return (rig_leds & 0x04U) != 0;
+}
+
+void test_the_data_led_shows_bytes_that_come_without_an_answer(void)
+{
+    rig_run_ms(30);
+    TEST_ASSERT_FALSE(shows_data());
+    rig_send("!3P\r");
+    TEST_ASSERT_TRUE(shows_data());
+    rig_run_ms(19);
+    TEST_ASSERT_TRUE(shows_data());
+    rig_run_ms(2);
+    TEST_ASSERT_FALSE(shows_data());
+    TEST_ASSERT_EQUAL_UINT32(0, rig_heard_count);
+}
+
+void test_the_data_led_shows_an_answer_that_goes_out_late(void)
+{
+    rig_expect("0V20000", "0");
+    rig_expect("0L60000", "0");
+    rig_run_ms(1200);
+    rig_heard_count = 0;
+    rig_send("!0H\r");
+    rig_run_ms(100);
+    TEST_ASSERT_FALSE(shows_data());
+    TEST_ASSERT_EQUAL_STRING("8", rig_answer_within(2000));
+    TEST_ASSERT_TRUE(shows_data());
+    rig_run_ms(30);
+    TEST_ASSERT_FALSE(shows_data());
+}
+
+void test_a_switch_that_is_closed_at_power_on_is_known_in_the_first_pass(void)
+{
+    host_machine_restart(&machine);
+    rig_input(3, false);
+    rig_begin();
+    (void)gve134_poll(&unit);
+    TEST_ASSERT_EQUAL_HEX8(0x41, rig_leds);
+}
+
 void test_leds_show_run_data_relay_and_reference_switches(void)
 {
     rig_run_ms(30);

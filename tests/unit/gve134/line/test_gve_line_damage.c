@@ -61,6 +61,21 @@ void test_a_silence_that_nobody_has_looked_for_is_seen_at_the_next_byte(void)
     assert_next(GVE_FLAGS);
 }
 
+void test_a_silence_that_nobody_has_looked_for_is_seen_at_bytes_that_come_together(void)
+{
+    take("!0L10");
+    tick += GAP_TICKS;
+    take_together("00\r!0F\r");
+    assert_next_kind(GVE_REQUEST_DAMAGE);
+    assert_next(GVE_FLAGS);
+    assert_nothing();
+    take("!0L!");
+    tick += SILENCE_TICKS;
+    take_together("!0F\r");
+    assert_next_kind(GVE_REQUEST_DAMAGE);
+    assert_next(GVE_FLAGS);
+}
+
 void test_a_byte_with_an_error_in_a_command_is_damage(void)
 {
     take("!0L1");
