@@ -157,18 +157,13 @@ static inline uint64_t step_cursor_pulse(const struct step_cursor *cursor);
 */
 static const struct step_segment *queue_slot(const struct step_channel *channel, uint32_t count);
 
-/*@ requires \valid(cursor) && \valid_read(channel) && \separated(cursor, &channel->queue[0 .. 31]);
-    requires cursor->tail != head ==> channel->queue[cursor->tail % 32].steps >= 1;
+/*@ requires \valid(cursor) && \valid_read(segment) && \separated(cursor, segment) && segment->steps >= 1;
     assigns *cursor;
-    ensures \result <==> \old(cursor->tail) != head;
-    ensures !\result ==> cursor->tail == \old(cursor->tail) && cursor->left == \old(cursor->left) &&
-        cursor->end == \old(cursor->end);
-    ensures \result ==> cursor->tail == (uint32_t)(\old(cursor->tail) + 1);
-    ensures \result ==> cursor->left == channel->queue[\old(cursor->tail) % 32].steps - 1;
-    ensures \result && \old(cursor->end) <= 0x2000000000000000 ==>
-        cursor->end == \old(cursor->end) + channel->queue[\old(cursor->tail) % 32].steps;
+    ensures cursor->tail == (uint32_t)(\old(cursor->tail) + 1);
+    ensures cursor->left == \old(segment->steps) - 1;
+    ensures \old(cursor->end) <= 0x2000000000000000 ==> cursor->end == \old(cursor->end) + \old(segment->steps);
 */
-static inline bool cursor_begin_segment(struct step_cursor *cursor, const struct step_channel *channel, uint32_t head);
+static inline void cursor_begin_segment(struct step_cursor *cursor, const struct step_segment *segment);
 
 /*@ requires \valid(cursor) && \valid_read(channel) && \separated(cursor, &channel->queue[0 .. 31]);
     requires cursor->tail != head ==> channel->queue[cursor->tail % 32].steps >= 1;
@@ -206,7 +201,7 @@ void step_channel_follow(struct step_cursor *cursor, const struct step_channel *
 void step_channel_keep_nothing(struct step_channel *channel);
 
 /*@ requires is_sound(channel) && is_pushable(channel, segment);
-    assigns channel->queue[channel->head % 32], channel->head, channel->backward;
+    assigns channel->queue[channel->head % 32], channel->head, channel->backward, channel->pushed;
     ensures is_sound(channel) && queued(channel) == \old(queued(channel)) + 1;
     ensures channel->head == (uint32_t)(\old(channel->head) + 1);
     ensures channel->queue[\old(channel->head) % 32].steps == \old(segment->steps);
@@ -214,6 +209,12 @@ void step_channel_keep_nothing(struct step_channel *channel);
         channel->queue[x % 32].steps == \old(channel->queue[x % 32].steps);
 */
 void step_channel_append(struct step_channel *channel, const struct step_segment *segment);
+
+/*@ requires \valid_read(channel);
+    assigns \nothing;
+    ensures \result <==> channel->cursor.left == 0 && channel->cursor.tail == channel->head && channel->running;
+*/
+static bool channel_is_dry(const struct step_channel *channel);
 
 /*@ requires \valid_read(channel);
     assigns \nothing;
