@@ -269,6 +269,22 @@ def test_the_unit_keeps_real_time_with_four_motors_at_16000_steps_per_s(alone):
     assert last["unit"]["clock"]["load"] <= LOAD_MAX
 
 
+@pytest.mark.parametrize("lets_go", [False, True])
+def test_a_page_that_falls_silent_while_it_holds_a_button_has_all_motors_stopped(alone, lets_go):
+    text = "\\S200 V2000 A8000 G+"
+    orders: list[dict[str, Any]] = [
+        {"type": "hold", "held": True},
+        {"type": "request", "id": 1, "message": "send", "motor": 1, "text": text},
+    ]
+    orders += [{"type": "hold", "held": False}] if lets_go else []
+    told = alone.evaluate(UNIT, [orders, 2])
+
+    stops = [one for one in told if one.get("message") == "stop"]
+    last = [one for one in told if one["type"] == "live"][-1]
+    assert len(stops) == (0 if lets_go else 1)
+    assert last["motors"][0]["moving"] == lets_go
+
+
 def test_what_was_asked_long_ago_is_not_done_but_a_stop_is(alone):
     beat = -1
     told = alone.evaluate(

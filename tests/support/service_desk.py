@@ -21,7 +21,8 @@ class Desk:
 
     def __init__(self) -> None:
         self.told: list[dict[str, Any]] = []
-        self.worker = Worker(self.told.append, lambda: True, VirtualLine())
+        self.units = VirtualLine()
+        self.worker = Worker(self.told.append, lambda: True, self.units)
         self.worker.start()
         self._numbers = itertools.count(1)
         self._seen = 0

@@ -10,7 +10,7 @@ from typing import Any
 from rkm04_tools.service import virtual
 from rkm04_tools.service.browsers import Aside, IsLate, Tell
 from rkm04_tools.service.fields import Asked
-from rkm04_tools.service.orders import Connect, ListPorts, SetInput, Stop, read_order
+from rkm04_tools.service.orders import Connect, Hold, ListPorts, SetInput, Stop, read_order
 from rkm04_tools.service.ports import ports
 from rkm04_tools.service.trouble import BadRequest, Late
 from rkm04_tools.service.virtual import VirtualLine
@@ -48,6 +48,8 @@ class UnitDesk:
             self._worker.stop(asked, order.nodes)  # better late than never
         elif isinstance(order, ListPorts):
             return ports
+        elif isinstance(order, Hold):
+            self._hold(order, client, late)
         elif isinstance(order, SetInput):
             if late:
                 raise Late
@@ -57,6 +59,13 @@ class UnitDesk:
         else:
             self._worker.give(order, asked)
         return None
+
+    def _hold(self, order: Hold, client: int, late: bool) -> None:
+        """What comes too late, or without a line, holds nothing."""
+        if not order.held:
+            self._worker.holds.let_go(client)
+        elif not late and self._worker.state.connected:
+            self._worker.holds.hold(client)
 
     def _set_input(self, order: SetInput) -> None:
         state = self._worker.state

@@ -100,12 +100,19 @@ class SetInput:
 
 
 @dataclass(frozen=True)
+class Hold:
+    """A button that makes a motor run is `held`, or has been let go."""
+
+    held: bool
+
+
+@dataclass(frozen=True)
 class ListPorts:
     """Tell which ports there are."""
 
 
 Work: TypeAlias = Connect | Disconnect | Request | Act
-Order: TypeAlias = Connect | Disconnect | Request | Act | Stop | SetInput | ListPorts
+Order: TypeAlias = Connect | Disconnect | Request | Act | Stop | SetInput | Hold | ListPorts
 
 
 def read_order(text: str) -> tuple[Order, Asked]:
@@ -139,6 +146,8 @@ def _order(told: Mapping[str, Any]) -> Order:
         return SetInput(
             whole_of(told, "input", range(1, 9)), whole_of(told, "level", range(2)) == 1
         )
+    if kind == "hold":
+        return Hold(flag_of(told, "held"))
     if kind == "stop":
         return Stop(_nodes(told.get("nodes")))
     for name, order in (("disconnect", Disconnect()), ("ports", ListPorts())):

@@ -21,6 +21,7 @@ from rkm04_tools.messages import ALL_MOTORS, SET_COMMAND, VERSION
 from rkm04_tools.service import talking, virtual
 from rkm04_tools.service.answers import Answer, answer_of, whose
 from rkm04_tools.service.fields import Asked
+from rkm04_tools.service.holding import Holds
 from rkm04_tools.service.live import LOOKING, View
 from rkm04_tools.service.orders import (
     MESSAGES,
@@ -94,6 +95,8 @@ class Worker:
         self._tell = tell
         self._is_watched = is_watched
         self._units = units
+        self.holds = Holds()
+        """Who of them falls silent while it holds a button has all motors stopped."""
         self._view = View(tell)
         self._state = State()
         self._line: Line | None = None
@@ -164,30 +167,41 @@ class Worker:
 
     def _run(self) -> None:
         while not self._closing:
+            self._mind_holds()
             with self._wakes:
                 self._wakes.wait_for(self._has_work, self._rest_seconds())
+                is_lost = self.holds.is_lost()
                 stops = [self._stops.popleft() for _ in range(len(self._stops))]
-                work = self._waiting.popleft() if self._waiting and not stops else None
+                is_free = not stops and not is_lost
+                work = self._waiting.popleft() if self._waiting and is_free else None
             if self._closing:
                 break
             if stops:
                 self._do_stop(stops)
             elif work:
                 self._do(*work)
-            else:
+            elif not is_lost:
                 self._look()
         self._close_line()
 
+    def _mind_holds(self) -> None:
+        """Stop all motors if a browser that held a button has fallen silent."""
+        if self.holds.is_lost():
+            self.holds.forget()
+            self.stop(Asked())
+
     def _has_work(self) -> bool:
-        return bool(self._closing or self._stops or self._waiting)
+        return bool(self._is_stop_wanted() or self._waiting)
 
     def _is_stop_wanted(self) -> bool:
-        return self._closing or bool(self._stops)
+        return self._closing or bool(self._stops) or self.holds.is_lost()
 
     def _rest_seconds(self) -> float | None:
+        held = self.holds.rest_seconds()
         if not self._line and not self._state.away:
-            return None
-        return max(0.0, self._look_due - time.monotonic())
+            return held
+        look = max(0.0, self._look_due - time.monotonic())
+        return look if held is None else min(look, held)
 
     def _do(self, order: Work, asked: Asked, since: float) -> None:
         if time.monotonic() - since > TURN_SECONDS:

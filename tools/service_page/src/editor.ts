@@ -117,6 +117,20 @@ export class Editor {
         this.#view.focus();
     }
 
+    /** Puts a text at the cursor of the shown program, apart from what stands there. */
+    insert(text: string): void {
+        const { state } = this.#view;
+        const { from, to } = state.selection.main;
+        const before = state.sliceDoc(Math.max(0, from - 1), from);
+        const after = state.sliceDoc(to, to + 1);
+        const gap = (beside: string): string => (beside === "" || /\s/.test(beside) ? "" : " ");
+        const insert = `${gap(before)}${text}${text.endsWith("\n") ? "" : gap(after)}`;
+        this.#view.dispatch({
+            changes: { from, to, insert }, selection: { anchor: from + insert.length },
+            scrollIntoView: true, annotations: isolateHistory.of("full"),
+        });
+    }
+
     find(): void {
         openSearchPanel(this.#view);
     }

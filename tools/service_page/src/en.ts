@@ -1,5 +1,8 @@
+import { commissionEn } from "./commission_en";
+
 /** The words of the page in English; the keys of this dictionary are those of every other. */
 export const en = {
+    ...commissionEn,
     "page.title": "RKM04 service",
     "page.language": "Language",
 

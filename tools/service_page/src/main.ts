@@ -1,4 +1,5 @@
 import { AllPrograms } from "./all_programs";
+import { Commission } from "./commission";
 import { Commands } from "./commands";
 import { Connection } from "./connection";
 import { byId } from "./dom";
@@ -61,8 +62,14 @@ machine.content.watch((content) => {
 });
 
 stop.onPress(() => commands.forgetReset());
+const commission = new Commission(link, presence, {
+    motor: programs.shown,
+    insert: (text) => programs.insert(text),
+    stop: () => stop.press(),
+});
+stop.onPress(() => commission.stopped());
 link.onRefused((message) => {
-    if (message.type !== "ports") {
+    if (message.type !== "ports" && message.type !== "hold") {
         const name = message.type === "request" ? message.message : message.type;
         log.say(name, { cause: t(engine === null ? "state.notSent" : "alone.notSent"), next: "" });
     }

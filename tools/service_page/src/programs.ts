@@ -99,6 +99,11 @@ export class Programs {
         this.#editor.goTo(line, column);
     }
 
+    /** Puts a text at the cursor of the shown program. */
+    insert(text: string): void {
+        this.#editor.insert(text);
+    }
+
     #listen(): void {
         const file = byId("file", HTMLInputElement);
         byId("open", HTMLButtonElement).addEventListener("click", () => file.click());

@@ -27,6 +27,8 @@ export type ToService =
     | { type: "stop"; id: number; nodes: Node[] }
     | { type: "resume" | "reset"; id: number }
     | { type: "speed"; id: number; motor: number; value: number }
+    /** A button that makes a motor run is held; who falls silent meanwhile has all motors stopped. */
+    | { type: "hold"; held: boolean }
     | { type: "input"; input: number; level: 0 | 1 };
 
 export interface RequestParts {

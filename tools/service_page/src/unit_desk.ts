@@ -3,6 +3,7 @@ import type { FromService, Node, UnitState } from "./protocol";
 import type { Simulator } from "./simulator";
 import { answerOf, nameOf, type Asked, type Order, type StopOrder } from "./unit_answer";
 import { Beats } from "./unit_beats";
+import { Grip } from "./unit_grip";
 import * as messages from "./unit_messages";
 import { UnitOrders, type Exchange, type Got } from "./unit_orders";
 import { BROADCAST, LineTrouble, OPENING, Refusal, USUAL, type Place, type Wait } from "./unit_place";
@@ -39,6 +40,7 @@ export class UnitDesk {
     readonly #close: () => void;
     readonly #fail: (error: unknown) => void;
     readonly #beats = new Beats();
+    readonly #grip = new Grip();
     #place: Place | null;
     /** Why there is none. */
     #why: Refusal = NOT_CONNECTED;
@@ -99,6 +101,9 @@ export class UnitDesk {
         if (this.#beats.isDue(now_ms)) {
             this.#tell({ type: "beat", beat: this.#beats.next(now_ms) });
         }
+        if (this.#grip.isLost(now_ms)) {
+            this.obey({ type: "stop", id: 0, nodes: [] }, now_ms);
+        }
         this.#go();
     }
 
@@ -108,6 +113,9 @@ export class UnitDesk {
             this.#stops.push(asked);
             this.#place?.hurry();
             this.#giveUp(STOPPED);
+        } else if (asked.type === "hold") {
+            const isMeant = this.#place !== null && !this.#beats.isLate(asked.beat, now_ms);
+            this.#grip.set(asked.held && isMeant, now_ms);
         } else if (asked.type === "input") {
             this.#setInput(asked, now_ms);
         } else if (asked.type !== "ports") {

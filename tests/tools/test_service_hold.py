@@ -1,0 +1,62 @@
+"""A button that is held: who falls silent meanwhile has all motors stopped, and nobody else."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+
+import pytest
+from rkm04_tools.service import virtual
+from rkm04_tools.service.holding import HOLD_SECONDS, Holds
+from rkm04_tools.service.orders import Request
+from service_desk import Desk
+
+MINE, OTHER = 1, 2
+RUNS = Request("send", 1, "\\S200 V2000 A8000 G+")
+
+
+@pytest.fixture
+def desk() -> Iterator[Desk]:
+    desk = Desk()
+    desk.connect(virtual.NAME)
+    yield desk
+    desk.stop()
+    desk.worker.close()
+    desk.units.close()
+
+
+def is_moving(desk: Desk) -> bool:
+    return bool(desk.live()["motors"][0]["moving"])
+
+
+def test_a_browser_that_falls_silent_while_it_holds_a_button_has_all_motors_stopped(desk):
+    desk.worker.holds.hold(MINE)
+    desk.ask(RUNS)
+    assert is_moving(desk)
+
+    answer = desk.until(lambda told: told["type"] == "answer" and told["message"] == "stop")
+
+    assert answer["error"] is None
+    assert (answer["id"], answer["from"]) == (None, None)
+    desk.until(lambda told: told["type"] == "live" and not told["motors"][0]["moving"])
+
+
+def test_a_button_that_is_held_or_let_go_stops_nothing(desk):
+    desk.ask(RUNS)
+    for _ in range(10):
+        desk.worker.holds.hold(MINE)
+        time.sleep(HOLD_SECONDS / 4)
+    desk.worker.holds.let_go(MINE)
+    time.sleep(2 * HOLD_SECONDS)
+    assert is_moving(desk)
+
+
+def test_each_browser_holds_for_itself():
+    holds = Holds()
+    holds.hold(MINE)
+    holds.hold(OTHER)
+    holds.let_go(MINE)
+    assert holds.rest_seconds() is not None
+    holds.let_go(OTHER)
+    assert holds.rest_seconds() is None
+    assert not holds.is_lost()
