@@ -92,6 +92,23 @@ void test_the_longest_name_wins(void)
     assert_code(GVE_WRONG_SYNTAX, "VX");
 }
 
+void test_a_long_name_with_too_much_after_it_is_not_taken_for_a_short_one(void)
+{
+    assert_fault(GVE_FAULT_SURPLUS, 2, "VK10");
+    assert_fault(GVE_FAULT_SURPLUS, 2, "VN200000");
+    assert_fault(GVE_FAULT_SURPLUS, 2, "PF0");
+    TEST_ASSERT_EQUAL_UINT(GVE_CORRECTED, read("VK10").command.opcode);
+    TEST_ASSERT_EQUAL_UINT(GVE_POSITION_3, read("PF0").command.opcode);
+}
+
+void test_what_stands_after_the_text_does_not_count(void)
+{
+    static const uint8_t bytes[] = "L1,-5";
+    struct gve_reading reading = gve_command_read(bytes, 3, GVE_ADDRESS_INTERPOLATOR);
+    TEST_ASSERT_EQUAL_INT(GVE_FAULT_NO_DECIMAL, reading.fault);
+    TEST_ASSERT_EQUAL_UINT32(3, reading.place);
+}
+
 void test_what_no_name_fits_is_unknown(void)
 {
     static const char *const texts[] = {"",   "X", "X5", "E", "E5", "S", "I",   "I3",   "%",
@@ -99,6 +116,7 @@ void test_what_no_name_fits_is_unknown(void)
     for (unsigned i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         assert_fault(GVE_FAULT_UNKNOWN, 0, texts[i]);
         TEST_ASSERT_EQUAL_UINT(GVE_OPCODES, read(texts[i]).command.opcode);
+        TEST_ASSERT_EQUAL_UINT32(0, read(texts[i]).parameter);
     }
 }
 
@@ -232,7 +250,8 @@ void test_wrong_syntax_is_told_whatever_else_is_out_of_bounds(void)
         "ER/0",        "ER:0",      "ER@0",    "N,5",         "ER0G",       "EW01",
         "EW01,",       "EW01,09,1", "EFW10,",  "EFW10,1.",    "EFW10,x",    "SW,1",
         "?1",          "PF0",       "H5",      "*S1",         "*E",         "*Ex",
-        "%+,5C",       "@1",        "J0",      "SW9,G1",      "EFW1000,.5",
+        "%+,5C",       "@1",        "J0",      "SW9,G1",      "EFW1000,.5", "V1:",
+        "V1/",         "V99999:",
     };
     for (unsigned i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         assert_code(GVE_WRONG_SYNTAX, texts[i]);

@@ -165,3 +165,11 @@ void test_with_checksums_bytes_outside_of_lines_are_damage_without_an_answer(voi
     take("\r\n\r!0F,C3\r");
     assert_next(GVE_FLAGS);
 }
+
+void test_with_checksums_a_byte_between_lines_that_come_together_is_damage(void)
+{
+    switch_sums_on();
+    take_together("!0F,C3\rx!0F,C3\r");
+    assert_next(GVE_FLAGS);
+    assert_damage_is_not_answered();
+}

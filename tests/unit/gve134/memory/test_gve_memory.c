@@ -184,6 +184,22 @@ void test_a_bit_that_has_changed_makes_the_bytes_those_delivered_and_is_told(voi
     assert_damaged_until_the_next_write();
 }
 
+void test_what_an_earlier_image_has_stored_is_read(void)
+{
+    static const uint8_t mark[] = {'G', 'V', 'E', 1};
+    uint8_t text[sizeof mark + GVE_MEMORY_BYTES];
+    memcpy(text, mark, sizeof mark);
+    for (unsigned i = 0; i < GVE_MEMORY_BYTES; i++) {
+        text[sizeof mark + i] = (uint8_t)(i * 7U);
+    }
+    TEST_ASSERT_EQUAL_INT(STORE_OK, store_save(&memory.store, GVE_MEMORY_SLOT, text, sizeof text));
+
+    restart();
+
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(&text[sizeof mark], memory.bytes, GVE_MEMORY_BYTES);
+    TEST_ASSERT_FALSE(memory.damaged);
+}
+
 void test_a_text_of_another_length_or_without_the_mark_is_damage(void)
 {
     static uint8_t other[STORE_TEXT_BYTES_MAX];
