@@ -24,6 +24,7 @@ def busy_page(browser: Browser, service: Service) -> Iterator[ServicePage]:
         page.send("\\ C100 S100 V20000 F400 R\n{ a second line }")
         expect(page.page.locator(".cm-lintRange-error")).to_have_count(1)
         page.page.locator("#commission").evaluate("(panel) => (panel.open = true)")
+        page.page.locator("#help-open").click()
         page.page.locator("#scan").click()
         expect(page.page.locator("#found button")).not_to_have_count(0)
         yield page

@@ -15,7 +15,7 @@ VIOLATIONS = """async () => {
 }"""
 
 OUTSIDE = """() => [...document.querySelectorAll("header *, main *")]
-    .filter((part) => !part.closest(".cm-editor, .uplot, .spoken, #code-lines"))
+    .filter((part) => !part.closest(".cm-editor, .uplot, .spoken, #code-lines, .drawn"))
     .filter((part) => part.checkVisibility())
     .filter((part) => {
         const { left, right, width } = part.getBoundingClientRect();

@@ -6,6 +6,7 @@ import standaloneCode from "ajv/dist/standalone/index.js";
 import { build } from "esbuild";
 import { copyFile, mkdir, readFile } from "node:fs/promises";
 import { join } from "node:path";
+import { helpPages } from "./help_pages.mjs";
 
 const out = process.env.RKM04_SERVICE_OUT ?? "../../build/service";
 
@@ -35,7 +36,7 @@ await build({
         { in: "positioning.css", out: "positioning" },
     ],
     outdir: out,
-    plugins: [rules],
+    plugins: [rules, helpPages],
     bundle: true,
     minify: true,
     format: "esm",

@@ -1,9 +1,11 @@
 import { commissionCs } from "./commission_cs";
+import { helpCs } from "./help_cs";
 import type { Dictionary } from "./i18n";
 
 /** The words of the page in Czech; names of messages and fields are those of the original service program. */
 export const cs: Dictionary = {
     ...commissionCs,
+    ...helpCs,
     "page.title": "Servis RKM04",
     "page.language": "Jazyk",
 

@@ -1,3 +1,4 @@
+import { startCompletion } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, invertedEffects, isolateHistory } from "@codemirror/commands";
 import { lintGutter, lintKeymap, linter, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, openSearchPanel, search, searchKeymap } from "@codemirror/search";
@@ -18,6 +19,7 @@ import {
     keymap,
     lineNumbers,
 } from "@codemirror/view";
+import { completion } from "./completion";
 import type { Draft } from "./drafts";
 import { newForm, type FileForm } from "./file_form";
 import { highlighting } from "./highlight";
@@ -131,6 +133,12 @@ export class Editor {
         });
     }
 
+    /** Offers the commands that can stand at the cursor. */
+    complete(): void {
+        this.#view.focus();
+        startCompletion(this.#view);
+    }
+
     find(): void {
         openSearchPanel(this.#view);
     }
@@ -171,6 +179,7 @@ export class Editor {
                 highlightSelectionMatches(),
                 search({ top: true }),
                 highlighting,
+                completion,
                 linter(null),
                 lintGutter(),
                 EditorView.lineWrapping,

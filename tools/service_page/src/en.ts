@@ -1,8 +1,10 @@
 import { commissionEn } from "./commission_en";
+import { helpEn } from "./help_en";
 
 /** The words of the page in English; the keys of this dictionary are those of every other. */
 export const en = {
     ...commissionEn,
+    ...helpEn,
     "page.title": "RKM04 service",
     "page.language": "Language",
 

@@ -1,3 +1,4 @@
+import type { CommandRow } from "help-pages";
 import { language } from "./i18n";
 
 type Words = readonly [en: string, cs: string];
@@ -75,6 +76,19 @@ function keyOf(command: string): string {
     const number = Number(command.slice(1));
     const starts = [100, 80, 75, 40, 1].filter((start) => `${letter}${start}` in MEANINGS);
     return `${letter}${starts.find((start) => number >= start) ?? ""}`;
+}
+
+/** How a command of the table is written, with `n` for its number. */
+export function syntaxOf({ letter, form }: CommandRow): string {
+    const ends = { NONE: "", NUMBER: "n", IO: "n", SIGNED: "n", PLUS: "+", MINUS: "-", HIGH: "nHn", LOW: "nLn" };
+    return letter + ends[form];
+}
+
+/** What a command of the table means; empty where nobody has said it. */
+export function meaningOf(row: CommandRow): string {
+    const sign = { PLUS: "+", MINUS: "-" }[row.form as string] ?? "";
+    const words = MEANINGS[keyOf(`${row.letter}${sign || (row.form === "NUMBER" || row.form === "IO" ? row.min : "")}`)];
+    return words?.[language.value === "cs" ? 1 : 0] ?? "";
 }
 
 /** The command at a place of a text, and what it means; empty where there is none. */

@@ -4,6 +4,7 @@ import { Commands } from "./commands";
 import { Connection } from "./connection";
 import { byId } from "./dom";
 import { engine } from "./engine";
+import { HelpPanel } from "./help_panel";
 import { setUpLanguage, t } from "./i18n";
 import { parseInputs } from "./inputs_text";
 import { Link } from "./link";
@@ -68,6 +69,7 @@ const commission = new Commission(link, presence, {
     stop: () => stop.press(),
 });
 stop.onPress(() => commission.stopped());
+new HelpPanel((example) => programs.take(example));
 link.onRefused((message) => {
     if (message.type !== "ports" && message.type !== "hold") {
         const name = message.type === "request" ? message.message : message.type;

@@ -20,6 +20,7 @@ const CZECH: Record<string, string> = {
     go: "přejít",
     Diagnostics: "Chyby a varování",
     "No diagnostics": "Bez chyb",
+    Completions: "Příkazy",
 };
 
 /** The editor's own words (search, list of errors); the editor itself speaks English. */

@@ -99,6 +99,13 @@ export class Programs {
         this.#editor.goTo(line, column);
     }
 
+    /** Puts an example in the place of the shown program, and its inputs in that of others. */
+    take(example: Example): void {
+        this.#sayOfFile("");
+        this.replace(this.shown.value, example.text, newForm(example.name));
+        this.#on.example(example);
+    }
+
     /** Puts a text at the cursor of the shown program. */
     insert(text: string): void {
         this.#editor.insert(text);
@@ -109,6 +116,7 @@ export class Programs {
         byId("open", HTMLButtonElement).addEventListener("click", () => file.click());
         file.addEventListener("change", () => void this.#open(file));
         byId("save", HTMLButtonElement).addEventListener("click", () => void this.#save());
+        byId("commands", HTMLButtonElement).addEventListener("click", () => this.#editor.complete());
         byId("find", HTMLButtonElement).addEventListener("click", () => this.#editor.find());
         this.#verdict.addEventListener("click", () => this.#goToProblem());
         window.addEventListener("keydown", (event) => {
@@ -262,9 +270,7 @@ export class Programs {
         this.#examples.addEventListener("input", () => {
             const example = examples[Number(this.#examples.value || -1)];
             if (example) {
-                this.#sayOfFile("");
-                this.replace(this.shown.value, example.text, newForm(example.name));
-                this.#on.example(example);
+                this.take(example);
             }
         });
     }

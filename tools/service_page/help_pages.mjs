@@ -1,0 +1,104 @@
+// Makes the module `help-pages` of what the page shows of the project's own documents: their text, section by section,
+// and the table of commands. There is no second copy of either.
+import { Marked } from "marked";
+import { readFile } from "node:fs/promises";
+import { basename, posix } from "node:path";
+
+const ROOT = "../..";
+const DOCUMENTS = [
+    "firmware/rkm04/docs/language.md",
+    "firmware/rkm04/docs/unit.md",
+    "firmware/docs/motion.md",
+    "firmware/rkm04/docs/messages.md",
+    "firmware/rkm04/docs/line.md",
+];
+const TABLE = "firmware/rkm04/program/program_opcodes.def";
+/** Sections have headings of these depths; the title of a document is a section of its own. */
+const DEPTH_MAX = 3;
+/** A document's title stands below that of the panel, which is a second one. */
+const BELOW = 2;
+
+/** All that the module is made of, from the root of the project. */
+export const sources = [...DOCUMENTS, TABLE];
+
+const escaped = (text) =>
+    text.replace(/[&<>"]/g, (sign) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[sign]);
+
+/** The anchor of a heading, as GitHub makes it. */
+const slug = (text) =>
+    text.toLowerCase().replace(/[^\p{L}\p{N}\s_-]/gu, "").trim().replace(/\s/g, "-");
+
+const anchor = (document, heading) => `help-${basename(document, ".md")}${heading ? `-${heading}` : ""}`;
+
+/** Where a link leads in the page; null: to what is not in it. */
+function placeOf(document, href) {
+    const [path, heading = ""] = href.split("#");
+    const wanted = path === "" ? document : posix.normalize(posix.join(posix.dirname(document), path));
+    return DOCUMENTS.includes(wanted) ? anchor(wanted, heading) : null;
+}
+
+function rendererOf(document) {
+    return {
+        heading({ tokens, depth, text }) {
+            const words = this.parser.parseInline(tokens);
+            const id = anchor(document, depth === 1 ? "" : slug(text));
+            return `<h${depth + BELOW} id="${id}">${words}</h${depth + BELOW}>`;
+        },
+        link({ href, tokens }) {
+            const words = this.parser.parseInline(tokens);
+            if (/^https?:/.test(href)) {
+                return `<a href="${escaped(href)}" target="_blank" rel="noreferrer">${words}</a>`;
+            }
+            const place = placeOf(document, href);
+            return place === null ? words : `<a href="#${place}">${words}</a>`;
+        },
+        image: ({ text }) => escaped(text),
+        code({ text, lang }) {
+            const code = `<code>${escaped(text)}</code>`;
+            return lang === "rks"
+                ? `<div class="program"><pre>${code}</pre></div>`
+                : `<pre class="drawn" tabindex="0">${code}</pre>`;
+        },
+        html: ({ text }) => escaped(text),
+    };
+}
+
+async function pageOf(document) {
+    const marked = new Marked({ renderer: rendererOf(document) });
+    const tokens = marked.lexer(await readFile(`${ROOT}/${document}`, "utf8"));
+    const sections = [];
+    for (const token of tokens) {
+        if (sections.length === 0 || (token.type === "heading" && token.depth <= DEPTH_MAX)) {
+            sections.push([]);
+        }
+        sections.at(-1).push(token);
+    }
+    const title = tokens.find(({ type, depth }) => type === "heading" && depth === 1).text;
+    return { id: anchor(document, ""), title, sections: sections.map((part) => marked.parser(part)) };
+}
+
+const ROW = /^X\((\w+), '(\\?.)', (\w+), (-?\d+), (-?\d+)\)$/;
+
+async function commands() {
+    const rows = (await readFile(`${ROOT}/${TABLE}`, "utf8")).split("\n").filter((line) => line.startsWith("X("));
+    return rows.map((row) => {
+        const [, name, letter, form, min, max] = ROW.exec(row) ?? [];
+        if (name === undefined) {
+            throw new Error(`${TABLE}: ${row} is no row of a command`);
+        }
+        return { name, letter: letter.at(-1), form, min: Number(min), max: Number(max) };
+    });
+}
+
+/** A plugin of esbuild. */
+export const helpPages = {
+    name: "help-pages",
+    setup(builder) {
+        builder.onResolve({ filter: /^help-pages$/ }, () => ({ path: "help-pages", namespace: "help" }));
+        builder.onLoad({ filter: /./, namespace: "help" }, async () => {
+            const pages = await Promise.all(DOCUMENTS.map(pageOf));
+            const text = { pages, commands: await commands() };
+            return { contents: JSON.stringify(text), loader: "json" };
+        });
+    },
+};

@@ -1,0 +1,22 @@
+/** The words of the help in English. */
+export const helpEn = {
+    "help.title": "Help",
+    "help.open": "Help",
+    "help.openLabel": "The language, its commands, examples that can be tried, messages, the line",
+    "help.about": "language, commands, examples, messages",
+    "help.english": "",
+    "help.search": "Search",
+    "help.places": "Documents",
+    "help.commands": "Commands",
+    "help.examples": "Examples",
+    "help.command": "Command",
+    "help.range": "n",
+    "help.meaning": "Meaning",
+    "help.try": "Put into the editor and simulate",
+    "help.name": "example.rks",
+    "help.none": "Nothing has all of these words.",
+    "help.found": "sections found: {found}",
+    "help.replaces": "An example takes the place of the program that is shown; undo (Ctrl+Z) brings that back. Nothing is sent.",
+    "editor.commands": "Commands",
+    "editor.commandsLabel": "Commands that can stand at the cursor (Ctrl+Space)",
+};
