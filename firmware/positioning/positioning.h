@@ -20,15 +20,15 @@
 
 struct pos_unit {
     struct io io;
-    struct pos_registers registers;
-    struct pos_settings settings;
-    struct modbus server;
-    struct pos_write write; /* of the request in hand */
-    struct pos_axis axes[POS_AXES];
     struct hal_client client;
     uint64_t start_tick;
     uint64_t leds_tick; /* when the LEDs are to be looked at */
     uint32_t silences;
+    struct pos_settings settings;
+    struct modbus server;
+    struct pos_registers registers;
+    struct pos_write write; /* of the request in hand */
+    struct pos_axis axes[POS_AXES];
 };
 
 /* Start values; takes the stored settings, by which the line is set. Nothing moves. */

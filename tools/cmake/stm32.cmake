@@ -20,11 +20,12 @@ set(image_header ${PROJECT_SOURCE_DIR}/firmware/${FIRMWARE_UNIT}/image/image.h)
 file(STRINGS ${image_header} stack REGEX "^#define IMAGE_STACK_BYTES ")
 string(REGEX REPLACE "^#define IMAGE_STACK_BYTES " "" stack_bytes "${stack}")
 
-# And whether it is to be small rather than fast; the step interrupt is fast in any case.
+# And whether it is to be small rather than fast; the step interrupt is fast in any case. Asserts then have no words.
 file(STRINGS ${image_header} small REGEX "^#define IMAGE_SMALL 1$")
 if(small)
     foreach(stage IN LISTS FIRMWARE_STAGES)
         string(REPLACE / _ library ${stage})
+        target_include_directories(${library} BEFORE PRIVATE ${PROJECT_SOURCE_DIR}/hal/stm32/small)
         if(NOT library STREQUAL engine_step)
             target_compile_options(${library} PRIVATE -Os)
         endif()

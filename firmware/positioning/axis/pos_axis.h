@@ -71,7 +71,6 @@ enum pos_phase {
  *   main             everything else
  */
 struct pos_axis {
-    struct pos_drive drive;
     struct pos_frame frame;
     struct pos_watch watch;
     const uint32_t *settings;           /* values of the axis' registers, by enum pos_axis_register */
@@ -97,6 +96,7 @@ struct pos_axis {
     bool found;    /* the switch that homing seeks; reference_step is right */
     bool turned;   /* DIR, as the settings had it */
     uint16_t backlash_um;
+    struct pos_drive drive;
 };
 
 /* Free, at position 0. The values of the settings must live as long. */

@@ -49,7 +49,6 @@ struct modbus_setup {
 };
 
 struct modbus {
-    struct modbus_receiver receiver;
     struct modbus_request request;
     struct modbus_identity identity;
     uint64_t heard_tick;     /* the end of the last good frame to this unit's own address; 0: there was none */
@@ -60,6 +59,7 @@ struct modbus {
     uint8_t state;
     uint8_t node;
     bool owed; /* an answer to the request in hand may still begin */
+    struct modbus_receiver receiver;
     uint8_t answer[MODBUS_FRAME_BYTES_MAX];
 };
 

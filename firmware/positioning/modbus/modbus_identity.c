@@ -56,12 +56,14 @@ static enum modbus_exception read_objects(const uint8_t *bytes, uint32_t length,
 static uint32_t put_object(const struct modbus_identity *identity, uint32_t object, uint8_t *answer, uint32_t place)
 {
     const char *text = identity->objects[object];
-    size_t length = strlen(text);
-    assert(length <= (size_t)MODBUS_OBJECT_CHARACTERS_MAX);
+    uint32_t length = 0;
+    for (; text[length] != '\0'; length++) {
+        answer[place + 2U + length] = (uint8_t)text[length];
+    }
+    assert(length <= (uint32_t)MODBUS_OBJECT_CHARACTERS_MAX);
     answer[place] = (uint8_t)object;
     answer[place + 1U] = (uint8_t)length;
-    memcpy(&answer[place + 2U], text, length);
-    return place + 2U + (uint32_t)length;
+    return place + 2U + length;
 }
 
 enum modbus_exception modbus_identity_answer(const struct modbus_identity *identity, const uint8_t *bytes,

@@ -22,8 +22,8 @@ struct pos_written {
 };
 
 struct pos_write {
-    struct pos_written written[POS_WRITE_MAX];
     uint32_t count; /* of the values */
+    struct pos_written written[POS_WRITE_MAX];
 };
 
 /* Takes `count` registers, 1 to POS_WRITE_MAX, from `first` on. False: a value is out of its range, or one of STEPS

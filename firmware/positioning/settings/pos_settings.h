@@ -16,9 +16,9 @@ enum {
 };
 
 struct pos_settings {
-    struct store store;
     bool damaged; /* what was stored is not used, until something is stored again */
     bool other;   /* the settings in force are not those that are stored, or delivered where nothing is stored */
+    struct store store;
 };
 
 /* Finds what is stored, and puts it into the registers; where nothing is, or it is damaged, the delivered settings. */
