@@ -48,7 +48,6 @@ struct group_manner {
  * interrupt lays pulses from the channels, which are the caller's.
  */
 struct group {
-    struct path path;
     struct group_manner manner;
     bool speeds_wait;                          /* other speeds are ready, and are to be taken */
     struct step_channel *channel[UNIT_MOTORS]; /* NULL: the motor is not of the group */
@@ -56,6 +55,7 @@ struct group {
     uint8_t motors[PATH_AXES];                 /* that follow the axis: a bit each */
     _Atomic unsigned state;                    /* enum axis_state */
     _Atomic unsigned cause; /* enum axis_cause, of the present or last motion; set once, by what stops it */
+    struct path path;
 };
 
 /* Stands, without vectors and motors. The ring, `size` places, a power of two and at least 2, is the caller's, who

@@ -8,7 +8,7 @@
 
 enum {
     /* From the plan's begin to the place: what planning takes, and the lead of the step output. */
-    LEAD_TICKS = 330 * TICKS_PER_US,
+    LEAD_TICKS = PATH_EARLY_US_MAX * TICKS_PER_US,
     LEAD_TICKS_MAX = 8 * LEAD_TICKS,
     LOOK_TICKS = TICKS_PER_US * 2 / 3, /* more for each section that is looked at, with another speed or not */
     REACH_TICKS = TICK_HZ,             /* a place that is further ahead waits until the motors are nearer */
@@ -146,6 +146,7 @@ static bool find(struct group *group, uint64_t lead, struct path_place *place)
     struct path_wish wish = {
         .tick = hal_time_now() + lead,
         .patience_ticks = group->manner.between_steps ? (uint64_t)PATIENCE_TICKS : TICK_NEVER / 2U,
+        .early_ticks = group->manner.between_steps ? (uint64_t)LEAD_TICKS : 0U,
         .accel = accel_of(group),
     };
     bool found = path_find(&group->path, &wish, place);

@@ -52,7 +52,10 @@ uint32_t path_speed_at(struct path *path, uint32_t section, uint32_t step)
     if (section - path->first >= path->laid - path->first) {
         return 0;
     }
-    struct path_entry at = path_course_step(path_lay_course(path, section), step);
+    struct wide place = path_wide_multiply(path_section_grains_per_step(path_section_of(path, section)), step);
+    bool before = path_lay_is_before(path, section) && path_wide_is_at_least(path->origin.entry.place, place);
+    const struct path_course *course = before ? &path->before.course : path_lay_course(path, section);
+    struct path_entry at = path_course_step(course, step);
     return (uint32_t)wide_root_nearest((struct wide){.low = at.speed2});
 }
 
@@ -77,6 +80,7 @@ bool path_start(struct path *path, uint64_t start_tick)
     path->stopping = false;
     path->chain = path->end;
     path_section_of(path, place.section)->turning = 0;
+    path->before.valid = false;
     path_lay_begin(path, &place);
     return true;
 }

@@ -16,6 +16,7 @@
 
 #include "path_course.h"
 #include "path_vector.h"
+#include "base_tick.h"
 #include "../step/step_segment.h"
 
 /* A place at which a change can take effect. Sections are counted from path_init on. */
@@ -72,9 +73,10 @@ struct path {
     struct path_entry next;   /* the entry of section `laid` */
     uint64_t border2;         /* its speed2 in terms of borders, unless it is the origin's section */
     struct path_place rest;   /* where it comes to rest: right when laid = known */
-    struct path_kept kept[PATH_KEPT];
     struct path_speeds speeds;
     struct path_cursor axis[PATH_AXES];
+    struct path_kept kept[PATH_KEPT];
+    struct path_kept before; /* the section of the origin as it goes up to there, where the path was changed in it */
 };
 
 /* An empty path that stands. `size` places, a power of two, at least 2. `turn_us`: DIR wants so much time from the last
@@ -102,8 +104,9 @@ void path_set_start_speed(struct path *path, uint32_t start_speed);
  * Look-ahead comes later, once for all vectors that have been added until the path hangs on them. */
 bool path_add(struct path *path, const struct path_vector *vector);
 
-/* The speed with which the path comes through a whole step of a section's longest axis, as it is planned; where it
- * was changed after that step, the speed at the change. 1/256 step/s; 0 where the section has not been laid. */
+/* The speed with which the path comes through a whole step of a section's longest axis, as it is planned, or was before
+ * the last change, if that comes after the step; where it was changed between that step and the last change, the speed
+ * at the one before. 1/256 step/s; 0 where the section has not been laid. */
 uint32_t path_speed_at(struct path *path, uint32_t section, uint32_t step);
 
 /* Whether a change would make the path faster or longer, as vectors have been added after it had been laid so far that
@@ -123,12 +126,19 @@ struct path_wish {
     uint64_t tick;
     uint64_t patience_ticks; /* in a cruise, also one that begins within so many more, a place between steps is
                                 taken if no step is due within them */
+    uint64_t early_ticks;    /* up to PATH_EARLY_US_MAX. On a ramp, where no step is due for so long, a step up to so
+                                many earlier than `tick`, if whatever follows a change there comes at `tick` or later */
     uint32_t accel;          /* for a stop with an acceleration of its own, 1 to PATH_ACCEL_MAX; else 0 */
+};
+
+enum {
+    PATH_EARLY_US_MAX = 330
 };
 
 /* The first whole step of the longest axis that is due at or after the wish, or, in a cruise, a place between steps
  * about then, or where the cruise begins. Where the path left its stand or was changed last counts as a step, so that
- * what comes together acts together; not between steps for a stop with an acceleration of its own. False if the path
+ * what comes together acts together, unless it is in a cruise until then, and no step is due within the patience; not
+ * between steps for a stop with an acceleration of its own. False if the path
  * comes to rest before. Lays sections up to the wish, goes back over those of the ring at most, and looks at five steps
  * at most. */
 bool path_find(struct path *path, const struct path_wish *wish, struct path_place *place);

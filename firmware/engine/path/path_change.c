@@ -11,7 +11,18 @@ struct look {
     const struct path_course *course;
     const struct path_leg *leg;
     uint64_t tick;
+    uint64_t early_tick; /* from which on a step may count that is earlier */
 };
+
+/* A step is earlier than the wish only where the path is no faster: with the highest acceleration it does not come to
+ * the next step within PATH_EARLY_US_MAX. */
+enum {
+    EARLY_STEPS_PER_S = 1500,
+    EARLY_ACCEL = PATH_ACCEL_MAX / 128 / 1000000 /* steps/ms^2 */
+};
+static_assert(PATH_EARLY_US_MAX * EARLY_STEPS_PER_S + PATH_EARLY_US_MAX * PATH_EARLY_US_MAX * EARLY_ACCEL / 2 < 1000000,
+              "the way, in millionths, is less than a step");
+static const uint32_t EARLY_SPEED = UINT32_C(256) * EARLY_STEPS_PER_S;
 
 /* Whether a time is at or after a tick. */
 static bool is_due(struct wide time, uint64_t tick)
@@ -101,6 +112,19 @@ static bool find_between(struct look look, uint64_t until_tick, uint64_t grains_
     return stays;
 }
 
+/* The step before one, if it counts. */
+static bool find_early(const struct look *look, uint64_t step, uint64_t grains_per_step, struct path_entry *entry)
+{
+    struct path_entry early = path_course_step(look->course, step - 1U);
+    bool counts = early.time.high >= look->early_tick && early.speed2 <= (uint64_t)EARLY_SPEED * EARLY_SPEED &&
+                  path_wide_is_equal(early.place, path_wide_multiply(look->course->grains_per_step, step - 1U));
+    if (counts) {
+        *entry = early;
+        entry->place = path_wide_multiply(grains_per_step, step - 1U);
+    }
+    return counts;
+}
+
 /* Finds a place in a section; false if the path rests in it before one comes. */
 BASE_APART static bool find_in(const struct look *look, uint64_t patience_ticks, uint64_t grains_per_step,
                                struct path_entry *entry)
@@ -109,13 +133,15 @@ BASE_APART static bool find_in(const struct look *look, uint64_t patience_ticks,
     uint64_t last = wide_divide(look->course->end, look->course->grains_per_step, &rest);
     uint64_t step = find_step(look);
     bool follows = step <= last;
+    step = follows ? step : last + 1U;
     if (follows) {
         *entry = path_course_step(look->course, step);
         entry->place = path_wide_multiply(grains_per_step, step);
     }
     uint64_t until_tick = look->tick + patience_ticks;
     bool soon = follows && entry->time.high <= until_tick;
-    return soon || find_between(*look, until_tick, grains_per_step, entry) || follows;
+    return soon || find_between(*look, until_tick, grains_per_step, entry) ||
+           find_early(look, step, grains_per_step, entry) || follows;
 }
 
 /* The last section that is entered before a tick, none before the plan's origin; laid, if the path goes so
@@ -148,6 +174,18 @@ static bool pass_border(const struct path *path, struct path_place *place)
     return true;
 }
 
+/* In the cruise that the path is in before the place that it has been planned from. */
+static bool find_before(const struct path *path, const struct path_wish *wish, struct path_place *place)
+{
+    uint64_t until_tick = wish->tick + wish->patience_ticks;
+    if (!path->before.valid || !is_due(path->origin.entry.time, until_tick)) {
+        return false;
+    }
+    struct look look = {.course = &path->before.course, .tick = wish->tick};
+    look.leg = leg_at(look.course, wish->tick);
+    return find_between(look, until_tick, path_lay_grains(path, place), &place->entry);
+}
+
 /* Where the path has been planned from, which is yet to come: it is no later than the first step. Not between two steps
  * with an acceleration whose grains it may not be a whole number of. */
 static bool find_origin(const struct path *path, const struct path_wish *wish, struct path_place *place)
@@ -173,12 +211,15 @@ bool path_find(struct path *path, const struct path_wish *wish, struct path_plac
     place->section = section_at(path, wish->tick);
     place->accel = wish->accel;
     struct look look = {.course = path_lay_course(path, place->section), .tick = wish->tick};
+    if (is_due(path->origin.entry.time, wish->tick) &&
+        (find_before(path, wish, place) || find_origin(path, wish, place))) {
+        return true;
+    }
     if (look.course->legs == 0) {
         return false;
     }
-    if (is_due(path->origin.entry.time, wish->tick) && find_origin(path, wish, place)) {
-        return true;
-    }
+    bool slow = path->start_speed <= EARLY_SPEED;
+    look.early_tick = slow ? wish->tick - wish->early_ticks : TICK_NEVER;
     look.leg = leg_at(look.course, wish->tick);
     return find_in(&look, wish->patience_ticks, path_lay_grains(path, place), &place->entry) &&
            pass_border(path, place);
@@ -261,8 +302,21 @@ bool path_back(const struct path *path, const struct path_place *place, uint64_t
     return true;
 }
 
+/* How the path goes up to a place after its origin. */
+static void keep_before(struct path *path, const struct path_place *place)
+{
+    const struct path_kept *kept = &path->kept[place->section % PATH_KEPT];
+    bool later =
+        place->section != path->origin.section || !path_wide_is_at_least(path->origin.entry.time, place->entry.time);
+    if (later) {
+        path->before = *kept;
+        path->before.valid = kept->valid && kept->section == place->section;
+    }
+}
+
 static void plan_from(struct path *path, const struct path_place *place, bool stopping)
 {
+    keep_before(path, place);
     if (place->accel != 0) {
         set_accel(path, place);
     }

@@ -24,6 +24,12 @@ static inline const struct path_course *path_lay_course(struct path *path, uint3
     return kept->valid && kept->section == count ? &kept->course : path_lay_anew(path, count);
 }
 
+/* Whether path->before is of the section of a count, in which the path was changed. */
+static inline bool path_lay_is_before(const struct path *path, uint32_t count)
+{
+    return path->before.valid && count == path->origin.section;
+}
+
 /* In which a place counts: so many are a step. */
 uint64_t path_lay_grains(const struct path *path, const struct path_place *place);
 

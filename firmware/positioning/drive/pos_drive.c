@@ -23,6 +23,9 @@ void pos_drive_init(struct pos_drive *drive, unsigned motor)
     drive->room = 0;
     drive->speed = 0;
     drive->stirred = false;
+    drive->stirred_at = UINT64_MAX;
+    drive->noted = UINT64_MAX;
+    drive->noted_speed = 0;
     step_channel_init(&drive->channel, motor);
     group_init(&drive->group, drive->ring, POS_DRIVE_SECTIONS);
     group_connect(&drive->group, motor, &drive->channel, AXIS);
@@ -69,11 +72,36 @@ void pos_drive_aim(struct pos_drive *drive, const struct pos_measure *measure)
     add(drive);
 }
 
+static uint64_t made(const struct pos_drive *drive)
+{
+    int64_t way = pos_drive_steps(drive) - drive->origin_steps;
+    return (uint64_t)(drive->measure.backward ? -way : way);
+}
+
+static uint32_t speed_at(struct pos_drive *drive, uint64_t pulses)
+{
+    return group_speed_at(&drive->group, (uint32_t)(pulses / SECTION_PULSES), (uint32_t)(pulses % SECTION_PULSES));
+}
+
+/* Before it is planned anew. The path forgets how fast it was at a pulse, where it is changed again before the next. */
+static void stir(struct pos_drive *drive)
+{
+    uint64_t pulses = made(drive);
+    if (pulses == drive->stirred_at && pulses != drive->noted) {
+        drive->noted_speed = speed_at(drive, pulses);
+        drive->noted = pulses;
+    }
+    drive->stirred_at = pulses;
+    drive->stirred = true;
+}
+
 void pos_drive_start(struct pos_drive *drive, uint32_t speed, uint64_t start_tick)
 {
     drive->speed = speed;
     drive->start_tick = start_tick;
     drive->stirred = true;
+    drive->stirred_at = UINT64_MAX;
+    drive->noted = UINT64_MAX;
     group_set_speeds(&drive->group, &(struct group_speeds){.of = positioning_speed_of, .context = drive});
     bool started = group_start(&drive->group, start_tick);
     assert(started);
@@ -83,19 +111,19 @@ void pos_drive_start(struct pos_drive *drive, uint32_t speed, uint64_t start_tic
 void pos_drive_change(struct pos_drive *drive, uint32_t speed)
 {
     drive->speed = speed;
-    drive->stirred = true;
+    stir(drive);
     group_set_speeds(&drive->group, &(struct group_speeds){.of = positioning_speed_of, .context = drive});
 }
 
 void pos_drive_hold(struct pos_drive *drive)
 {
-    drive->stirred = true;
+    stir(drive);
     (void)group_stop(&drive->group, AXIS_CAUSE_PAUSE);
 }
 
 void pos_drive_fault(struct pos_drive *drive)
 {
-    drive->stirred = true;
+    stir(drive);
     (void)group_stop(&drive->group, AXIS_CAUSE_FAULT);
 }
 
@@ -153,12 +181,6 @@ bool pos_drive_is_busy(const struct pos_drive *drive)
     return group_is_busy(&drive->group);
 }
 
-static uint64_t made(const struct pos_drive *drive)
-{
-    int64_t way = pos_drive_steps(drive) - drive->origin_steps;
-    return (uint64_t)(drive->measure.backward ? -way : way);
-}
-
 uint64_t pos_drive_left(const struct pos_drive *drive)
 {
     return drive->measure.pulses - made(drive);
@@ -180,5 +202,5 @@ uint32_t pos_drive_speed(struct pos_drive *drive)
         return 0;
     }
     uint64_t pulses = made(drive);
-    return group_speed_at(&drive->group, (uint32_t)(pulses / SECTION_PULSES), (uint32_t)(pulses % SECTION_PULSES));
+    return pulses == drive->noted ? drive->noted_speed : speed_at(drive, pulses);
 }

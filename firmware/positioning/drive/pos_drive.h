@@ -39,18 +39,21 @@ struct pos_measure {
  *   main             everything else
  */
 struct pos_drive {
-    struct step_channel channel;
-    struct group group;
-    struct path_section ring[POS_DRIVE_SECTIONS];
     struct pos_measure measure;
     uint64_t to_add;      /* pulses of the measure that are not in the ring yet */
     uint64_t start_tick;  /* of the motion in progress */
     uint64_t wake_tick;   /* the group wants to be polled then, if nothing else comes before */
     int64_t origin_steps; /* where the measure began */
-    uint32_t speed;       /* wanted by all sections */
-    uint32_t room;        /* of the channel's queue after the last poll */
+    uint64_t stirred_at;  /* pulses of the measure when it was planned anew last; UINT64_MAX: it has not been */
+    uint64_t noted;       /* at the last one of so many the speed has been noted; UINT64_MAX: it has not been */
+    uint32_t noted_speed;
+    uint32_t speed; /* wanted by all sections */
+    uint32_t room;  /* of the channel's queue after the last poll */
     uint8_t motor;
     bool stirred; /* planned anew since the last poll: more is to be handed over soon */
+    struct step_channel channel;
+    struct path_section ring[POS_DRIVE_SECTIONS];
+    struct group group;
 };
 
 /* Stands at step 0. */

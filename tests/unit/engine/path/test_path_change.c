@@ -424,7 +424,8 @@ void test_a_stop_at_a_stand_moves_nothing(void)
     place = rig.path.origin;
     TEST_ASSERT_TRUE(rig_stop(&rig, &place, back));
     TEST_ASSERT_EQUAL_UINT(0, pulses(0, UINT64_MAX));
-    TEST_ASSERT_FALSE(find(5000000, UINT64_MAX / 2U));
+    TEST_ASSERT_FALSE(find(5000001, UINT64_MAX / 2U));
+    TEST_ASSERT_TRUE(find(5000000, UINT64_MAX / 2U));
     TEST_ASSERT_EQUAL_UINT64(5000000, rig.path.rest.entry.time.high);
 }
 
@@ -470,11 +471,15 @@ void test_the_speed_at_a_step_is_that_of_the_plan(void)
     TEST_ASSERT_EQUAL_UINT32(0, path_speed_at(&rig.path, 0, 1000));
 }
 
-void test_the_speed_at_a_step_before_a_change_is_that_at_the_change(void)
+void test_the_speed_at_a_step_before_two_changes_is_that_at_the_first_one(void)
 {
     start();
     all_pulses(UINT64_MAX);
     TEST_ASSERT_TRUE(find(1000 + 2940000, UINT64_MAX / 2U));
+    TEST_ASSERT_TRUE(rig_stop(&rig, &place, back));
+    all_pulses(UINT64_MAX);
+    TEST_ASSERT_EQUAL_UINT32(2000 * PATH_SPEED_UNITS, path_speed_at(&rig.path, 0, 2));
+    TEST_ASSERT_TRUE(find(place.entry.time.high + 8400 * 20, UINT64_MAX / 2U));
     TEST_ASSERT_TRUE(rig_stop(&rig, &place, back));
     all_pulses(UINT64_MAX);
     TEST_ASSERT_EQUAL_UINT32(10000 * PATH_SPEED_UNITS, path_speed_at(&rig.path, 0, 2));

@@ -98,8 +98,10 @@ void test_a_stop_of_what_is_no_faster_than_the_start_speed_rests_at_once(void)
     change_at(168000 * 10, true);
     TEST_ASSERT_EQUAL_UINT(0, pulses(UINT64_MAX));
     TEST_ASSERT_EQUAL_UINT64(1680000, rig.path.rest.entry.time.high);
-    const struct path_wish wish = {.tick = 168000 * 10};
+    struct path_wish wish = {.tick = 168000 * 10 + 1};
     TEST_ASSERT_FALSE(path_find(&rig.path, &wish, &place));
+    wish.tick--;
+    TEST_ASSERT_TRUE(path_find(&rig.path, &wish, &place));
 }
 
 void test_a_stop_brakes_through_vectors_down_to_the_start_speed(void)
