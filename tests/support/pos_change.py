@@ -139,7 +139,7 @@ def _shown(
 ) -> Iterator[tuple[int, Family, bool]]:
     """What is known of a family at a change, if that comes behind none, one, two of the pulses.
 
-    The last one is known well enough, or all pulses have come.
+    The last one is known well enough, or all pulses have come, or all of the curve.
     """
     parts = [family]
     for index in range(len(ahead) + 1):
@@ -147,7 +147,8 @@ def _shown(
         yield from ((seen + index, part, True) for part in settled)
         parts = [part for part in parts if not _settled(part, tick)]
         over = index == len(ahead)
-        yield from ((seen + index, part, over) for part in parts)
+        made = seen + index
+        yield from ((made, p, over or any(c.count <= made for c in p.both)) for p in parts)
         if over or not parts:
             return
         number, next_pulse = seen + index + 1, ahead[index : index + 1]

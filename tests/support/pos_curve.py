@@ -159,7 +159,7 @@ class Curve:
     blur: float = 0.0
     """By how many steps it may be wrong, as pulses did not tell where a change took effect."""
     blur_ticks: float = 0.0
-    """By how many ticks it may be wrong, as it was changed at a pulse when it was wrong."""
+    """By how many ticks more it may be wrong, as it was changed at pulses when it was wrong."""
     start: int = -1
     """Which leg is the first after a stand; -1: none."""
 
@@ -239,7 +239,8 @@ class Curve:
             kept[-1] = replace(kept[-1], x1=Fraction(x))
         legs = (*kept, *lay(Fraction(x), at, time, order))
         speed = max(math.sqrt(at / 2) / SPEED_UNITS / TICK_HZ, SLOWEST)
-        blur_ticks = max(self.blur_ticks, self.blur / speed)
+        # a curve that is ahead by `blur` has the speed of a place so far ahead: it gains by it
+        blur_ticks = self.blur_ticks + self.blur / speed
         curve = finished(legs, Fraction(x), time, order.end, self.blur)
         return replace(curve, start=self.start, blur_ticks=blur_ticks)
 

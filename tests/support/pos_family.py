@@ -9,6 +9,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 from pos_curve import BITS, SLOWEST, Curve, Ticks
+from pos_words import ACCEL_UNITS
+from reference import TICK_HZ
 
 TOLERANCE = 1.0 + 2**-6
 """Ticks; the little is for floats, and for the ends of families."""
@@ -180,9 +182,13 @@ def crossing(
 
 
 def apart(curve: Curve, other: Curve, time: int) -> float:
-    """By how many steps two curves differ at most from a time on, to their ends."""
-    times = {time, *(leg.end_time for each in (curve, other) for leg in each.legs)}
-    ways = (curve.place_at(each) - other.place_at(each) for each in times if each >= time)
+    """By how many steps two curves differ at most from a time on, to their ends.
+
+    The leg that they are on counts as a whole: near a rest all places are the same.
+    """
+    legs = [leg for each in (curve, other) for leg in each.legs if leg.end_time >= time]
+    times = {time, *(leg.end_time for leg in legs), *(leg.time for leg in legs)}
+    ways = (curve.place_at(each) - other.place_at(each) for each in times)
     return float(max(map(abs, ways)))
 
 
@@ -202,9 +208,14 @@ def tolerance(curve: Curve, first: int, last: int) -> Ticks:
             # where the last ramp is does not depend on what was before it: only when
             ramp = np.arange(first, last + 1) > float(curve.legs[-1].x0)
             speeds[ramp] = np.maximum(speeds[ramp], curve.speed_after(curve.legs[-1].time))
-        beside = curve.blur / speeds
-        allowed += SAMPLED + np.maximum(beside, curve.blur_ticks)
+        allowed += SAMPLED + np.minimum(curve.blur / speeds, _slowest(curve)) + curve.blur_ticks
     return allowed
+
+
+def _slowest(curve: Curve) -> float:
+    """How many ticks it takes at most to go so far as the curve may be wrong: where it stands."""
+    accel = min((leg.accel for leg in curve.legs if leg.sign), default=0) / ACCEL_UNITS
+    return math.sqrt(2 * curve.blur / accel) * TICK_HZ if accel else math.inf
 
 
 def parted(family: Family, holds: Callable[[Curve], bool]) -> list[Family]:

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from pos_curve import BITS, Curve
-from pos_family import Family, Observed, crossing
+from pos_family import SPREAD, Family, Observed, crossing, parted, rest_ticks
 
 BESIDE = (2 << BITS) // 3
 """A pulse may be a tick beside its time: three guesses, each right to a third of a tick."""
@@ -38,9 +38,13 @@ class Loose(Family):
 
     @property
     def spread(self) -> list[Curve]:
-        """Some of them, from the one that is furthest back to the one that is furthest ahead."""
-        behind, ahead = self.both
-        return [behind, *super().spread, ahead]
+        """Some of them: from places all along, each from the first, middle and last tick."""
+        count = min(SPREAD, self.last - self.first)
+        numbers = (
+            self.first + (self.last - self.first) * i // max(1, count) for i in range(count + 1)
+        )
+        ticks = sorted({self.low, (self.low + self.high) // 2, self.high})
+        return [self.shape(number).shifted(tick << BITS) for number in numbers for tick in ticks]
 
     def shapes(self) -> tuple[int, int, Callable[[int], Curve]]:
         """The numbers of the places, and what leaves them."""
@@ -135,3 +139,17 @@ def rested(family: Family, start: Callable[[Curve], Curve], ticks: tuple[int, in
     else:
         old, places = family.curve, (family.low, family.high)
     return loose(lambda n: start(old(n)), places, ticks, family.skip)
+
+
+def resting(family: Family, tick: float) -> tuple[list[Family], list[Family]]:
+    """The curves that rest at a tick, and those that come to rest later."""
+    if not isinstance(family, Loose):
+        parts = parted(family, lambda curve: rest_ticks(curve) <= tick)
+        early = [part for part in parts if rest_ticks(part.both[0]) <= tick]
+        return early, [part for part in parts if rest_ticks(part.both[0]) > tick]
+    # where some of the places rest in time and others do not, the start tick is in both
+    rests = [rest_ticks(family.shape(number)) for number in (family.first, family.last)]
+    high, low = math.floor(tick - min(rests)), math.floor(tick - max(rests)) + 1
+    before = replace(family, high=min(high, family.high), kept={})
+    after = replace(family, low=max(low, family.low), kept={})
+    return [f for f in [before] if f.low <= f.high], [f for f in [after] if f.low <= f.high]

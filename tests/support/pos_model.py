@@ -79,7 +79,7 @@ class Follower:
         self.axis = Axis(self.train, self.late, self.ways)
         self.edge_tick = -math.inf
         for event in self.events:
-            self.advance(event.tick, event if isinstance(event, Act) else None)
+            self.advance(event.tick, event)
             if isinstance(event, Edge):
                 self._edge(event)
             elif isinstance(event, Act):
@@ -112,19 +112,26 @@ class Follower:
             raise unsure or AssertionError("nothing was tried")
         raise wrong
 
-    def advance(self, tick: int, act: Act | None = None) -> None:
-        """Let the axis come to all stands up to a tick, when an instruction may come."""
+    def _minds(self, event: Event | None) -> bool:
+        """Whether it makes a difference to an event if the axis stands or is about to."""
+        settings = self.axis.settings
+        if isinstance(event, Edge):
+            return event.number in {abs(settings.limit_minus), abs(settings.limit_plus)}
+        return isinstance(event, Act) and self.axis.minds(event)
+
+    def advance(self, tick: int, event: Event | None = None) -> None:
+        """Let the axis come to all stands up to a tick, when something may happen."""
         axis, motion, bits = self.axis, self.axis.motion, self.axis.bits
         while bits.jede:
             first, last = motion.stand()
-            stands = math.ceil(last) + NOTICED
+            stands = math.ceil(last + motion.blur_ticks) + NOTICED
             if first < tick and last - first > FAR_APART and axis.goes_on:
                 motion.rests_early(self.ways, FAR_APART)
                 continue
             motion.verify(min(stands, tick))
             first, last = motion.stand()
-            minds = act is not None and axis.minds(act)
-            if math.ceil(last) + NOTICED <= min(stands, tick):
+            minds = self._minds(event)
+            if math.ceil(last + motion.blur_ticks) + NOTICED <= min(stands, tick):
                 unseen = INITIATOR if axis.goes_on else MS
                 if minds and tick < last + unseen and self.ways.choose():
                     return

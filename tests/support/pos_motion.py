@@ -14,7 +14,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from pos_change import CHANGE, begun, changed
 from pos_curve import BITS, Curve, Order
-from pos_family import Family, alone, parted, rest_ticks
+from pos_family import TOLERANCE, Family, alone, parted, rest_ticks, tolerance
+from pos_loose import resting
 from pos_ways import Ways
 from pos_words import Mismatch, Unsure
 
@@ -159,6 +160,12 @@ class Motion:
         times = [rest_ticks(curve) for curve in self.curves()]
         return min(times), max(times)
 
+    @property
+    def blur_ticks(self) -> float:
+        """By how many ticks more than any other its last pulse may be beside the stand."""
+        lasts = [curve for curve in self.curves() if 0 < curve.count >= curve.next]
+        return max((tolerance(c, c.count, c.count)[0] - TOLERANCE for c in lasts), default=0.0)
+
     # --- what is open ---
 
     def every(self, ways: Ways, holds: Callable[[Curve], bool]) -> bool:
@@ -171,26 +178,28 @@ class Motion:
 
     def rests_early(self, ways: Ways, far: int) -> None:
         """Some stand long before others: one or the other way is gone."""
-        border = self.stand()[0] + far
         before = self.stand()
-        self.every(ways, lambda curve: rest_ticks(curve) < border)
+        early, late = self._resting(before[0] + far)
+        if early and late:
+            self.families = late if ways.choose() else early
         if self.stand() == before:
             raise Unsure("an axis that may stand long before another pulse, or after it")
 
     def stood(self, ways: Ways, tick: int, unseen: int) -> bool:
         """Whether it stands at a tick, and the unit, which may be late, has seen it."""
-        late = self._those(lambda curve: rest_ticks(curve) > tick - unseen)
+        _, late = self._resting(tick - unseen)
         if late and not ways.choose():
             self.families = late
             return False
-        self.families = self._those(lambda curve: rest_ticks(curve) <= tick)
+        self.families, _ = self._resting(tick)
         if not self.families:
             raise Mismatch(tick, "the axis cannot stand yet")
         return True
 
-    def _those(self, holds: Callable[[Curve], bool]) -> list[Family]:
-        parts = [part for family in self.families for part in parted(family, holds)]
-        return [part for part in parts if holds(part.both[0])]
+    def _resting(self, tick: float) -> tuple[list[Family], list[Family]]:
+        """Those that rest at a tick, and those that come to rest later."""
+        parts = [resting(family, tick) for family in self.families]
+        return [f for early, _ in parts for f in early], [f for _, late in parts for f in late]
 
     def may_wait(self, tick: int) -> bool:
         """Whether it may not have left the stand at a tick."""
