@@ -109,19 +109,21 @@ static void turn_back(struct stm32_channel *channel, uint32_t pulse, uint32_t no
     }
 }
 
-/* How many pulses at a time. Slow ones cost more, each. */
-static inline uint32_t portion(struct stm32_channel *channel)
+/* How many pulses at a time. Slow ones cost more, each; where the others need not wait, fast ones cost less the more
+ * they are. */
+static inline uint32_t portion(struct stm32_channel *channel, uint32_t ahead_ticks)
 {
     uint32_t interval = channel->last_tick - slot(channel, channel->laid - 2U)->rise_tick;
-    return channel->laid > 1U && interval < (uint32_t)FAST_TICKS ? LAY_FAST_MAX : LAY_MAX;
+    uint32_t fast = ahead_ticks >= (uint32_t)LONG_TICKS ? LAY_LONG_MAX : LAY_FAST_MAX;
+    return channel->laid > 1U && interval < (uint32_t)FAST_TICKS ? fast : LAY_MAX;
 }
 
 /* Asks for pulses in one piece of the ring; before they turn, DIR is told. */
-static inline uint32_t ask(unsigned motor, uint32_t waiting, uint32_t until)
+static inline uint32_t ask(unsigned motor, uint32_t waiting, uint32_t ahead_ticks, uint32_t until)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
     uint32_t piece = RING_PULSES - channel->laid % RING_PULSES;
-    uint32_t count = portion(channel);
+    uint32_t count = portion(channel, ahead_ticks);
     struct hal_step_room room = {
         .pulse = slot(channel, channel->laid),
         .count = piece < count ? piece : count,
@@ -172,7 +174,7 @@ static void begin(unsigned motor, uint32_t ahead_ticks)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
     channel->turns = false;
-    uint32_t count = ask(motor, 0, TIM2_CNT + ahead_ticks);
+    uint32_t count = ask(motor, 0, 0, TIM2_CNT + ahead_ticks);
     if (count != 0) {
         uint32_t now = TIM2_CNT;
         make_good(channel->ring, count, earliest(channel, now) + count * (uint32_t)GOOD_TICKS);
@@ -206,11 +208,11 @@ static void append(unsigned motor, uint32_t now, uint32_t ahead_ticks)
     bool far = !is_before(last, now + (uint32_t)FAR_TICKS);
     bool in_time = !is_before(last, now + (uint32_t)(APPEND_TICKS + TICKS_PER_US));
     if (waiting > (uint32_t)WAITING_MAX) {
-        channel->from_tick = channel->due_tick;
+        channel->from_tick = slot(channel, channel->laid - (uint32_t)WAITING_MAX)->rise_tick;
         return;
     }
     channel->turns = false;
-    uint32_t count = in_time ? ask(motor, waiting, now + ahead_ticks) : 0;
+    uint32_t count = in_time ? ask(motor, waiting, last - now, now + ahead_ticks) : 0;
     if (BASE_SELDOM(count == 0)) {
         note_end(channel);
         return;

@@ -43,6 +43,10 @@ enum {
     LAY_MAX = 8,
     LAY_FAST_MAX = 16,
     FAST_TICKS = 10 * TICKS_PER_US,
+
+    /* A motor that has so much ahead gets a long portion: it is the most urgent one, so the others can wait for it. */
+    LONG_TICKS = 45 * TICKS_PER_US,
+
     ENTRY_TICKS = 25 * TICKS_PER_US, /* the interrupt serves what is not urgent for so long */
 
     /* What is laid can be taken back, so it may be far ahead: the more pulses at a time, the less each costs. A motor
@@ -78,14 +82,16 @@ enum {
     /* The first lead for a change of speed; where planning takes longer, the axis tries again with twice as much. */
     CHANGE_TICKS = 60 * TICKS_PER_US,
 
-    RING_PULSES = 64,
+    RING_PULSES = IMAGE_STEP_RING_PULSES,
     RING_EDGES = 2 * RING_PULSES,
+    LAY_LONG_MAX = RING_PULSES / 4,
     /* What has been made is known modulo the ring, and the edge that is never has a place. */
-    WAITING_MAX = RING_PULSES - 2 - LAY_FAST_MAX,
+    WAITING_MAX = RING_PULSES - 2 - LAY_LONG_MAX,
 };
 #define NEVER_TICKS (UINT32_C(1) << 31)
 
 static_assert((RING_PULSES & (RING_PULSES - 1)) == 0, "pulses are counted modulo the ring");
+static_assert((int)LAY_LONG_MAX >= (int)LAY_FAST_MAX, "a long portion is at least a fast one");
 static_assert(HIGH_TICKS >= SETTLE_TICKS - 6 && LOW_TICKS >= SETTLE_TICKS - 6,
               "two edges are as far apart as streams need");
 

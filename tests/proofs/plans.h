@@ -24,10 +24,10 @@
         steps_of(order, section, 6) + steps_of(order, section, 7) + steps_of(order, section, 8) +
         steps_of(order, section, 9);
     predicate is_order(struct motion_order *order) =
-        1 <= order->sections <= MOTION_SECTIONS && 1 <= order->start_speed_steps_per_s <= STEP_SPEED_MAX &&
+        1 <= order->sections <= MOTION_SECTIONS && 1 <= order->start_speed_steps_per_s <= MOTION_SPEED_MAX &&
         \forall integer i; 0 <= i < MOTION_SECTIONS ==> i < order->sections ==>
             1 <= order->section[i].steps <= MOTION_ENDLESS_STEPS &&
-            1 <= order->section[i].speed_steps_per_s <= STEP_SPEED_MAX &&
+            1 <= order->section[i].speed_steps_per_s <= MOTION_SPEED_MAX &&
             1 <= order->section[i].accel_steps_per_s2 <= STEP_ACCEL_MAX;
     predicate has_order(struct motion_plan *plan) = plan->order.sections == 0 || is_order(&plan->order);
     predicate is_plan(struct motion_plan *plan) =

@@ -14,7 +14,7 @@
     logic integer square_of(integer x) = x * x;
     logic integer least(integer a, integer b) = a < b ? a : b;
     logic integer most(integer a, integer b) = a > b ? a : b;
-    predicate speed_in_range(integer speed) = 1 <= speed <= STEP_SPEED_MAX;
+    predicate speed_in_range(integer speed) = 1 <= speed <= MOTION_SPEED_MAX;
     predicate speed2_in_range(integer speed2) = 1 <= speed2 <= speed2_max;
 
     logic integer floor_of(integer jumps, integer limit, integer start) = jumps != 0 ? most(limit, start) : limit;
@@ -49,7 +49,7 @@
             profile.end * STEP_QUANTA;
 */
 
-/*@ requires speed_steps_per_s <= STEP_SPEED_MAX;
+/*@ requires speed_steps_per_s <= MOTION_SPEED_MAX;
     assigns \nothing;
     ensures \result == square_of(speed_steps_per_s) && \result <= speed2_max;
     ensures 1 <= speed_steps_per_s ==> 1 <= \result;

@@ -13,7 +13,7 @@ from path_probe import ADD, JOIN, NEVER, SPEED, STOP, Case, Change
 from path_reference import ACCEL_UNITS, AXES, SPEED_UNITS, Vector
 from reference import TICK_HZ
 
-SPEED_MAX = 500_000
+SPEED_MAX = 1_000_000
 ACCEL_MAX = 8_000_000
 STEPS_MAX = 2**31 - 1
 VECTORS_MAX = 128

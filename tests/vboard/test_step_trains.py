@@ -26,7 +26,7 @@ from step_acts import (
 LEAD, MANY_LEAD = 20_000, 80_000
 """Ticks that main has to ready what four motors do; with some thirty segments each."""
 FASTEST = 210
-"""Ticks between pulses at STEP_SPEED_MAX."""
+"""Ticks between pulses that four motors can have at a time, 400 000 steps/s."""
 KINDS = [(SHORT, []), (SHORT, ODD), (SHORT, FAST_BUS), (LONG, [])]
 AROUND_WRAP = [-300, -211, -210, -43, -42, -41, -1, 0, 1, 2, 42, 300]
 MakeActs = Callable[..., Acts]

@@ -18,8 +18,8 @@ RAMPS = b"S500 V16000 A60000 F8000 R"
 RAMPS_SECONDS = 0.85
 """How long that takes at most."""
 
-SPEED_LIMIT = 500_000
-"""STEP_SPEED_MAX: what the step generator is built for."""
+SPEED_LIMIT, ACCEL_LIMIT = 400_000, 8_000_000
+"""MOTION_SPEED_MAX, what the planner of one motor is built for, and STEP_ACCEL_MAX."""
 RATE_LEAST, RATE_STEP = 10_000, 1.01
 """The search for the highest rate ends with one that held and one 1 % above that did not."""
 RAMP_SECONDS, CRUISE_SECONDS = 0.05, 0.05
@@ -78,13 +78,13 @@ def ramps(rig: Rig, motors: int, profile: bool = False) -> Ran:
     return rig.run(seconds, line.lines, profile=profile)
 
 
-def highest_rate(holds: Callable[[int], bool]) -> int:
+def highest_rate(holds: Callable[[int], bool], limit: int) -> int:
     """The highest rate, to 1 %, at which a test holds; 0 if it does not at the least one."""
-    if holds(SPEED_LIMIT):
-        return SPEED_LIMIT
+    if holds(limit):
+        return limit
     if not holds(RATE_LEAST):
         return 0
-    good, bad = RATE_LEAST, SPEED_LIMIT
+    good, bad = RATE_LEAST, limit
     while bad > good * RATE_STEP:
         middle = round((good * bad) ** 0.5)
         if holds(middle):
@@ -94,6 +94,11 @@ def highest_rate(holds: Callable[[int], bool]) -> int:
     return good
 
 
+def ramp_accel(speed: int) -> int:
+    """An acceleration that gives a ramp its time, or the highest."""
+    return min(round(speed / RAMP_SECONDS), ACCEL_LIMIT)
+
+
 def fast_moves(motors: int, speed: int, accel: int, delays: Sequence[int]) -> list[Move]:
     """Ramp, cruise, ramp."""
     steps = speed * speed // accel + round(speed * CRUISE_SECONDS)
@@ -101,16 +106,12 @@ def fast_moves(motors: int, speed: int, accel: int, delays: Sequence[int]) -> li
 
 
 def rates(rig: Rig) -> Figures:
-    """The highest rates without a late step."""
-    return {
-        "rate_1": highest_rate(lambda speed: _holds(rig, 1, speed, APART_TICKS)),
-        "rate_4_together": highest_rate(lambda speed: _holds(rig, 4, speed, (0,) * 4)),
-        "rate_4_apart": highest_rate(lambda speed: _holds(rig, 4, speed, APART_TICKS)),
-    }
+    """The highest rate without a late step of motors that move by themselves."""
+    return {"rate_4_apart": highest_rate(lambda speed: _holds(rig, speed), SPEED_LIMIT)}
 
 
-def _holds(rig: Rig, motors: int, speed: int, delays: Sequence[int]) -> bool:
-    moves = fast_moves(motors, speed, round(speed / RAMP_SECONDS), delays)
+def _holds(rig: Rig, speed: int) -> bool:
+    moves = fast_moves(len(MOTORS), speed, ramp_accel(speed), APART_TICKS)
     ran = rig.run_moves(moves, stop_at_late=True)
     return ran.late == 0 and ended_well(ran, moves)
 

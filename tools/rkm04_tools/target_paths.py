@@ -12,7 +12,13 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 from rkm04_tools.failure import NOT_SO, Failure
-from rkm04_tools.target_figures import Figures, flood
+from rkm04_tools.target_figures import (
+    CRUISE_SECONDS,
+    Figures,
+    flood,
+    highest_rate,
+    ramp_accel,
+)
 from rkm04_tools.target_run import MOTORS, TICKS_PER_MS, Ran, Rig
 
 SYMBOLS = ("path_bench_table", "path_bench_report", "path_bench_done")
@@ -32,6 +38,8 @@ SLOW, SLOW_VECTORS, SLOW_ACCEL = 50_000, 200, 1_000_000
 RARE = 20
 """So many times fewer borders."""
 PACKET = 32
+SPEED_LIMIT = 1_000_000
+"""STEP_SPEED_MAX: what paths and the step generator are built for."""
 ACT_MS, ACT_SPEED = 130.0, 120_000
 
 
@@ -122,6 +130,30 @@ def whole(rig: Rig, name: str, course: Course) -> tuple[Ran, Report]:
     if told.positions != course.ends or ran.positions != course.ends:
         raise Failure(f"{name}: the path did not come to its end", NOT_SO)
     return ran, told
+
+
+def ramps(motors: int, speed: int) -> Course:
+    """One vector: a ramp, a cruise and a ramp of motors that move together."""
+    accel = ramp_accel(speed)
+    steps = speed * speed // accel + round(speed * CRUISE_SECONDS)
+    course = [steps] * motors + [0] * (len(MOTORS) - motors)
+    return Course(1, [Kind(course, speed)] * KINDS, accel)
+
+
+def rates(rig: Rig) -> Figures:
+    """The highest rates without a late step on a path, with the line flooded."""
+    return {
+        "rate_1": highest_rate(lambda speed: _holds(rig, ramps(1, speed)), SPEED_LIMIT),
+        "rate_4_together": highest_rate(
+            lambda speed: _holds(rig, ramps(len(MOTORS), speed)), SPEED_LIMIT
+        ),
+    }
+
+
+def _holds(rig: Rig, course: Course) -> bool:
+    ran = run(rig, course)
+    told = report(ran)
+    return told.late == 0 and told.positions == course.ends and ran.positions == course.ends
 
 
 def slow(steps: Sequence[int]) -> Course:

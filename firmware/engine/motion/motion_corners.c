@@ -10,8 +10,11 @@ enum {
     SECTION_CORNERS_MAX = 3
 };
 
+static_assert(MOTION_SPEED_MAX <= STEP_SPEED_MAX, "the step generator must be able to make it");
+
 /* Steps up to the end of a ramp, V^2/2A, stay below that with any speed and acceleration. */
-static_assert((uint64_t)STEP_SPEED_MAX * STEP_SPEED_MAX / 2U < (UINT64_C(1) << 37), "a ramp's steps must be countable");
+static_assert((uint64_t)MOTION_SPEED_MAX * MOTION_SPEED_MAX / 2U < (UINT64_C(1) << 37),
+              "a ramp's steps must be countable");
 
 /* The last ramp of a run without end comes after that, the end of any other move before it. */
 #define ENDLESS_RAMP_STEP (MOTION_ENDLESS_STEPS - (UINT64_C(1) << 37))

@@ -8,6 +8,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* What the planner of one motor is proved for; the language stays far below. */
+#define MOTION_SPEED_MAX UINT32_C(400000)
+
 enum {
     MOTION_SECTIONS = 10
 };
@@ -23,13 +26,13 @@ enum {
  * 2*accel, are fewer than 2^32. At 92 681 steps/s and below they are with any acceleration. */
 struct motion_section {
     uint64_t steps;              /* 1 to MOTION_SECTION_STEPS_MAX, if the run is not endless */
-    uint32_t speed_steps_per_s;  /* 1 to STEP_SPEED_MAX: never exceeded */
+    uint32_t speed_steps_per_s;  /* 1 to MOTION_SPEED_MAX: never exceeded */
     uint32_t accel_steps_per_s2; /* 1 to STEP_ACCEL_MAX */
 };
 
 struct motion_order {
     struct motion_section section[MOTION_SECTIONS];
-    uint32_t start_speed_steps_per_s; /* start/stop speed S, 1 to STEP_SPEED_MAX */
+    uint32_t start_speed_steps_per_s; /* start/stop speed S, 1 to MOTION_SPEED_MAX */
     uint8_t sections;                 /* 1 to MOTION_SECTIONS */
 };
 

@@ -272,7 +272,7 @@ static struct wide twice_speed2_at(const struct path_course *course, const struc
     return path_fixed_divide(leg->accel > 0 ? path_wide_add(begin, change) : path_wide_subtract(begin, change), steps);
 }
 
-/* 256 times the root of PATH_SLOPE2_PER_TWICE_SPEED2 * twice_speed2: below 2^122. */
+/* 256 times the root of PATH_SLOPE2_PER_TWICE_SPEED2 * twice_speed2: below 2^125. */
 static uint64_t root256(struct wide twice_speed2)
 {
     struct wide fine = path_wide_multiply(PATH_SLOPE2_PER_TWICE_SPEED2, twice_speed2.low);

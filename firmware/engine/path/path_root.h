@@ -8,7 +8,7 @@
 
 #include "base_wide.h"
 
-/* The square root of value, rounded to the nearest whole number; value < 2^124. */
+/* The square root of value, rounded to the nearest whole number; value < 2^126. */
 uint64_t path_root(struct wide value);
 
 #endif

@@ -41,7 +41,7 @@ enum {
     PATH_AXES = 4
 };
 
-static_assert((uint64_t)PATH_SPEED_MAX * PATH_SPEED_MAX < UINT64_C(1) << 54, "twice a square must fit 55 bits");
+static_assert((uint64_t)PATH_SPEED_MAX * PATH_SPEED_MAX < UINT64_C(1) << 56, "twice a square must fit 57 bits");
 static_assert(PATH_ACCEL_MAX < UINT32_C(1) << 30, "2 * acceleration must fit 31 bits, the grains of a step 41");
 static_assert(((uint64_t)STEP_ACCEL_MAX * PATH_TURN_US_MAX * PATH_TURN_US_MAX) <= UINT64_C(2000000000000),
               "an axis that turns at a stand must not be too early");

@@ -28,8 +28,8 @@
 #define STEP_SLOPE_PER_SPEED ((UINT64_C(2) * TICK_HZ) << STEP_FRACTION_BITS)
 #define STEP_QUANTA (STEP_SLOPE_PER_SPEED * TICK_HZ)
 
-/* Top speed and acceleration that the generator is built for; the language stays far below. */
-#define STEP_SPEED_MAX UINT32_C(500000)
+/* Top speed and acceleration that the generator is built for; units stay far below. */
+#define STEP_SPEED_MAX UINT32_C(1000000)
 #define STEP_ACCEL_MAX UINT32_C(8000000)
 
 static_assert(STEP_SLOPE_PER_SPEED <= (UINT64_C(1) << 61) / TICK_HZ, "a residual of two steps must fit 63 bits");

@@ -46,7 +46,7 @@ void tearDown(void)
 
 void test_the_slope_of_a_whole_speed_is_exact(void)
 {
-    const uint32_t speeds[] = {1, 2, 3, 1999, 2000, 16000, 200000, STEP_SPEED_MAX};
+    const uint32_t speeds[] = {1, 2, 3, 1999, 2000, 16000, 200000, MOTION_SPEED_MAX};
     for (unsigned i = 0; i < sizeof speeds / sizeof speeds[0]; i++) {
         TEST_ASSERT_EQUAL_UINT64(slope_of(speeds[i]), motion_leg_slope(2U * motion_square(speeds[i])));
     }

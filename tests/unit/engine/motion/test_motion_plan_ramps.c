@@ -46,7 +46,7 @@ static struct motion_section some_section(uint32_t start_speed)
     do {
         section = (struct motion_section){
             .steps = some(STEPS_MAX),
-            .speed_steps_per_s = some(STEP_SPEED_MAX),
+            .speed_steps_per_s = some(MOTION_SPEED_MAX),
             .accel_steps_per_s2 = some(STEP_ACCEL_MAX),
         };
     } while (!is_short(section.speed_steps_per_s, section.accel_steps_per_s2) ||
@@ -135,7 +135,7 @@ static void assert_on_ramp(const struct step_generator *generator)
 static void lay_anew(void)
 {
     struct motion_point at = motion_point_of(&cursor, now);
-    uint32_t speed = some(STEP_SPEED_MAX);
+    uint32_t speed = some(MOTION_SPEED_MAX);
     bool fits = true;
     for (unsigned i = 0; i < plan.order.sections; i++) {
         fits = fits && is_short(speed, plan.order.section[i].accel_steps_per_s2);

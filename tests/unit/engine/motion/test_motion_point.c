@@ -70,7 +70,7 @@ void test_the_square_of_the_speed_is_recovered_on_the_longest_ramps(void)
 
 void test_the_square_of_the_speed_is_recovered_at_the_most_that_the_generator_is_built_for(void)
 {
-    begin(1, STEP_SPEED_MAX, STEP_ACCEL_MAX, 30000, 77);
+    begin(1, MOTION_SPEED_MAX, STEP_ACCEL_MAX, 30000, 77);
 
     assert_points(30000);
 }

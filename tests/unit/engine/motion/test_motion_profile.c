@@ -40,7 +40,7 @@ static void assert_speeds(const struct motion_profile *profile, uint64_t enter, 
 
 void test_the_square_of_the_greatest_speed_fits(void)
 {
-    TEST_ASSERT_EQUAL_UINT64(UINT64_C(250000000000), motion_square(STEP_SPEED_MAX));
+    TEST_ASSERT_EQUAL_UINT64(UINT64_C(160000000000), motion_square(MOTION_SPEED_MAX));
 }
 
 void test_the_gain_over_a_span_is_twice_acceleration_times_steps(void)

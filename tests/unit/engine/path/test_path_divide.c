@@ -151,7 +151,7 @@ void test_roots_are_those_of_the_other_way(void)
 void test_the_root_of_a_square_and_of_its_neighbours_is_its_side(void)
 {
     for (unsigned i = 0; i < DRAWS; i++) {
-        uint64_t side = 2U + (draw_odd() >> 3U);
+        uint64_t side = (draw_odd() >> 1U) | 2U;
         struct wide square = wide_multiply(side, side);
         TEST_ASSERT_EQUAL_UINT64(side, path_root(square));
         TEST_ASSERT_EQUAL_UINT64(side, path_root(wide_subtract(square, (struct wide){.low = 1})));
