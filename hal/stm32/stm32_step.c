@@ -114,8 +114,13 @@ static void turn_back(struct stm32_channel *channel, uint32_t pulse, uint32_t no
 static inline uint32_t portion(struct stm32_channel *channel, uint32_t ahead_ticks)
 {
     uint32_t interval = channel->last_tick - slot(channel, channel->laid - 2U)->rise_tick;
-    uint32_t fast = ahead_ticks >= (uint32_t)LONG_TICKS ? LAY_LONG_MAX : LAY_FAST_MAX;
-    return channel->laid > 1U && interval < (uint32_t)FAST_TICKS ? fast : LAY_MAX;
+    if (channel->laid <= 1U || interval >= (uint32_t)FAST_TICKS) {
+        return LAY_MAX;
+    }
+    if (ahead_ticks >= (uint32_t)LONG_TICKS) {
+        return LAY_LONG_MAX;
+    }
+    return LAY_FAST_MAX;
 }
 
 /* Asks for pulses in one piece of the ring; before they turn, DIR is told. */

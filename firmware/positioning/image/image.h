@@ -24,7 +24,7 @@
 #define IMAGE_PWM 0
 
 /* Pulses of a motor that can be laid ahead, a power of two, 64 at least; 8 bytes each. */
-#define IMAGE_STEP_RING_PULSES 128
+#define IMAGE_STEP_RING_PULSES 64
 
 /* The stack; tools/rkm04_tools/board_size.py proves how much of it can be needed. */
 #define IMAGE_STACK_BYTES 5120
