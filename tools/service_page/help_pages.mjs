@@ -1,7 +1,7 @@
 // Makes the module `help-pages` of what the page shows of the project's own documents: their text, section by section,
 // and the table of commands. There is no second copy of either.
 import { Marked } from "marked";
-import { readFile } from "node:fs/promises";
+import { readFile, readdir } from "node:fs/promises";
 import { basename, posix } from "node:path";
 
 const ROOT = "../..";
@@ -12,14 +12,12 @@ const DOCUMENTS = [
     "firmware/rkm04/docs/messages.md",
     "firmware/rkm04/docs/line.md",
 ];
+const BOARDS = "hal/stm32/boards";
 const TABLE = "firmware/rkm04/program/program_opcodes.def";
 /** Sections have headings of these depths; the title of a document is a section of its own. */
 const DEPTH_MAX = 3;
 /** A document's title stands below that of the panel, which is a second one. */
 const BELOW = 2;
-
-/** All that the module is made of, from the root of the project. */
-export const sources = [...DOCUMENTS, TABLE];
 
 const escaped = (text) =>
     text.replace(/[&<>"]/g, (sign) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[sign]);
@@ -77,6 +75,30 @@ async function pageOf(document) {
     return { id: anchor(document, ""), title, sections: sections.map((part) => marked.parser(part)) };
 }
 
+/** The chapter of a document that has this heading, without the heading; empty where there is none. */
+function chapterOf(marked, text, title) {
+    const tokens = marked.lexer(text);
+    const begin = tokens.findIndex((token) => token.type === "heading" && token.text === title);
+    const after = tokens.slice(begin + 1);
+    const end = after.findIndex(({ type, depth }) => type === "heading" && depth <= tokens[begin]?.depth);
+    return begin < 0 ? "" : marked.parser(end < 0 ? after : after.slice(0, end));
+}
+
+/** The boards, each with where its image begins and what its page says of flashing. */
+async function boards() {
+    const names = (await readdir(`${ROOT}/${BOARDS}`, { withFileTypes: true })).filter((each) => each.isDirectory());
+    return Promise.all(
+        names.map(async ({ name }) => {
+            const document = `${BOARDS}/${name}/README.md`;
+            const header = await readFile(`${ROOT}/${BOARDS}/${name}/board.h`, "utf8");
+            const loader_bytes = Number(/^#define BOARD_LOADER_BYTES (\w+)$/m.exec(header)?.[1] ?? 0);
+            const marked = new Marked({ renderer: rendererOf(document) });
+            const text = await readFile(`${ROOT}/${document}`, "utf8");
+            return { name, title: /^# (.+)$/m.exec(text)[1], loader_bytes, flashing: chapterOf(marked, text, "Flashing") };
+        }),
+    );
+}
+
 const ROW = /^X\((\w+), '(\\?.)', (\w+), (-?\d+), (-?\d+)\)$/;
 
 async function commands() {
@@ -97,7 +119,7 @@ export const helpPages = {
         builder.onResolve({ filter: /^help-pages$/ }, () => ({ path: "help-pages", namespace: "help" }));
         builder.onLoad({ filter: /./, namespace: "help" }, async () => {
             const pages = await Promise.all(DOCUMENTS.map(pageOf));
-            const text = { pages, commands: await commands() };
+            const text = { pages, commands: await commands(), boards: await boards() };
             return { contents: JSON.stringify(text), loader: "json" };
         });
     },

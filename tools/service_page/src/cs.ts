@@ -1,4 +1,5 @@
 import { commissionCs } from "./commission_cs";
+import { firmwareCs } from "./firmware_cs";
 import { helpCs } from "./help_cs";
 import type { Dictionary } from "./i18n";
 
@@ -6,6 +7,7 @@ import type { Dictionary } from "./i18n";
 export const cs: Dictionary = {
     ...commissionCs,
     ...helpCs,
+    ...firmwareCs,
     "page.title": "Servis RKM04",
     "page.language": "Jazyk",
 

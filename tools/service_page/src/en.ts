@@ -1,10 +1,12 @@
 import { commissionEn } from "./commission_en";
+import { firmwareEn } from "./firmware_en";
 import { helpEn } from "./help_en";
 
 /** The words of the page in English; the keys of this dictionary are those of every other. */
 export const en = {
     ...commissionEn,
     ...helpEn,
+    ...firmwareEn,
     "page.title": "RKM04 service",
     "page.language": "Language",
 

@@ -16,6 +16,17 @@ declare module "help-pages" {
         max: number;
     }
 
+    /** A folder of hal/stm32/boards. */
+    export interface BoardPage {
+        name: string;
+        title: string;
+        /** What a loader of the board has of the flash, before the image. */
+        loader_bytes: number;
+        /** What its page says of flashing. */
+        flashing: string;
+    }
+
+    export const boards: BoardPage[];
     export const pages: HelpPage[];
     export const commands: CommandRow[];
 }

@@ -4,6 +4,7 @@ import { Commands } from "./commands";
 import { Connection } from "./connection";
 import { byId } from "./dom";
 import { engine } from "./engine";
+import { FirmwarePanel } from "./firmware_panel";
 import { HelpPanel } from "./help_panel";
 import { setUpLanguage, t } from "./i18n";
 import { parseInputs } from "./inputs_text";
@@ -70,6 +71,7 @@ const commission = new Commission(link, presence, {
 });
 stop.onPress(() => commission.stopped());
 new HelpPanel((example) => programs.take(example));
+new FirmwarePanel();
 link.onRefused((message) => {
     if (message.type !== "ports" && message.type !== "hold") {
         const name = message.type === "request" ? message.message : message.type;

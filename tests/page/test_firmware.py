@@ -1,0 +1,140 @@
+"""The firmware's way into a board: exact commands, and by USB on a model of the chip's loader."""
+
+from __future__ import annotations
+
+import random
+import shlex
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+from rkm04_tools import board
+from service_page import Service, shown
+
+FAKE = Path(__file__).resolve().parents[1] / "support" / "fake_loader.js"
+FLASH = 0x0800_0000
+SECTOR_10 = 768 * 1024
+UNTOUCHED = 0xA5
+SEEN = """([address]) => {
+    const { memory, left, erased } = window.fakeLoader;
+    const kept = memory.slice(address).every((byte) => byte === 0xa5);
+    return { image: [...memory.slice(0, 131072)], kept, left, erased };
+}"""
+
+
+def image_of(size: int, address: int = FLASH) -> bytes:
+    """Random bytes with a stack and vectors."""
+    start = address + size // 2 | 1
+    head = struct.pack("<4I", 0x2000_1180, start, start, start)
+    return head + random.Random(size).randbytes(size - len(head))
+
+
+@pytest.fixture(scope="module")
+def usb_page(browser: Browser, service: Service) -> Iterator[Page]:
+    """The panel, with a model of the loader at USB."""
+    with shown(browser, service.url) as page:
+        page.page.add_init_script(FAKE.read_text())
+        yield page.page
+
+
+@pytest.fixture
+def panel(usb_page: Page) -> Page:
+    usb_page.reload()
+    usb_page.locator("#firmware").evaluate("(panel) => (panel.open = true)")
+    usb_page.locator("#firmware-board").select_option("weact-f405")
+    return usb_page
+
+
+def choose(panel: Page, image: bytes) -> None:
+    file = {"name": "rkm04.bin", "mimeType": "application/octet-stream", "buffer": image}
+    panel.locator("#firmware-file").set_input_files(file)  # type: ignore[arg-type]
+    panel.locator("#firmware-confirm").check()
+    panel.locator("#firmware-write").click()
+
+
+def said(panel: Page, *words: str) -> None:
+    for each in words:
+        expect(panel.locator("#firmware-said")).to_contain_text(each)
+
+
+@pytest.mark.parametrize("size", [20, 2048, 41_144, 65_536])
+def test_an_image_is_written_read_back_and_started_and_stored_programs_stay(panel, size):
+    size -= size % 4
+    image = image_of(size)
+    choose(panel, image)
+    said(panel, "Written, read back without a difference, and started.")
+    panel.wait_for_function("window.fakeLoader.left")
+    seen = panel.evaluate(SEEN, [SECTOR_10])
+    assert bytes(seen["image"][: len(image)]) == image
+    assert seen["kept"]
+    assert seen["erased"] == list(range(-(-len(image) // 16_384)))
+
+
+def test_an_image_after_a_loader_of_the_board_leaves_that_alone(panel):
+    panel.locator("#firmware-board").select_option("skr-pro-1.2")
+    image = image_of(40_000, FLASH + 0x8000)
+    choose(panel, image)
+    said(panel, "Written")
+    seen = panel.evaluate(SEEN, [SECTOR_10])
+    assert bytes(seen["image"][0x8000 : 0x8000 + len(image)]) == image
+    assert set(seen["image"][:0x8000]) == {UNTOUCHED}
+    assert seen["erased"] == [2, 3, 4]
+
+
+@pytest.mark.parametrize(
+    "image",
+    [b"", b"no image", bytes(5000), image_of(70_000), image_of(41_144, FLASH + 0x8000)],
+    ids=["empty", "text", "zeros", "too long", "of another board"],
+)
+def test_what_is_no_image_of_the_board_is_refused_before_anything_is_asked(panel, image):
+    choose(panel, image)
+    said(panel, "this is no image for WeAct", "nothing was written")
+    assert panel.evaluate("window.fakeLoader.orders") == 0
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ("refuses = true", ["No board was chosen", "nothing was written"]),
+        ("name = '@Option Bytes  /0x1FFFC000/01*016 e'", ["not the loader", "Nothing was written"]),
+        ("name = '@Internal Flash  /0x08000000/04*016Kg,01*064Kg,03*128Kg'",
+         ["512 kB of flash", "Nothing was written"]),
+        ("pulled = 30", ["The board was lost", "not whole", "motors unpowered"]),
+        ("spoils = 5000", ["differs at 0x8001000", "not whole"]),
+    ],
+)  # fmt: skip
+def test_what_goes_wrong_is_told_with_what_is_in_the_board_then(panel, change, words):
+    panel.evaluate(f"() => {{ window.fakeLoader.{change}; }}")
+    choose(panel, image_of(41_144))
+    said(panel, *words)
+    assert not panel.evaluate("window.fakeLoader.left")
+    expect(panel.locator("#firmware-write")).to_be_enabled()
+
+
+def test_nothing_is_written_before_the_motors_are_said_to_be_unpowered(panel):
+    file = {"name": "a.bin", "mimeType": "application/octet-stream", "buffer": image_of(5000)}
+    panel.locator("#firmware-file").set_input_files(file)
+    expect(panel.locator("#firmware-write")).to_be_disabled()
+    panel.locator("#firmware-confirm").check()
+    expect(panel.locator("#firmware-write")).to_be_enabled()
+
+
+@pytest.mark.parametrize("name", board.names())
+def test_the_commands_of_every_board_are_those_of_the_tool(panel, name):
+    panel.locator("#firmware-board").select_option(name)
+    lines = panel.locator("#firmware-commands").inner_text().splitlines()
+    image = board.Image(name, Path())
+    command = board.flash_command("dfu-util", image, "stlink", "")
+    assert shlex.split(lines[2]) == [*command[:-1], image.file("bin").name]
+    address = f"{FLASH + board.loader_bytes(name):#010x}"
+    assert lines[3] == f"st-flash --reset write {image.file('bin').name} {address}"
+    assert lines[0] == f"tools/rkm04 board flash --board {name}"
+
+
+def test_a_browser_without_usb_says_what_to_take(page):
+    page.page.locator("#firmware").evaluate("(panel) => (panel.open = true)")
+    has_usb = page.page.evaluate("'usb' in navigator")
+    expect(page.page.locator("#firmware-usb")).to_be_visible(visible=has_usb)
+    expect(page.page.locator("#firmware-no-usb")).to_be_visible(visible=not has_usb)

@@ -1,0 +1,34 @@
+import type { firmwareEn } from "./firmware_en";
+
+/** The words of the firmware's update in Czech. */
+export const firmwareCs: Record<keyof typeof firmwareEn, string> = {
+    "firmware.title": "Firmware desky",
+    "firmware.about": "jak se dostane do desky",
+    "firmware.danger": "Při zápisu do desky musí být motory bez napájení, nejlépe odpojené.",
+    "firmware.dangerWords":
+        "Vývody zatím dělají, co chce zavaděč. Uložené programy zůstanou; co je jen v paměti jednotky, je pryč.",
+    "firmware.board": "Deska",
+    "firmware.commands": "Příkazy, jeden z nich; první dva ve stažených zdrojích projektu, kde se obraz i sestaví",
+    "firmware.page": "Co říká stránka desky (anglicky)",
+    "firmware.usb": "Z této stránky přes USB (WebUSB)",
+    "firmware.untried":
+        "Napsáno podle aplikační poznámky AN3156 firmy ST a vyzkoušeno jen na modelu zavaděče, nikdy na součástce. "
+        + "Windows potřebují pro zavaděč ovladač WinUSB, Linux právo zařízení používat.",
+    "firmware.noUsb":
+        "Tento prohlížeč na zařízení USB nedosáhne: použijte některý z příkazů, nebo Chrome, Edge či Operu na počítači.",
+    "firmware.file": "Obraz (.bin)",
+    "firmware.confirm": "Motory jsou bez napájení a v desce běží zavaděč",
+    "firmware.write": "Zapsat a spustit",
+    "firmware.done": "Zapsáno, přečteno zpět beze změny a spuštěno.",
+    "firmware.noImage": "{name}: toto není obraz pro {board}, který začíná na {address}; nic nebylo zapsáno.",
+    "firmware.notChosen": "Žádná deska nebyla vybrána; nic nebylo zapsáno.",
+    "firmware.noLoader": "Toto není zavaděč STM32 s jeho pamětí Flash.",
+    "firmware.small": "Tato součástka má {words} paměti Flash, uložené programy potřebují 1024 kB.",
+    "firmware.place": "Obraz se do sektorů této součástky nehodí.",
+    "firmware.busy": "Zavaděč nekončí.",
+    "firmware.refused": "Zavaděč odmítá ({words}).",
+    "firmware.differs": "Přečtené se liší na {words}.",
+    "firmware.lost": "Spojení s deskou se ztratilo ({words}).",
+    "firmware.half": "Obraz v desce není celý: nechte motory bez napájení, spusťte znovu zavaděč a zapište znovu.",
+    "firmware.nothing": "Nic nebylo zapsáno.",
+};

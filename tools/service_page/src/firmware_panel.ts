@@ -1,0 +1,118 @@
+import { boards, type BoardPage } from "help-pages";
+import { DfuTrouble, FLASH_ADDRESS, IMAGE_BYTES_MAX, LOADER, Loader, isImage, type UsbDevice } from "./dfu";
+import { byId, make } from "./dom";
+import { language, t } from "./i18n";
+import type { Bytes } from "./program_host";
+
+interface Usb {
+    requestDevice(options: { filters: object[] }): Promise<UsbDevice>;
+}
+
+/** WebUSB, where the browser has it. */
+const usb = (navigator as Navigator & { usb?: Usb }).usb;
+
+const hex = (address: number): string => `0x${address.toString(16).padStart(8, "0")}`;
+
+/** How the firmware gets into a board: the commands, and by the browser where it reaches USB. */
+export class FirmwarePanel {
+    readonly #board = byId("firmware-board", HTMLSelectElement);
+    readonly #file = byId("firmware-file", HTMLInputElement);
+    readonly #write = byId("firmware-write", HTMLButtonElement);
+    readonly #confirm = byId("firmware-confirm", HTMLInputElement);
+    readonly #progress = byId("firmware-progress", HTMLProgressElement);
+    readonly #said = byId("firmware-said", HTMLElement);
+    #isWriting = false;
+
+    constructor() {
+        this.#board.append(...boards.map(({ name, title }) => make("option", { value: name }, title)));
+        const preferred = boards.find(({ name }) => name === "weact-f405");
+        this.#board.value = (preferred ?? boards[0])?.name ?? "";
+        this.#board.addEventListener("change", () => this.#show());
+        this.#confirm.addEventListener("change", () => this.#show());
+        this.#file.addEventListener("change", () => this.#show());
+        byId("firmware-form", HTMLFormElement).addEventListener("submit", (event) => {
+            event.preventDefault();
+            void this.#begin();
+        });
+        window.addEventListener("beforeunload", (event) => this.#isWriting && event.preventDefault());
+        language.watch(() => this.#show());
+    }
+
+    get #chosen(): BoardPage | undefined {
+        return boards.find(({ name }) => name === this.#board.value);
+    }
+
+    #show(): void {
+        const board = this.#chosen;
+        if (board === undefined) {
+            return;
+        }
+        const address = hex(FLASH_ADDRESS + board.loader_bytes);
+        const image = `rkm04-${board.name}.bin`;
+        const lines = [
+            `tools/rkm04 board flash --board ${board.name}`,
+            `tools/rkm04 board flash --board ${board.name} --tool dfu-util`,
+            `dfu-util -a 0 -d 0483:df11 -s ${address}:leave -D ${image}`,
+            `st-flash --reset write ${image} ${address}`,
+        ];
+        byId("firmware-commands", HTMLElement).textContent = lines.join("\n");
+        byId("firmware-page", HTMLElement).innerHTML = board.flashing;
+        byId("firmware-usb", HTMLElement).hidden = usb === undefined;
+        byId("firmware-no-usb", HTMLElement).hidden = usb !== undefined;
+        this.#write.disabled = this.#isWriting || !this.#confirm.checked || this.#file.files?.length !== 1;
+    }
+
+    #say(words: string, isBad = false): void {
+        this.#said.textContent = words;
+        this.#said.classList.toggle("trouble", isBad && words !== "");
+    }
+
+    /** The file is looked at first, then the browser asks for the device. */
+    async #begin(): Promise<void> {
+        const board = this.#chosen;
+        const file = this.#file.files?.[0];
+        if (usb === undefined || board === undefined || file === undefined || this.#isWriting || !this.#confirm.checked) {
+            return;
+        }
+        this.#say("");
+        const address = FLASH_ADDRESS + board.loader_bytes;
+        const image: Bytes = file.size > IMAGE_BYTES_MAX ? new Uint8Array() : new Uint8Array(await file.arrayBuffer());
+        if (!isImage(image, address)) {
+            this.#say(t("firmware.noImage", { name: file.name, board: board.title, address: hex(address) }), true);
+            return;
+        }
+        let device: UsbDevice;
+        try {
+            device = await usb.requestDevice({ filters: [LOADER] });
+        } catch {
+            this.#say(t("firmware.notChosen"), true);
+            return;
+        }
+        await this.#put(device, address, image);
+    }
+
+    async #put(device: UsbDevice, address: number, image: Bytes): Promise<void> {
+        const loader = new Loader(device);
+        let hasBegun = false;
+        this.#isWriting = true;
+        this.#progress.hidden = false;
+        this.#show();
+        try {
+            await loader.open();
+            await loader.write(address, image, (done) => {
+                hasBegun = true;
+                this.#progress.value = done;
+            });
+            this.#say(t("firmware.done"));
+        } catch (error) {
+            const kind = error instanceof DfuTrouble ? error.kind : "lost";
+            const words = t(`firmware.${kind}`, { words: error instanceof Error ? error.message : String(error) });
+            this.#say(`${words} ${t(hasBegun ? "firmware.half" : "firmware.nothing")}`, true);
+        }
+        await loader.close().catch(() => undefined);
+        this.#isWriting = false;
+        this.#progress.hidden = true;
+        this.#progress.value = 0;
+        this.#show();
+    }
+}
