@@ -10,16 +10,17 @@
 #include <stdint.h>
 
 #define HAL_TRACE_EVENTS(X)                                                                                            \
-    X(START, "start") /* a program begins to run; value 0 */                                                           \
-    X(MOVE, "move")   /* a move begins; value = steps, signed; 0 for a run without a set end */                        \
-    X(DONE, "done")   /* a move has ended; value = steps made, signed */                                               \
-    X(STOP, "stop")   /* a motion or program is stopped; value = enum axis_cause */                                    \
-    X(OUT, "out")     /* an output changes; value = its number, negative when cleared; motor 0 = the unit */           \
-    X(VAR, "var")     /* a variable of programs is written; as OUT */                                                  \
-    X(WAIT, "wait")   /* a wait begins; value = milliseconds, or 0 where its time is not set */                        \
-    X(SPEED, "speed") /* the speed of the move in progress changes; value = steps/s */                                 \
-    X(ERROR, "error") /* the program ends with an error; value = its number in the unit's list */                      \
-    X(END, "end")     /* the program has nothing left to do; value 0 */
+    X(START, "start")     /* a program begins to run; value 0 */                                                       \
+    X(MOVE, "move")       /* a move begins; value = steps, signed; 0 for a run without a set end */                    \
+    X(DONE, "done")       /* a move has ended; value = steps made, signed */                                           \
+    X(STOP, "stop")       /* a motion or program is stopped; value = enum axis_cause */                                \
+    X(OUT, "out")         /* an output changes; value = its number, negative when cleared; motor 0 = the unit */       \
+    X(VAR, "var")         /* a variable of programs is written; as OUT */                                              \
+    X(WAIT, "wait")       /* a wait begins; value = milliseconds, or 0 where its time is not set */                    \
+    X(SPEED, "speed")     /* the speed of the move in progress changes; value = steps/s */                             \
+    X(COMMAND, "command") /* a command of the program begins; value = its place as message 7 counts */                 \
+    X(ERROR, "error")     /* the program ends with an error; value = its number in the unit's list */                  \
+    X(END, "end")         /* the program has nothing left to do; value 0 */
 
 enum hal_trace_event {
 #define X(name, text) HAL_TRACE_##name,

@@ -158,6 +158,38 @@ def test_four_motors_have_a_curve_each(draw):
     assert ends == {"1": 1, "2": 2, "3": -3, "4": 7}
 
 
+def test_the_curve_tells_when_each_command_began(draw):
+    motor = draw("\\ C100 S100\nW500 F10\nR W20")["motors"]["1"]
+
+    assert [place for _, place in motor["commands"]] == [1, 2, 3, 4, 5, 6]
+    begun = [at for at, _ in motor["commands"]]
+    assert begun[:3] == [0, 0, 0]
+    assert begun[3:5] == [pytest.approx(0.5, abs=0.001)] * 2
+    assert begun == sorted(begun)
+    assert (motor["command"], motor["commands_cut"]) == (0, None)
+
+
+def test_a_part_of_the_curve_begins_at_the_command_that_was_run_then(draw):
+    motor = draw("\\ C100 W500\nW500 F10 R", range=[0.2, 0.7])["motors"]["1"]
+
+    assert motor["command"] == 2
+    assert [place for _, place in motor["commands"]] == [3]
+
+
+def test_what_a_loop_runs_is_told_as_far_as_there_is_room(draw):
+    motor = draw("@1 W1 J1", seconds=5, points=30)["motors"]["1"]
+
+    assert len(motor["commands"]) == 30
+    assert motor["commands"][-1][0] <= motor["commands_cut"] < 0.1
+
+
+def test_places_of_a_program_of_several_messages_are_those_in_its_text(draw):
+    motor = draw("=-2000000000\n" * 690 + "W500 F10 R", points=2000)["motors"]["1"]
+
+    assert motor["commands"][0] == [0, 0]
+    assert [place for _, place in motor["commands"]][-4:] == [691, 692, 693, 693]
+
+
 def test_inputs_and_outputs_are_part_of_the_curve(draw):
     told = draw("O03 T02 F10 R", inputs=[[500, 3, 1]])
 

@@ -37,7 +37,8 @@ class Command:
 
     `offset` is that of its letter; `opcode` the name of its row in program_opcodes.def; `io` the
     input or variable of a conditional jump, else 0; `value` its number, else 0; `text` its
-    canonical form; `ordinal` its place in program memory, 0 if it is not stored.
+    canonical form; `ordinal` its place in program memory, 0 if it is not stored; `line` and
+    `column` those of its letter, from 1.
     """
 
     offset: int
@@ -46,6 +47,8 @@ class Command:
     value: int
     text: str
     ordinal: int = 0
+    line: int = 1
+    column: int = 1
 
 
 @dataclass(frozen=True)
@@ -93,10 +96,8 @@ class OpcodeRow:
 def check(text: str) -> Parsed:
     """Parse a text as the unit does; what is wrong with it, in words."""
     answer = _answer(["check", "-"], text.encode("utf-8", "surrogatepass"))
-    commands = [
-        Command(c["offset"], c["opcode"], c["io"], c["value"], c["text"], c["ordinal"])
-        for c in answer["commands"]
-    ]
+    names = [field.name for field in fields(Command)]
+    commands = [Command(*(told[name] for name in names)) for told in answer["commands"]]
     names = [field.name for field in fields(Problem)]
     problems = [Problem(*(told[name] for name in names)) for told in answer["problems"]]
     return Parsed(commands, problems, answer["more"])

@@ -43,8 +43,8 @@ static void print_motor(const struct run *run, const struct rkm04 *unit, const s
     print_seconds("seconds_moving", units_ns_of_ticks(tally_moving_ticks(tally, run->machine.now)));
     (void)printf("\"state\":\"%s\",\"error\":", summary_state_text(interpreter->state));
     json_print_string(interpreter_error_text((enum interpreter_error)interpreter->error));
-    (void)printf(",\"place\":%" PRIu32 ",\"overflow\":%s}", feed_place(feed, motor, interpreter->place),
-                 feed->overflow[motor] ? "true" : "false");
+    (void)printf(",\"place\":%" PRIu32 ",\"held\":%s,\"overflow\":%s}", feed_place(feed, motor, interpreter->place),
+                 feed->held[motor] ? "true" : "false", feed->overflow[motor] ? "true" : "false");
 }
 
 void summary_print(const struct run *run, const struct rkm04 *unit, const struct feed *feed)

@@ -59,7 +59,8 @@ bool curve_begin(struct curve *curve, struct outfile *file, const struct curve_r
     bool good = curve->outputs != NULL;
     for (unsigned i = 0; i < UNIT_MOTORS && good; i++) {
         curve->motors[i].steps = malloc(range->points * sizeof *curve->motors[i].steps);
-        good = thin_begin(&curve->motors[i].thin, range->points) && curve->motors[i].steps != NULL;
+        good = thin_begin(&curve->motors[i].thin, range->points) && curve->motors[i].steps != NULL &&
+               curve_commands_begin(&curve->motors[i].commands, range->points);
         if (good) {
             put_point(curve, &curve->motors[i], 0, 0);
         }
@@ -138,6 +139,12 @@ void curve_put(struct curve *curve, const struct timeline_event *event)
         put_position(curve, motor, event);
         put_change(curve, motor, event);
     }
+}
+
+void curve_put_command(struct curve *curve, unsigned motor, uint64_t tick, int64_t ordinal)
+{
+    const struct curve_command command = {.tick = tick, .ordinal = ordinal};
+    curve_commands_put(&curve->motors[motor].commands, &command, curve->range.from_tick, curve->range.to_tick);
 }
 
 static void put_text(struct curve *curve, const char *text)
@@ -220,6 +227,7 @@ static void put_motor(struct curve *curve, unsigned motor)
     put_list(curve, thin, ",\"speed\":[", put_point_speed);
     put_list(curve, thin, ",\"position\":[", put_point_position);
     put_steps(curve, &curve->motors[motor]);
+    curve_commands_write(&curve->motors[motor].commands, curve->file);
     put_text(curve, "}");
 }
 
@@ -259,6 +267,7 @@ void curve_discard(struct curve *curve)
         thin_discard(&curve->motors[i].thin);
         free(curve->motors[i].steps);
         curve->motors[i].steps = NULL;
+        curve_commands_discard(&curve->motors[i].commands);
     }
     free(curve->outputs);
     curve->outputs = NULL;

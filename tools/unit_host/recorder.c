@@ -67,6 +67,13 @@ void recorder_put(struct recorder *recorder, const struct timeline_event *event,
     }
 }
 
+void recorder_put_command(struct recorder *recorder, uint64_t tick, unsigned motor, int64_t ordinal)
+{
+    if (outfile_is_open(&recorder->line)) {
+        curve_put_command(&recorder->curve, motor - 1U, tick, ordinal);
+    }
+}
+
 bool recorder_finish(struct recorder *recorder, uint64_t end_tick)
 {
     timeline_flush(&recorder->timeline);

@@ -42,6 +42,9 @@ bool recorder_open(struct recorder *recorder, const struct recorder_paths *paths
  * active. */
 void recorder_put(struct recorder *recorder, const struct timeline_event *event, uint64_t now_ticks);
 
+/* A command of the program of motor 1 to 4 has begun at `tick`. Only while active. */
+void recorder_put_command(struct recorder *recorder, uint64_t tick, unsigned motor, int64_t ordinal);
+
 /* Completes all files and gives them their names. False after a complaint; then none that is not whole gets one. */
 bool recorder_finish(struct recorder *recorder, uint64_t end_tick);
 

@@ -94,6 +94,14 @@ static void record_position(struct run *run, unsigned motor, uint64_t tick)
     }
 }
 
+/* Not among the events of the files: a program that never waits runs more commands than there is room for. */
+static void record_command(struct run *run, unsigned motor, uint64_t tick, int64_t ordinal)
+{
+    if (run->recorder.active) {
+        recorder_put_command(&run->recorder, tick, motor, ordinal);
+    }
+}
+
 static void hear_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
 {
     struct run *run = context;
@@ -102,6 +110,10 @@ static void hear_trace(void *context, uint64_t tick, unsigned motor, enum hal_tr
         tally_begin_move(&run->tally[motor - 1U], tick, run->kind->position_steps(run->unit, motor - 1U));
     } else if (event == HAL_TRACE_DONE && motor != 0) {
         tally_end_move(&run->tally[motor - 1U], tick, run->kind->moves_together);
+    }
+    if (event == HAL_TRACE_COMMAND) {
+        record_command(run, motor, tick, value);
+        return;
     }
     record(
         run,

@@ -36,6 +36,7 @@ static bool advance_running(struct interpreter *interpreter, uint64_t now_ticks)
     struct program_instruction instruction = program_memory_at(memory, interpreter->next);
     interpreter->next++;
     interpreter->place = interpreter->next;
+    interpreter_trace(interpreter, now_ticks, HAL_TRACE_COMMAND, interpreter->place);
     interpreter_run(interpreter, &instruction, now_ticks);
     return true;
 }

@@ -183,6 +183,7 @@ void judge_motor_event(struct judge *judge, uint64_t tick, unsigned number, enum
     case HAL_TRACE_OUT:
     case HAL_TRACE_VAR:
     case HAL_TRACE_WAIT:
+    case HAL_TRACE_COMMAND:
     case HAL_TRACE_END:
         break;
     }

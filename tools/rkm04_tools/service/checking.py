@@ -20,16 +20,20 @@ EXAMPLES = ROOT / "tools" / "examples"
 
 
 def check(text: str) -> dict[str, Any]:
-    """The errors, or else the warnings, and how many commands are stored of it.
+    """The errors, or else the warnings, and what is stored of it.
 
-    `more`: so many of them are not told.
+    `more`: so many of them are not told. `listing`: line, column and canonical text of each stored
+    command, in the order of their ordinals from 1. `resets`: it forgets what the unit had before.
     """
     checked = check_source(Source(NAME, text))
     told = checked.diagnostics[:PROBLEMS_MAX]
+    kept = stored(checked.parsed.commands) if checked.is_good else []
     return {
         "problems": [_problem(each) for each in told],
         "more": len(checked.diagnostics) - len(told) + checked.parsed.more,
         "commands": len(stored(checked.parsed.commands)),
+        "listing": [[each.line, each.column, each.text] for each in kept],
+        "resets": any(each.opcode == "RESET" for each in checked.parsed.commands),
     }
 
 

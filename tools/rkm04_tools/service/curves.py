@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -12,6 +12,7 @@ from typing import Any
 
 from rkm04_tools import child, host
 from rkm04_tools.check import Checked, check_source
+from rkm04_tools.host import stored
 from rkm04_tools.report import Run
 from rkm04_tools.service.trouble import BadRequest, Superseded
 from rkm04_tools.source import Source
@@ -160,12 +161,16 @@ def _answer(
 def _motor(line: dict[str, Any], run: Run) -> dict[str, Any]:
     place = run.place
     where = {"line": place.line, "column": place.column} if place else None
+    ordinal_of = _ordinals(run)
     return {
         "t": line["t"],
         "speed": line["speed"],
         "position": line["position"],
         "before": line["before"],
         "steps": line["steps"],
+        "command": ordinal_of(line["command"]),
+        "commands": [[at, ordinal_of(place)] for at, place in line["commands"]],
+        "commands_cut": line["commands_cut"],
         "moves": run.told["moves"],
         "pulses": run.told["pulses"],
         "peak": run.told["peak_speed"],
@@ -175,6 +180,13 @@ def _motor(line: dict[str, Any], run: Run) -> dict[str, Any]:
         "place": where,
         "overflow": run.told["overflow"],
     }
+
+
+def _ordinals(run: Run) -> Callable[[int], int]:
+    """Places in the program of those in the memory, where `[` and `]` may stand around it."""
+    first = 1 if run.told["held"] else 0
+    last = len(stored(run.checked.parsed.commands))
+    return lambda place: min(max(place - first, 0), last)
 
 
 def _refusal(error: str) -> dict[str, Any]:

@@ -10,10 +10,13 @@ from typing import Any
 from rkm04_tools import messages
 from rkm04_tools.line import Unit, Wait
 from rkm04_tools.line_errors import UnknownMessage
-from rkm04_tools.messages import ALL_MOTORS, GET_POSITION, GET_STATUS
+from rkm04_tools.messages import ALL_MOTORS, GET_POSITION, GET_PROGRESS, GET_STATUS, MOTORS
 from rkm04_tools.status import Status, parse_status
 
 LOOKING = Wait(attempts=2)
+PLACES_SECONDS = 1.0
+"""For so long the place of a program is told after it was asked for."""
+
 PAUSE_SECONDS = 2.0
 """Looks that are further apart tell no speed."""
 
@@ -39,24 +42,53 @@ class Speeds:
         return [round(speed, 1) if abs(speed) <= POSSIBLE else None for speed in found]
 
 
+class Places:
+    """Where the programs are, one motor asked for in each look: four would slow down the rest."""
+
+    def __init__(self) -> None:
+        self._seen: dict[int, tuple[float, int]] = {}
+
+    def look(self, unit: Unit, running: Sequence[int]) -> None:
+        """Ask that of these motors that was asked longest ago; the others run no command."""
+        self._seen = {motor: seen for motor, seen in self._seen.items() if motor in running}
+        if not running:
+            return
+        motor = min(running, key=lambda each: self._seen.get(each, (0.0, 0))[0])
+        request = messages.request(GET_PROGRESS, motor)
+        try:
+            answer = unit.line.request_at_once(unit.node, request, LOOKING)
+        except UnknownMessage:
+            return
+        self._seen[motor] = time.monotonic(), messages.parse_progress(answer, motor).command
+
+    def of(self, motor: int) -> int | None:
+        """The ordinal of the command that is being run; None: not known, or there is none."""
+        at, place = self._seen.get(motor, (0.0, 0))
+        return place or None if time.monotonic() - at < PLACES_SECONDS else None
+
+
 def from_positions(
-    node: int, seconds: float, positions: Sequence[int], speeds: Sequence[float | None]
+    node: int,
+    seconds: float,
+    positions: Sequence[int],
+    speeds: Sequence[float | None],
+    places: Places,
 ) -> dict[str, Any]:
     """What is known of a unit that tells positions only."""
     motors = [
-        {"position": position, "speed": speed, "moving": None}
-        for position, speed in zip(positions, speeds, strict=True)
+        {"position": position, "speed": speed, "moving": None, "place": places.of(motor)}
+        for motor, (position, speed) in enumerate(zip(positions, speeds, strict=True), 1)
     ]
     return _live(node, seconds, motors, None, None, None)
 
 
 def from_status(
-    node: int, seconds: float, status: Status, speeds: Sequence[float | None]
+    node: int, seconds: float, status: Status, speeds: Sequence[float | None], places: Places
 ) -> dict[str, Any]:
     """What a unit tells that knows Get Status: a motor that does not move has no speed."""
     motors = [
-        {**asdict(motor), "speed": speed if motor.moving else 0.0}
-        for motor, speed in zip(status.motors, speeds, strict=True)
+        {**asdict(each), "speed": speed if each.moving else 0.0, "place": places.of(motor)}
+        for motor, (each, speed) in enumerate(zip(status.motors, speeds, strict=True), 1)
     ]
     told = status.as_json()
     del told["motors"]
@@ -92,6 +124,7 @@ class View:
     def begin(self) -> None:
         """Forget what was seen: it is another unit, or may be."""
         self._speeds = Speeds()
+        self._places = Places()
         self._tells_status = True
 
     def look(self, unit: Unit) -> None:
@@ -102,7 +135,10 @@ class View:
         if self._tells_status:
             try:
                 answer = unit.line.request_at_once(unit.node, bytes([GET_STATUS]), LOOKING)
-                self.show(unit.node, parse_status(answer))
+                status = parse_status(answer)
+                running = [motor for motor in MOTORS if status.motors[motor - 1].running]
+                self._places.look(unit, running)
+                self.show(unit.node, status)
                 return
             except UnknownMessage:
                 self._tells_status = False
@@ -111,10 +147,11 @@ class View:
         positions = messages.parse_positions(answer, ALL_MOTORS)
         now = time.monotonic()
         speeds = self._speeds.of(now, positions)
-        self._tell(from_positions(unit.node, now, positions, speeds))
+        self._places.look(unit, MOTORS)
+        self._tell(from_positions(unit.node, now, positions, speeds, self._places))
 
     def show(self, node: int, status: Status) -> None:
         """Tell a status that has just come."""
         now = time.monotonic()
         speeds = self._speeds.of(now, [motor.position for motor in status.motors])
-        self._tell(from_status(node, now, status, speeds))
+        self._tell(from_status(node, now, status, speeds, self._places))

@@ -221,6 +221,18 @@ export const cs: Dictionary = {
     "first.end": "konec smyčky",
     "first.home": "zpět na začátek",
 
+    "follow.noUnit": "žádná jednotka není připojena: který řádek běží, není známo",
+    "follow.silent": "jednotka mlčí: který řádek běží, není známo",
+    "follow.unread": "jaký program má motor {motor}, tu není známo:",
+    "follow.read": "načíst",
+    "follow.readLabel": "Get Command tohoto motoru: přečte jeho program, aby šlo označit řádek, který běží. Nic nemění",
+    "follow.other": "motor {motor} má jiný program: jeho řádek tu není",
+    "follow.empty": "motor {motor} nemá žádný program",
+    "follow.rests": "motor {motor} nevykonává žádný příkaz",
+    "follow.outside": "motor {motor} vykonává příkaz, který v tomto programu není",
+    "follow.line": "motor {motor} vykonává řádek {line}: {command}",
+    "follow.perhaps": "motor {motor} vykonává, nebo naposled vykonal, řádek {line}: {command}",
+
     "plan.title": "Co by programy udělaly",
     "plan.speed": "Rychlost, kroky/s",
     "plan.position": "Poloha, kroky",

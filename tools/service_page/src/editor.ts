@@ -24,6 +24,7 @@ import type { Draft } from "./drafts";
 import { newForm, type FileForm } from "./file_form";
 import { highlighting } from "./highlight";
 import { explain } from "./help";
+import { breakLines, hasMarks, hasNewBreaks, lineMarks, marksEffect, type Marks } from "./line_marks";
 import { language, t } from "./i18n";
 import { phrases } from "./phrases";
 import type { Problem } from "./protocol";
@@ -52,6 +53,8 @@ export class Editor {
     readonly #onEdit: () => void;
     readonly #help: HTMLElement;
     #shown = 0;
+    /** Called when the cursor of the shown program was moved to a line, from 1, or break points have changed. */
+    onMove: (line: number) => void = () => undefined;
 
     constructor(host: HTMLElement, help: HTMLElement, drafts: Draft[], onEdit: () => void) {
         this.#onEdit = onEdit;
@@ -85,8 +88,11 @@ export class Editor {
         if (index === this.#shown) {
             this.#view.dispatch(change);
         } else {
-            this.#states[index] = this.#current(index).update(change).state;
-            this.#onEdit();
+            const before = this.#current(index);
+            this.#states[index] = before.update(change).state;
+            if (this.#current(index).doc !== before.doc || this.form(index) !== before.field(formField)) {
+                this.#onEdit();
+            }
         }
     }
 
@@ -109,6 +115,24 @@ export class Editor {
         } else {
             this.#states[index] = state.update(found).state;
         }
+    }
+
+    /** Marks lines of a program. */
+    setMarks(index: number, marks: Marks): void {
+        if (!hasMarks(this.#current(index), marks)) {
+            this.#change(index, { effects: marksEffect(marks) });
+        }
+    }
+
+    /** The lines of a program at which the simulation is to stop. */
+    breaks(index: number): number[] {
+        return breakLines(this.#current(index));
+    }
+
+    /** The line of the cursor, from 1. */
+    get line(): number {
+        const { doc, selection } = this.#view.state;
+        return doc.lineAt(selection.main.head).number;
     }
 
     /** Puts the cursor at a line and column of the shown program; both count from 1. */
@@ -171,6 +195,7 @@ export class Editor {
             extensions: [
                 formField.init(() => form),
                 formHistory,
+                lineMarks,
                 lineNumbers(),
                 highlightActiveLine(),
                 highlightActiveLineGutter(),
@@ -190,6 +215,9 @@ export class Editor {
                     }
                     if (update.docChanged || update.selectionSet) {
                         this.#explain();
+                    }
+                    if (update.selectionSet || hasNewBreaks(update.startState, update.state)) {
+                        this.onMove(this.line);
                     }
                 }),
                 this.#words.of(this.#translated()),

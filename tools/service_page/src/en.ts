@@ -219,6 +219,18 @@ export const en = {
     "first.end": "end of the loop",
     "first.home": "back to where it began",
 
+    "follow.noUnit": "no unit is connected: which line runs is not known",
+    "follow.silent": "the unit is silent: which line runs is not known",
+    "follow.unread": "which program motor {motor} holds is not known here:",
+    "follow.read": "read it",
+    "follow.readLabel": "Get Command of this motor: reads its program, so that the line that runs can be marked. Changes nothing",
+    "follow.other": "motor {motor} holds another program: its line is not in this one",
+    "follow.empty": "motor {motor} holds no program",
+    "follow.rests": "motor {motor} runs no command",
+    "follow.outside": "motor {motor} runs a command that is not in this program",
+    "follow.line": "motor {motor} runs line {line}: {command}",
+    "follow.perhaps": "motor {motor} runs, or ran last, line {line}: {command}",
+
     "plan.title": "What the programs would do",
     "plan.speed": "Speed, steps/s",
     "plan.position": "Position, steps",

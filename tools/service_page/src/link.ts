@@ -35,6 +35,7 @@ export class Link<From extends Said = FromService, To extends Said = ToService> 
     client: number | null = null;
     readonly #handlers = new Map<string, ((message: From) => void)[]>();
     readonly #onRefused: ((message: To) => void)[] = [];
+    readonly #onSent: ((message: To) => void)[] = [];
     readonly #connectTo: () => Line;
     #socket: Line | null = null;
     #heard_ms = 0;
@@ -58,6 +59,11 @@ export class Link<From extends Said = FromService, To extends Said = ToService> 
         this.#onRefused.push(handler);
     }
 
+    /** Calls the handler with what is being sent. */
+    onSent(handler: (message: To) => void): void {
+        this.#onSent.push(handler);
+    }
+
     open(): void {
         this.#connect();
         window.setInterval(() => this.#watch(), LOOK_MS);
@@ -70,6 +76,7 @@ export class Link<From extends Said = FromService, To extends Said = ToService> 
             this.#onRefused.forEach((handler) => handler(message));
             return false;
         }
+        this.#onSent.forEach((handler) => handler(message));
         this.#socket.send(JSON.stringify({ ...message, beat: this.#beat }));
         return true;
     }

@@ -5,7 +5,9 @@ import { Connection } from "./connection";
 import { byId } from "./dom";
 import { engine } from "./engine";
 import { FirmwarePanel } from "./firmware_panel";
+import { Follow } from "./follow";
 import { HelpPanel } from "./help_panel";
+import { Holding } from "./holding";
 import { setUpLanguage, t } from "./i18n";
 import { parseInputs } from "./inputs_text";
 import { Link } from "./link";
@@ -50,6 +52,7 @@ link.on("live", ({ node }) => presence.look(node));
 const stop = new Stop(link);
 new Connection(link, presence);
 const live = new LiveView(link, presence);
+new Follow(link, programs, new Holding(link), presence, (motor) => commands.request("program", motor));
 const machine = new Machine({
     programs: () => programs.all(),
     inputs: () => plan.inputs,

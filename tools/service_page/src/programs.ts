@@ -5,6 +5,7 @@ import { Editor } from "./editor";
 import { newForm, type FileForm } from "./file_form";
 import { FILE_BYTES_MAX, readProgram, saveProgram } from "./files";
 import { language, numberText, t } from "./i18n";
+import type { Marks } from "./line_marks";
 import { MOTORS, type Example, type Problem, type Verdict } from "./protocol";
 import { Cell } from "./signal";
 
@@ -40,6 +41,7 @@ export class Programs {
     readonly #examples = byId("examples", HTMLSelectElement);
     readonly #checkSoon = debounced(CHECK_MS, () => void this.#checkAll());
     readonly #on: ProgramEvents;
+    readonly #marks = new Map<number, Marks>();
     #names: string[] = [];
 
     constructor(on: ProgramEvents) {
@@ -88,6 +90,23 @@ export class Programs {
         this.#editor.replace(motor - 1, text, form);
         this.#editor.focus();
         this.#on.replace();
+    }
+
+    /** What the parser says of the text that is there now; null: nothing yet. */
+    verdict(motor: number): Verdict | null {
+        const tab = this.#tabs[motor - 1];
+        return tab === undefined || tab.trouble !== null || tab.checked !== this.text(motor) ? null : tab.verdict;
+    }
+
+    /** Marks the line that the unit runs; null: none. */
+    markUnit(motor: number, line: number | null): void {
+        this.#mark(motor, { unit: line });
+    }
+
+    #mark(motor: number, change: Partial<Marks>): void {
+        const marks = { ...(this.#marks.get(motor) ?? { unit: null, simulated: null }), ...change };
+        this.#marks.set(motor, marks);
+        this.#editor.setMarks(motor - 1, marks);
     }
 
     /** To be called when the service may answer again. */

@@ -83,6 +83,8 @@ export interface MotorLive {
     ended?: boolean;
     error?: string;
     awaited?: { what: string; number: number; level: number } | null;
+    /** The ordinal of the command that is being run, or was run last where `running` is not known; null: not known. */
+    place?: number | null;
 }
 
 export interface LiveUnit {
@@ -132,6 +134,8 @@ export interface AnswerValues {
     commands?: number;
     messages?: number;
     overflow?: boolean;
+    /** What the unit holds, as it tells it. */
+    program?: string;
     notes?: string[];
     /** The one command that acts only alone in a message, if it was that. */
     alone?: string;
@@ -189,6 +193,10 @@ export interface Verdict {
     more?: number;
     /** How many commands the program has; told of programs without errors. */
     commands?: number | null;
+    /** The stored commands of a program without errors, in the order of their ordinals from 1. */
+    listing?: [line: number, column: number, text: string][];
+    /** It forgets what the unit had before. */
+    resets?: boolean;
 }
 
 export interface MotorCurve {
@@ -201,6 +209,12 @@ export interface MotorCurve {
     before: number;
     /** Every single pulse of that part, and every position that was written; null: too many to be told. */
     steps: [seconds: number, position: number][] | null;
+    /** The ordinal of the command that was run at the beginning of that part; 0: none. */
+    command: number;
+    /** When each command of that part began, and its ordinal. */
+    commands: [seconds: number, ordinal: number][];
+    /** From then on there are more commands than are told; null: all are told. */
+    commands_cut: number | null;
     moves: number;
     pulses: number;
     peak: number;

@@ -16,7 +16,7 @@ const STATES: Record<string, string> = {
 };
 
 export interface Checked {
-    commands: { line: number; column: number; ordinal: number; text: string }[];
+    commands: { line: number; column: number; ordinal: number; opcode: string; text: string }[];
     stored: number;
     problems: Problem[];
     more: number;
@@ -26,12 +26,14 @@ interface Summary {
     seconds: number;
     ended: "idle" | "real" | "time";
     motors: {
-        motor: number; moves: number; pulses: number; peak_speed: number; state: string; error: string; place: number;
+        motor: number; moves: number; pulses: number; peak_speed: number; state: string; error: string; place: number; held: boolean;
     }[];
 }
 
+type Told = "t" | "speed" | "position" | "before" | "steps" | "command" | "commands" | "commands_cut";
+
 interface Lines {
-    motors: ({ motor: number } & Pick<MotorCurve, "t" | "speed" | "position" | "before" | "steps">)[];
+    motors: ({ motor: number } & Pick<MotorCurve, Told>)[];
     outputs: Curve["outputs"];
 }
 
@@ -44,9 +46,12 @@ export class Simulator {
     }
 
     check(text: string): Verdict {
-        const { problems, more, stored } = this.read(text);
+        const { commands, problems, more, stored } = this.read(text);
         const told = problems.slice(0, PROBLEMS_MAX);
-        return { problems: told, more: problems.length - told.length + more, commands: stored };
+        const resets = commands.some((each) => each.opcode === "RESET");
+        const isGood = problems.every(({ severity }) => severity !== "error");
+        const listing = isGood ? commands.filter(({ ordinal }) => ordinal > 0).map(listed) : [];
+        return { problems: told, more: problems.length - told.length + more, commands: stored, listing, resets };
     }
 
     curve({ programs, inputs, seconds, points, range }: CurveRequest): Curve {
@@ -98,6 +103,15 @@ function refusal(error: string): Curve {
     return { seconds: 0, ended: false, motors: {}, outputs: [], error };
 }
 
+const listed = ({ line, column, text }: Checked["commands"][number]): [number, number, string] => [line, column, text];
+
+/** With the places of commands in the program, where `[` stands before it in the memory, and `]` after it. */
+function placed<T extends Pick<MotorCurve, "command" | "commands">>(line: T, held: boolean, stored: number): T {
+    const ordinalOf = (place: number): number => Math.min(Math.max(place - (held ? 1 : 0), 0), stored);
+    const commands = line.commands.map(([at, place]): [number, number] => [at, ordinalOf(place)]);
+    return { ...line, command: ordinalOf(line.command), commands };
+}
+
 /** The summary and the lines, for the motors that have a program. */
 function joined(told: Summary, lines: Lines, checked: Map<number, Checked>): Curve {
     const motors: Record<string, MotorCurve> = {};
@@ -110,7 +124,7 @@ function joined(told: Summary, lines: Lines, checked: Map<number, Checked>): Cur
             const words = at ? `at ${at.text}, line ${at.line}` : one.state;
             const { moves, pulses, state } = one;
             const ended = { peak: one.peak_speed, state_text: STATES[state] ?? words, error: one.error || null };
-            motors[motor] = { ...line, moves, pulses, ...ended };
+            motors[motor] = { ...placed(line, one.held, program.stored), moves, pulses, ...ended };
         }
     }
     const { seconds, ended } = told;

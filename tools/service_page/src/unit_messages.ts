@@ -41,7 +41,7 @@ export interface StatusNames {
 export interface Status {
     inputs: number[];
     outputs: number[];
-    motors: Required<MotorLive>[];
+    motors: Required<Omit<MotorLive, "place">>[];
     unit: LiveUnit;
 }
 
@@ -169,7 +169,7 @@ export function status(answer: Uint8Array, names: StatusNames): Status {
     return { inputs: levels(2), outputs: levels(3), motors, unit };
 }
 
-function motorOf(state: number, position: number, error: string, awaited: number): Required<MotorLive> {
+function motorOf(state: number, position: number, error: string, awaited: number): Status["motors"][number] {
     const is = (bit: number): boolean => ((state >> bit) & 1) === 1;
     return {
         position,

@@ -1,9 +1,10 @@
 import { ALL_MOTORS, MOTORS, type Live, type MotorLive } from "./protocol";
 import * as messages from "./unit_messages";
 import { LOOKING, type Place } from "./unit_place";
+import { Places } from "./unit_places";
 import { Speeds } from "./unit_speeds";
 
-type Ask = (request: Uint8Array<ArrayBuffer>, wait: typeof LOOKING) => Promise<Uint8Array>;
+export type Ask = (request: Uint8Array<ArrayBuffer>, wait: typeof LOOKING) => Promise<Uint8Array>;
 
 /** What the motors of a unit do now. */
 export class UnitView {
@@ -11,6 +12,7 @@ export class UnitView {
     last: Live | null = null;
     readonly names: messages.StatusNames;
     #speeds = new Speeds();
+    #places = new Places();
     #tellsStatus = true;
 
     constructor(names: messages.StatusNames) {
@@ -21,6 +23,7 @@ export class UnitView {
     begin(): void {
         this.last = null;
         this.#speeds = new Speeds();
+        this.#places = new Places();
         this.#tellsStatus = true;
     }
 
@@ -28,7 +31,10 @@ export class UnitView {
     async look(place: Place, node: number, load: number, ask: Ask): Promise<Live> {
         if (this.#tellsStatus) {
             try {
-                return this.show(place, node, await ask(Uint8Array.of(messages.GET_STATUS), LOOKING), load);
+                const answer = await ask(Uint8Array.of(messages.GET_STATUS), LOOKING);
+                const { motors } = messages.status(answer, this.names);
+                await this.#places.look(MOTORS.filter((motor) => motors[motor - 1]?.running), ask);
+                return this.show(place, node, answer, load);
             } catch (error) {
                 if (!(error instanceof messages.UnknownMessage)) {
                     throw error;
@@ -38,6 +44,7 @@ export class UnitView {
         }
         const answer = await ask(messages.request(messages.GET_POSITION, ALL_MOTORS), LOOKING);
         const found = messages.positions(answer, ALL_MOTORS);
+        await this.#places.look([...MOTORS], ask);
         const motors = MOTORS.map((motor) => ({ position: found[motor] ?? 0, speed: null, moving: null }));
         return this.#told({ node, time_s: place.now_s, motors, inputs: null, outputs: null, unit: null });
     }
@@ -52,7 +59,10 @@ export class UnitView {
 
     #told(live: Live): Live {
         const speeds = this.#speeds.of(live.time_s, live.motors.map(({ position }) => position));
-        const motors = live.motors.map((motor, index) => ({ ...motor, speed: speedOf(motor, speeds[index] ?? null) }));
+        const motors = live.motors.map((motor, index) => {
+            const speed = speedOf(motor, speeds[index] ?? null);
+            return { ...motor, speed, place: this.#places.of(index + 1) };
+        });
         this.last = { ...live, motors };
         return this.last;
     }
