@@ -1,5 +1,5 @@
-"""Checks the models in tests/proofs, the line and the ring of segments, with
-Spin: every run of them, to the end.
+"""Checks the models in tests/proofs, the line, the ring of segments and the edges that the DMA
+moves, with Spin: every run of them, to the end.
 
     python tests/support/line_model.py
 
@@ -20,6 +20,7 @@ from pathlib import Path
 
 MODELS = Path(__file__).resolve().parents[2] / "tests/proofs"
 RING = "ring.pml"
+EDGES = "edges.pml"
 COMMANDS = ("spin", "gcc")
 
 ERRORS = re.compile(r"errors: (\d+)")
@@ -49,6 +50,13 @@ HOLD = (
         ("PUSHES=4", "REPLACEMENTS=2", "STOPS=0"),
         model=RING,
     ),
+    Variant("each edge made once, at its tick; none of what was taken back", model=EDGES),
+    Variant("the same with two changes", ("PULSES=4", "CHANGES=2"), model=EDGES),
+    Variant("the same with a full ring", ("PULSES=8", "CHANGES=0", "FAR"), model=EDGES),
+    Variant(
+        "late pulses are counted, none is missing", ("PULSES=4", "CHANGES=0", "LATE"), model=EDGES
+    ),
+    Variant("the same with a change", ("PULSES=3", "LATE"), model=EDGES),
 )
 FAIL = (
     Variant("planted: a unit that has started refuses nothing", ("ACTIONS=1", "PLANT_NO_REFUSAL")),
@@ -93,6 +101,26 @@ FAIL = (
     Variant("planted: closed seen before the hold", ("PLANT_CLOSED_SEEN_BEFORE_HOLD",), model=RING),
     Variant("planted: a replacement after a brake", ("PLANT_REPLACED_AFTER_BRAKE",), model=RING),
     Variant("planted: a replacement that does not open", ("PLANT_NOT_OPENED",), model=RING),
+    Variant("planted: no edge that is never", ("PLANT_NO_LAST_EDGE",), model=EDGES),
+    Variant("planted: what is loaded is cut", ("PLANT_LOADED_IS_CUT",), model=EDGES),
+    Variant("planted: a cut too late", ("PLANT_CUT_TOO_LATE",), model=EDGES),
+    Variant("planted: taken back too late", ("PLANT_TAKEN_BACK_TOO_LATE",), model=EDGES),
+    Variant("planted: a stop in a pulse", ("PLANT_PULSE_NOT_AWAITED",), model=EDGES),
+    Variant("planted: a stop that leaves the pin", ("PLANT_PIN_LEFT",), model=EDGES),
+    Variant("planted: a stop before the last edge", ("PLANT_END_NOT_AWAITED",), model=EDGES),
+    Variant("planted: a pulse that rises counted as made", ("PLANT_MADE_TOO_SOON",), model=EDGES),
+    Variant("planted: a stream begun where it was", ("PLANT_COUNT_KEPT",), model=EDGES),
+    Variant(
+        "planted: a ring laid over",
+        ("PULSES=8", "CHANGES=0", "FAR", "PLANT_RING_OVERRUN"),
+        model=EDGES,
+    ),
+    Variant("planted: laid too late", ("PULSES=4", "LATE", "PLANT_NOT_IN_TIME"), model=EDGES),
+    Variant(
+        "planted: what was loaded too soon is not seen",
+        ("PULSES=4", "LATE", "PLANT_LOADED_NOT_CHECKED"),
+        model=EDGES,
+    ),
 )
 
 
