@@ -274,10 +274,12 @@ def _blindly(options: Sequence[Option], window: tuple[int, int], order: Order) -
     tick, late = window
     late = max(late, SLOW_CHANGE) if square2 < 2 * SPEED_UNITS**2 else late
     blur = max(curve.blur for _, curve, _ in options)
+    begins = [ceil_tick(_at(curve, places).time) for _, curve, places in options]
+    since = [tick if begin <= tick + late else begin for begin in begins]
     return loose(
         lambda n: moving(Fraction(n, per_step), square2, 0, order, blur),
         ends,
-        (tick, tick + late),
+        (min(since), max(since) + late),
         made,
     )
 
@@ -355,13 +357,20 @@ def _leg_during(curve: Curve, tick: int) -> Leg | None:
 
 
 def _between(curve: Curve, tick: int, late: int) -> Iterator[Places]:
-    """Places where a change may take effect at constant speed."""
+    """Places where a change may take effect at constant speed.
+
+    A change that waits for a pulse on a ramp does so no longer where the ramp ends before it.
+    """
     for leg in curve.legs:
         if leg.sign:
             continue
-        low = max(tick << BITS, leg.time)
+        low = since = max(tick << BITS, leg.time)
+        if leg.time <= tick + late << BITS:
+            since = tick << BITS
+        elif math.floor(leg.x0) > curve.place_at(tick << BITS):
+            continue
         slow = leg.square2 < 2 * SPEED_UNITS**2
-        high = min(tick + (max(SLOW_CHANGE, late) if slow else late) << BITS, leg.end_time)
+        high = min(since + ((max(SLOW_CHANGE, late) if slow else late) << BITS), leg.end_time)
         if low > high:
             continue
         per_step = GAIN * leg.accel

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from pos_curve import BITS, SLOWEST, Curve, Ticks
+from pos_curve import BITS, GAIN, SLOWEST, Curve, Ticks
 from pos_words import ACCEL_UNITS
 from reference import TICK_HZ
 
@@ -184,12 +184,22 @@ def crossing(
 def apart(curve: Curve, other: Curve, time: int) -> float:
     """By how many steps two curves differ at most from a time on, to their ends.
 
-    The leg that they are on counts as a whole: near a rest all places are the same.
+    The leg that they are on counts as a whole: near a rest all places are the same. A speed counts
+    as the way on which the ramp makes up for it, as far as another change may bring them apart.
     """
     legs = [leg for each in (curve, other) for leg in each.legs if leg.end_time >= time]
     times = {time, *(leg.end_time for leg in legs), *(leg.time for leg in legs)}
     ways = (curve.place_at(each) - other.place_at(each) for each in times)
-    return float(max(map(abs, ways)))
+    return max(float(max(map(abs, ways))), _speed_apart(curve, other, time))
+
+
+def _speed_apart(curve: Curve, other: Curve, time: int) -> float:
+    place = curve.place_at(time)
+    leg, beside = curve.leg_at(place), other.leg_at(place)
+    if leg is None or beside is None:
+        return 0.0
+    squares = leg.square2_at(place) - beside.square2_at(place)
+    return float(abs(squares) / (2 * GAIN * max(leg.accel, beside.accel)))
 
 
 def resolution(curve: Curve, tick: int) -> float:

@@ -128,7 +128,7 @@ class Follower:
             if first < tick and last - first > FAR_APART and axis.goes_on:
                 motion.rests_early(self.ways, FAR_APART)
                 continue
-            motion.verify(min(stands, tick))
+            motion.verify(min(stands, tick), goes_on=axis.goes_on)
             first, last = motion.stand()
             minds = self._minds(event)
             if math.ceil(last + motion.blur_ticks) + NOTICED <= min(stands, tick):

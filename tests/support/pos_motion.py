@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from pos_change import CHANGE, begun, changed
 from pos_curve import BITS, Curve, Order
-from pos_family import TOLERANCE, Family, alone, parted, rest_ticks, tolerance
+from pos_family import TOLERANCE, Family, Observed, alone, parted, rest_ticks, tolerance
 from pos_loose import resting
 from pos_ways import Ways
 from pos_words import Mismatch, Unsure
@@ -99,14 +99,16 @@ class Motion:
 
     # --- what there is to see ---
 
-    def verify(self, until: int) -> None:
-        """Compare the pulses up to a tick."""
+    def verify(self, until: int, *, goes_on: bool = False) -> None:
+        """Compare the pulses up to a tick; if it goes on, those back come after a stand."""
         if not self.families:
             self._nothing(until)
             return
         if self.train.growing:
             self._grow(until)
         ticks = self.train.array[self.offset + self.seen : self.train.count_until(until)]
+        if goes_on:
+            ticks = self._same_way(ticks)
         if len(ticks):
             self.families = [
                 f for family in self.families for f in family.seen(self.seen + 1, ticks)
@@ -120,6 +122,15 @@ class Motion:
         if any(sign != self.sign for sign in signs):
             raise Mismatch(int(ticks[0]), "a pulse in the wrong direction")
         self.families, self.seen = kept, self.seen + len(ticks)
+
+    def _same_way(self, ticks: Observed) -> Observed:
+        """The pulses before the first one the other way, by which the axis has stood."""
+        first = self.offset + self.seen
+        signs = self.train.signs[first : first + len(ticks)]
+        same = next((i for i, sign in enumerate(signs) if sign != self.sign), len(ticks))
+        if same < len(ticks):
+            self.families, _ = self._resting(int(ticks[same]))
+        return ticks[:same]
 
     def _work(self, curves: int) -> None:
         """Count what has to be followed: all ways together."""
