@@ -22,12 +22,17 @@ def opened(page: Page, **fields: str) -> None:
         page.locator("#commission-confirm").check()
 
 
-def aim(page: Page, name: str) -> None:
-    """Bring the mouse over a part."""
+def middle(page: Page, name: str) -> dict[str, float]:
+    """The middle of a part, which is brought into view."""
     page.locator(name).scroll_into_view_if_needed()
     box = page.locator(name).bounding_box()
     assert box
-    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    return {"x": box["x"] + box["width"] / 2, "y": box["y"] + box["height"] / 2}
+
+
+def aim(page: Page, name: str) -> None:
+    """Bring the mouse over a part."""
+    page.mouse.move(**middle(page, name))
 
 
 @pytest.fixture
@@ -108,6 +113,29 @@ def test_keys_hold_the_buttons_too(bench, key, sign):
     bench.page.keyboard.up(key)
 
     assert sign * expect_cleared(bench) > 0
+
+
+def test_a_finger_holds_a_button_until_it_is_lifted_or_slides_away(browser, service):
+    with shown(browser, service.url, touch=True) as page:
+        opened(page.page, **FAST)
+        expect(page.page.locator("#jog-forth")).to_be_enabled()
+        touch = page.page.context.new_cdp_session(page.page)
+
+        def tell(kind: str, *points: dict[str, float]) -> None:
+            told = {"type": kind, "touchPoints": list(points)}
+            touch.send("Input.dispatchTouchEvent", told)
+
+        moving = page.page.locator(".card").first
+        for kind in ("touchEnd", "touchMove"):
+            place = middle(page.page, "#jog-forth")
+            tell("touchStart", place)
+            expect(moving).to_have_attribute("data-moving", "true")
+            page.page.wait_for_timeout(1200)
+            expect(moving).to_have_attribute("data-moving", "true")
+            tell(kind, *([] if kind == "touchEnd" else [{**place, "y": 5.0}]))
+            expect_cleared(page)
+        tell("touchEnd")
+        page.calm()
 
 
 def test_escape_stops_all_while_a_button_is_held(bench):

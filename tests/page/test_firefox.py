@@ -88,6 +88,19 @@ def test_it_speaks_to_a_unit_on_a_serial_port_where_the_browser_has_them(
         unit.end()
 
 
+def test_a_motor_runs_as_long_as_its_button_is_held(firefox, written):
+    firefox.open(written)
+    firefox.wait_for("document.body.dataset.connected === 'true'")
+    firefox.evaluate("document.getElementById('commission').open = true")
+    firefox.click("#commission-confirm")
+    firefox.wait_for("!document.getElementById('jog-forth').disabled")
+    firefox.click("#jog-forth", held_ms=2000)
+    firefox.wait_for_text(state(1), "nothing left to run")
+    position = "document.getElementById('position-1').textContent.replace(',', '')"
+    firefox.wait_for(f"{position} > 300 && {position} < 2000")
+    firefox.wait_for("document.querySelectorAll('#log [data-message=stop]').length === 0")
+
+
 def test_an_axis_of_a_positioning_unit_moves_and_stops(firefox):
     service = PosService()
     try:

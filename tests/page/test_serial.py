@@ -273,6 +273,36 @@ def test_a_cable_pulled_in_motion_is_told_in_the_largest_letters_and_nothing_hap
     expect(page.locator("#state-1")).to_have_text("stopped by K")
 
 
+def test_a_cable_pulled_while_a_button_is_held_is_told_and_the_run_has_an_end(page, bridge):
+    page.locator("#commission").evaluate("(panel) => (panel.open = true)")
+    page.locator("#commission-confirm").check()
+    for name, value in (("start", "500"), ("speed", "2000"), ("farthest", "3000")):
+        page.locator(f"#commission-{name}").fill(value)
+    expect(page.locator("#jog-forth")).to_be_enabled()
+    page.locator("#jog-forth").scroll_into_view_if_needed()
+    box = page.locator("#jog-forth").bounding_box()
+    assert box
+    page.mouse.move(box["x"] + 20, box["y"] + 20)
+    page.mouse.down()
+    expect(page.locator("#state-1")).to_contain_text("moves")
+    page.evaluate("fakeSerial.pull()")
+
+    alarm = page.locator("#alarm")
+    expect(alarm).to_have_text(f"{NOT_KNOWN} (node {NODE})")
+    bridge.wait_until_free()
+    page.mouse.up()
+    sent = bridge.sent
+    connect(page, port=PORT)
+    expect(page.locator("#position-1")).to_have_text("3,000")
+    expect(alarm).to_contain_text("NOT CONFIRMED")
+    assert messages_to(NODE, bridge.sent[len(sent) :]) == []
+    expect(page.locator("#commission-confirm")).not_to_be_checked()
+    expect(page.locator("#jog-forth")).to_be_disabled()
+    page.keyboard.press("Escape")
+    expect(alarm).to_have_attribute("data-kind", "done")
+    page.locator("#commission").evaluate("(panel) => (panel.open = false)")
+
+
 def test_a_cable_pulled_while_a_stop_is_under_way_leaves_it_unconfirmed(page, bridge):
     send(page, LONG)
     page.evaluate("words => fakeSerial.lastWords = words", K)

@@ -22,6 +22,7 @@ PATIENCE_SECONDS = 30.0
 POLL_SECONDS = 0.05
 LISTENS = re.compile(r"WebDriver BiDi listening on (ws://\S+)")
 KEYS = {"Escape": "\ue00c", "Control": "\ue009"}
+MIDDLE = "{ block: 'center' }"
 
 
 @contextlib.contextmanager
@@ -109,8 +110,9 @@ class Firefox:
         part = json.dumps(words)
         self.wait_for(f"document.querySelector({json.dumps(place)}).textContent.includes({part})")
 
-    def click(self, place: str) -> None:
-        """Press the button of a mouse on an element."""
+    def click(self, place: str, held_ms: int = 0) -> None:
+        """Press the button of a mouse on an element, and let it go after a time."""
+        self.evaluate(f"document.querySelector({json.dumps(place)}).scrollIntoView({MIDDLE})")
         element = self.command(
             "browsingContext.locateNodes",
             context=self._context,
@@ -118,8 +120,8 @@ class Firefox:
         )["nodes"][0]
         origin = {"type": "element", "element": {"sharedId": element["sharedId"]}}
         move = {"type": "pointerMove", "x": 0, "y": 0, "origin": origin}
-        kinds = ("pointerDown", "pointerUp")
-        self._act("pointer", move, *({"type": kind, "button": 0} for kind in kinds))
+        down, up = ({"type": kind, "button": 0} for kind in ("pointerDown", "pointerUp"))
+        self._act("pointer", move, down, {"type": "pause", "duration": held_ms}, up)
 
     def press(self, *keys: str) -> None:
         """Press keys together."""
