@@ -17,15 +17,23 @@
 enum {
     /* Powers of two. Half duplex: 66 ms of a full line; full duplex: what may come while the flash is written. */
     RECEIVED_MAX = IMAGE_LINE_FULL_DUPLEX ? 512 : 128,
-    SENDING_MAX = 64
+    SENDING_MAX = 64,
+    TIME_PLACE = IMAGE_LINE_FULL_DUPLEX ? 16 : 0
 };
+
+/* The time of a byte, in units of 2^TIME_PLACE ticks: full duplex it is not known better than to a millisecond. */
+#if IMAGE_LINE_FULL_DUPLEX
+typedef uint16_t stm32_line_time;
+#else
+typedef uint32_t stm32_line_time;
+#endif
 
 enum {
     RECEIVED_BROKEN = 0x100,
 };
 
 struct stm32_line {
-    uint32_t received_tick[RECEIVED_MAX];
+    stm32_line_time received_time[RECEIVED_MAX];
     uint16_t received[RECEIVED_MAX]; /* a byte, and whether it is broken */
     uint8_t sending[SENDING_MAX];
     volatile uint32_t received_in;
@@ -46,7 +54,7 @@ static inline uint32_t stm32_line_keep(uint32_t in, uint32_t tick, uint8_t value
         stm32_line.received[(in - 1U) % RECEIVED_MAX] |= (uint16_t)RECEIVED_BROKEN;
         return in;
     }
-    stm32_line.received_tick[in % RECEIVED_MAX] = tick;
+    stm32_line.received_time[in % RECEIVED_MAX] = (stm32_line_time)(tick >> (uint32_t)TIME_PLACE);
     stm32_line.received[in % RECEIVED_MAX] = (uint16_t)(value | (broken ? (unsigned)RECEIVED_BROKEN : 0U));
     return in + 1U;
 }
