@@ -32,7 +32,8 @@ def middle(page: Page, name: str) -> dict[str, float]:
 
 def aim(page: Page, name: str) -> None:
     """Bring the mouse over a part."""
-    page.mouse.move(**middle(page, name))
+    place = middle(page, name)
+    page.mouse.move(place["x"], place["y"])
 
 
 @pytest.fixture
