@@ -108,7 +108,8 @@ MODULES = (
         ("unit/gve134/queue", "system/gve134"),
     ),
     Module(
-        "gve-unit", "gve134", ("gve134.c", "gve134_execute.c", "gve134_packet.c"), (),
+        "gve-unit", "gve134",
+        ("gve134.c", "gve134_execute.c", "gve134_packet.c", "gve134_private.h"), (),
         ("system/gve134",),
     ),
     Module("gve-command", "gve134/command", ("gve_command.c", "gve_table.c", "gve_words.c"), ()),
@@ -216,7 +217,7 @@ class Bench:
         """Compile what a file of the module goes into: a header, into all of it."""
         names = [name]
         if name.endswith(".h"):
-            names = [path.name for path in self.source.glob("*.c")]
+            names = [path.name for path in self.source.glob("*.c") if path in self.compile]
         objects = {}
         for one in names:
             target = self.compile_one(self.source / one, self.folder / one)
