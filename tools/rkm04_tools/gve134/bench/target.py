@@ -2,29 +2,21 @@
 
 from __future__ import annotations
 
-import json
-import os
 from argparse import Namespace
-from collections.abc import Callable, Mapping
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 from rkm04_tools import board_size, target_run
-from rkm04_tools.bar import Bar
-from rkm04_tools.failure import DONE
 from rkm04_tools.gve134.bench import answering, saturated, streaming
-from rkm04_tools.target_figures import Figures
-from rkm04_tools.target_rows import NOTE, STACK, Goal, Row, merge, rows_of, rows_table
-from rkm04_tools.target_run import BESIDE, GATE, Model, Rig
+from rkm04_tools.target_rows import STACK, Goal, rows_of
+from rkm04_tools.target_unit import Measure, measure, tell
 
 UNIT = "gve134"
-WORKERS = 2
 FAST_BD, USUAL_BD = saturated.BAUD, answering.BAUD
 
-MEASURES: Mapping[str, tuple[int, Callable[[Rig], Figures]]] = {
+MEASURES: Mapping[str, tuple[int, Measure]] = {
     "alike": (FAST_BD, saturated.alike),
     "apart": (FAST_BD, saturated.apart),
     "quick": (FAST_BD, streaming.quick),
@@ -70,36 +62,11 @@ def run(options: Namespace) -> int:
         }
         usual = rigs[USUAL_BD].image
         sizes = asdict(board_size.measure(usual.file("elf"), usual.folder, UNIT))
-        rows = rows_of(FIGURES, measure(rigs), sizes, UNIT)
-    if options.json:
-        print(json.dumps(_as_json(rows), indent=2))
-    else:
-        print(f"{rows_table(rows)}\n\n{NOTE}")
-    return DONE
+        figures = measure({name: (rigs[baud], each) for name, (baud, each) in MEASURES.items()})
+    return tell(rows_of(FIGURES, figures, sizes, UNIT), options.json)
 
 
 def _folder(whole: str, baud: int) -> Path:
     folder = Path(whole) / str(baud)
     folder.mkdir()
     return folder
-
-
-def measure(rigs: Mapping[int, Rig]) -> dict[Model, Figures]:
-    """Make all figures with both models, two runs at a time."""
-    figures: dict[Model, Figures] = {GATE: {}, BESIDE: {}}
-    with ThreadPoolExecutor(min(WORKERS, os.cpu_count() or 1)) as pool, Bar("measuring") as bar:
-        tasks: dict[Any, Model] = {}
-        for model in (GATE, BESIDE):
-            for name, (baud, function) in MEASURES.items():
-                apart = rigs[baud].beside(f"{name}-{model.refill}", model)
-                tasks[pool.submit(function, apart)] = model
-        for done, task in enumerate(as_completed(tasks)):
-            bar.show(done + 1, len(tasks))
-            merge(figures[tasks[task]], task.result())
-    return figures
-
-
-def _as_json(rows: list[Row]) -> dict[str, Any]:
-    figures = [{**asdict(row), "met": row.met} for row in rows]
-    models = {"measured": asdict(GATE), "beside": asdict(BESIDE)}
-    return {"note": NOTE, "models": models, "figures": figures}

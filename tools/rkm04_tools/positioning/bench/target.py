@@ -2,28 +2,20 @@
 
 from __future__ import annotations
 
-import json
-import os
 from argparse import Namespace
-from collections.abc import Callable, Mapping
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 from rkm04_tools import board_size, target_run
-from rkm04_tools.bar import Bar
-from rkm04_tools.failure import DONE
 from rkm04_tools.positioning.bench import loads, reactions
-from rkm04_tools.target_figures import Figures
-from rkm04_tools.target_rows import NOTE, STACK, Goal, Row, merge, rows_of, rows_table
-from rkm04_tools.target_run import BESIDE, GATE, Model, Rig
+from rkm04_tools.target_rows import STACK, Goal, rows_of
+from rkm04_tools.target_unit import Measure, measure, tell
 
 UNIT = "positioning"
-WORKERS = 2
 
-MEASURES: Mapping[str, Callable[[Rig], Figures]] = {
+MEASURES: Mapping[str, Measure] = {
     "full": loads.full,
     "wide": loads.wide,
     "alone": reactions.alone,
@@ -62,30 +54,5 @@ def run(options: Namespace) -> int:
     with TemporaryDirectory() as folder:
         rig = target_run.rig(Path(folder), unit=UNIT)
         sizes = asdict(board_size.measure(rig.elf, rig.image.folder, UNIT))
-        rows = rows_of(FIGURES, measure(rig), sizes, UNIT)
-    if options.json:
-        print(json.dumps(_as_json(rows), indent=2))
-    else:
-        print(f"{rows_table(rows)}\n\n{NOTE}")
-    return DONE
-
-
-def measure(rig: Rig) -> dict[Model, Figures]:
-    """Make all figures with both models, two runs at a time."""
-    figures: dict[Model, Figures] = {GATE: {}, BESIDE: {}}
-    with ThreadPoolExecutor(min(WORKERS, os.cpu_count() or 1)) as pool, Bar("measuring") as bar:
-        tasks: dict[Any, Model] = {}
-        for model in (GATE, BESIDE):
-            for name, function in MEASURES.items():
-                apart = rig.beside(f"{name}-{model.refill}", model)
-                tasks[pool.submit(function, apart)] = model
-        for done, task in enumerate(as_completed(tasks)):
-            bar.show(done + 1, len(tasks))
-            merge(figures[tasks[task]], task.result())
-    return figures
-
-
-def _as_json(rows: list[Row]) -> dict[str, Any]:
-    figures = [{**asdict(row), "met": row.met} for row in rows]
-    models = {"measured": asdict(GATE), "beside": asdict(BESIDE)}
-    return {"note": NOTE, "models": models, "figures": figures}
+        figures = measure({name: (rig, each) for name, each in MEASURES.items()})
+    return tell(rows_of(FIGURES, figures, sizes, UNIT), options.json)
