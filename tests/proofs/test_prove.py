@@ -152,6 +152,9 @@ ONLY_MODELLED = {
     "step_channel_turn_over",
 }  # fmt: skip
 
+# Of the path's root: test_path_divide.c tries them, and there is no proof for all inputs.
+NOT_PROVED = {"path_root", "root_of_four_words", "root_of_two_words"}
+
 
 def test_every_function_of_a_source_is_proved_in_some_file() -> None:
     sources: dict[str, set[str]] = {}
@@ -165,7 +168,7 @@ def test_every_function_of_a_source_is_proved_in_some_file() -> None:
         for name in set(source((ROOT / path).read_text()).functions()) - proved
     }
 
-    assert left == {"link_count_text", "step_channel_init", *ONLY_MODELLED}
+    assert left == {"link_count_text", "step_channel_init", *ONLY_MODELLED, *NOT_PROVED}
 
 
 def test_the_lemmas_of_a_header_are_left_to_the_header() -> None:
