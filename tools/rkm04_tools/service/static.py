@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import contextlib
+import gzip
 import json
 import re
 from pathlib import Path
@@ -41,8 +42,8 @@ def write(folder: Path) -> int:
 def _whole(page: Path, wasm: Path) -> str:
     """The page with all that it refers to; what it brings along it finds under `alone`."""
     brought = {
-        "program": base64.b64encode((wasm / PROGRAM).read_bytes()).decode("ascii"),
-        "unit": base64.b64encode((wasm / UNIT).read_bytes()).decode("ascii"),
+        "program": _packed(wasm / PROGRAM),
+        "unit": _packed(wasm / UNIT),
         "names": {"causes": CAUSES, "errors": ERRORS, "line": list(LINE_COUNTS)},
         "worker": (page / "engine.js").read_text(encoding="utf-8"),
         "examples": examples(),
@@ -65,6 +66,11 @@ def _whole(page: Path, wasm: Path) -> str:
             raise Failure(f"{page}: the page is of another version; run tools/setup service")
         text = text.replace(place, part)
     return text
+
+
+def _packed(path: Path) -> str:
+    """A program, compressed before base64, after which little could be gained."""
+    return base64.b64encode(gzip.compress(path.read_bytes(), mtime=0)).decode("ascii")
 
 
 def _element(tag: str, content: str) -> str:

@@ -9,7 +9,7 @@ import type { StatusNames } from "./unit_messages";
 
 /** What a page brings along that no service serves; tools/rkm04 service --static puts it in. */
 interface Brought {
-    /** The program rkm04-host for WebAssembly, base64. */
+    /** The program rkm04-host for WebAssembly, compressed (gzip), base64. */
     program: string;
     /** The module rkm04-unit, likewise. */
     unit: string;

@@ -35,16 +35,59 @@ function obey(order: Question): Told {
     }
 }
 
-self.addEventListener("message", ({ data }: MessageEvent<Order>) => {
+/** A program as it was before the page was written (gzip). */
+async function unpacked(bytes: Bytes): Promise<Bytes> {
+    const whole = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return new Uint8Array(await new Response(whole).arrayBuffer());
+}
+
+/** What has come while a program was unpacked; each is done in a turn of its own, as if it had come then. */
+const late: Order[] = [];
+let isUnpacking = false;
+
+function take(data: Order): void {
     if (typeof data === "string") {
         unit?.hear(data);
-    } else if (data.kind === "program") {
-        simulator = new Simulator(new ProgramHost(data.bytes));
+    } else if (data.kind === "program" || data.kind === "unit") {
+        bring(data).catch(fail);
     } else if (data.kind === "check" || data.kind === "curve") {
         self.postMessage(obey(data));
-    } else if (data.kind !== "unit") {
+    } else {
         unit?.hearOfPort(data);
+    }
+}
+
+/** An error that nobody catches tells the page. */
+function fail(error: unknown): void {
+    self.setTimeout(() => {
+        throw error;
+    });
+}
+
+async function bring(data: Extract<Order, { kind: "program" | "unit" }>): Promise<void> {
+    isUnpacking = true;
+    const bytes = await unpacked(data.bytes);
+    if (data.kind === "program") {
+        simulator = new Simulator(new ProgramHost(bytes));
     } else if (simulator !== null) {
-        unit = new UnitRunner(data.bytes, simulator, data.names, (said) => self.postMessage(said));
+        unit = new UnitRunner(bytes, simulator, data.names, (said) => self.postMessage(said));
+    }
+    isUnpacking = false;
+    self.setTimeout(catchUp);
+}
+
+function catchUp(): void {
+    const data = isUnpacking ? undefined : late.shift();
+    if (data !== undefined) {
+        self.setTimeout(catchUp);
+        take(data);
+    }
+}
+
+self.addEventListener("message", ({ data }: MessageEvent<Order>) => {
+    if (isUnpacking || late.length > 0) {
+        late.push(data);
+    } else {
+        take(data);
     }
 });
