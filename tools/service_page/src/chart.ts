@@ -14,6 +14,12 @@ const DRAG_MIN_PX = 6;
 
 export type Range = [from: number, to: number];
 
+export interface ChartMarks {
+    at: number | null;
+    motor: number;
+    parts: Range[];
+}
+
 export interface ChartOptions {
     host: HTMLElement;
     /** Of speeds 0 is always in sight; positions are seen wherever they are. */
@@ -27,6 +33,9 @@ export interface ChartOptions {
     isDouble?: boolean;
     onCursor?: (x: number | null) => void;
     onSelect?: (range: Range) => void;
+    onClick?: (x: number) => void;
+    /** What is drawn below the lines: a moment, and parts of the time in the colour of a motor. */
+    marks?: () => ChartMarks;
     onDoubleClick?: () => void;
 }
 
@@ -36,6 +45,7 @@ export type ChartData = [x: number[], ...motors: (number | null)[][]];
 const BROAD_PX = 6;
 /** Of a colour #rrggbb. */
 const PALE = "59";
+const FAINT = "26";
 
 const noData = (lines: number): ChartData => [[], ...Array.from({ length: lines }, () => [])];
 
@@ -65,6 +75,9 @@ export class Chart {
         this.#options = options;
         this.#data = noData(MOTORS.length * (options.isDouble ? 2 : 1));
         this.#plot = new uPlot(this.#plotOptions(), this.#data as uPlot.AlignedData, options.host);
+        if (options.onClick) {
+            this.#listenToClicks(options.onClick);
+        }
         new ResizeObserver(() => this.#fit()).observe(options.host);
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.redraw());
     }
@@ -138,8 +151,37 @@ export class Chart {
             hooks: {
                 setCursor: [(plot) => this.#tellCursor(plot)],
                 setSelect: [(plot) => this.#select(plot)],
+                drawAxes: [(plot) => this.#drawMarks(plot)],
             },
         };
+    }
+
+    #drawMarks({ ctx, bbox, valToPos }: uPlot): void {
+        const { at, motor, parts } = this.#options.marks?.() ?? { at: null, motor: 1, parts: [] };
+        const left = (x: number): number => Math.min(Math.max(valToPos(x, "x", true), bbox.left), bbox.left + bbox.width);
+        ctx.save();
+        ctx.fillStyle = styleValue(`--motor-${motor}`) + FAINT;
+        for (const [from, to] of parts) {
+            if (left(to) > bbox.left && left(from) < bbox.left + bbox.width) {
+                ctx.fillRect(left(from), bbox.top, Math.max(left(to) - left(from), window.devicePixelRatio), bbox.height);
+            }
+        }
+        const { min = 0, max = 0 } = this.#plot.scales["x"] ?? {};
+        if (at !== null && min !== null && max !== null && at >= min && at <= max) {
+            ctx.fillStyle = styleValue("--output");
+            ctx.fillRect(left(at) - window.devicePixelRatio, bbox.top, 2 * window.devicePixelRatio, bbox.height);
+        }
+        ctx.restore();
+    }
+
+    #listenToClicks(onClick: (x: number) => void): void {
+        let down_px = 0;
+        this.surface.addEventListener("mousedown", ({ clientX }) => (down_px = clientX));
+        this.surface.addEventListener("click", ({ clientX, detail }) => {
+            if (detail === 1 && Math.abs(clientX - down_px) < DRAG_MIN_PX) {
+                onClick(this.xAt(clientX));
+            }
+        });
     }
 
     #series(motor: number): uPlot.Series {

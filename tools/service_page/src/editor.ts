@@ -124,6 +124,14 @@ export class Editor {
         }
     }
 
+    /** Scrolls to a line of the shown program; the cursor stays. */
+    bringIntoSight(line: number): void {
+        const { doc } = this.#view.state;
+        if (line <= doc.lines) {
+            this.#view.dispatch({ effects: EditorView.scrollIntoView(doc.line(line).from) });
+        }
+    }
+
     /** The lines of a program at which the simulation is to stop. */
     breaks(index: number): number[] {
         return breakLines(this.#current(index));

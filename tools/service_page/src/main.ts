@@ -32,9 +32,11 @@ setUpLanguage(byId("language", HTMLSelectElement));
 const plan: Plan = new Plan(() => programs.texts());
 const programs: Programs = new Programs({
     edit: () => plan.programsChanged(),
+    check: () => plan.programsChecked(),
     replace: () => plan.programReplaced(),
     example: (example) => plan.setInputs(example.inputs ?? []),
 });
+plan.follow(programs);
 const log = new Log(link, (motor, text) => programs.replace(motor, text));
 const commands = new Commands(link, () => {
     const motor = programs.shown.value;

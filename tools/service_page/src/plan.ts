@@ -5,8 +5,10 @@ import { byId, debounced, make } from "./dom";
 import { language, numberText, t } from "./i18n";
 import { formatInputs, parseInputs, type InputChange } from "./inputs_text";
 import { OutputRows } from "./outputs";
+import type { Programs } from "./programs";
 import { MOTORS, type Curve, type CurveRequest, type MotorCurve } from "./protocol";
 import { keep, recall } from "./storage";
+import { Stepping } from "./stepping";
 import { Zoom } from "./zoom";
 
 const POINTS = 2000;
@@ -40,6 +42,8 @@ export class Plan {
     #isComputing = false;
     #isStale = false;
     #count = 0;
+    /** The simulation command by command. */
+    #stepping: Stepping | null = null;
 
     constructor(programs: () => Record<string, string>) {
         this.#programs = programs;
@@ -57,9 +61,22 @@ export class Plan {
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#drawOutputs());
     }
 
+    /** To be called once, when the programs are there. */
+    follow(programs: Programs): void {
+        const stepping = new Stepping(programs, (range) => this.#request(range));
+        this.#stepping = stepping;
+        stepping.setCurve(this.#curve);
+        stepping.at.onChange(() => [this.#charts.speed, this.#charts.position].forEach((chart) => chart.redraw()));
+    }
+
     /** To be called when a program has changed; the curve follows shortly. */
     programsChanged(): void {
         this.#refresh();
+    }
+
+    /** To be called when the parser has seen a program. */
+    programsChecked(): void {
+        this.#stepping?.show();
     }
 
     /** To be called when another program has taken the place of one: all of it is to be seen. */
@@ -169,6 +186,7 @@ export class Plan {
         this.#root.dataset.state = this.#isOld ? "old" : this.#curve ? "new" : "empty";
         this.#root.dataset.drawn = String(this.#count);
         this.#root.dataset.range = this.#zoom.range.join(" ");
+        this.#stepping?.setCurve(this.#isOld ? null : this.#curve);
         this.#tell(null);
     }
 
@@ -259,7 +277,12 @@ export class Plan {
             group: "plan",
             range: () => this.#zoom.range,
             showsTime,
-            onCursor: (seconds) => this.#tell(seconds),
+            onCursor: (seconds) => {
+                this.#tell(seconds);
+                this.#stepping?.hover(seconds);
+            },
+            onClick: (seconds) => this.#stepping?.choose(seconds),
+            marks: () => ({ at: this.#stepping?.at.value ?? null, ...(this.#stepping?.stretches() ?? { motor: 1, parts: [] }) }),
             onSelect: (range) => this.#zoom.show(range),
             onDoubleClick: () => this.#zoom.reset(),
         });

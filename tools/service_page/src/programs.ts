@@ -16,6 +16,8 @@ const ENCODINGS = { "utf-8": "", "utf-8-bom": "UTF-8 BOM", "windows-1250": "ANSI
 
 export interface ProgramEvents {
     edit: () => void;
+    /** The parser has seen a text. */
+    check: () => void;
     /** Another program has taken the place of one. */
     replace: () => void;
     example: (example: Example) => void;
@@ -103,6 +105,30 @@ export class Programs {
         this.#mark(motor, { unit: line });
     }
 
+    /** Marks the line at which the simulation is; `scrolls`: brings it into sight. */
+    markSimulated(motor: number, line: number | null, scrolls: boolean): void {
+        const isNew = this.#marks.get(motor)?.simulated !== line;
+        this.#mark(motor, { simulated: line });
+        if (line !== null && isNew && scrolls) {
+            this.#editor.bringIntoSight(line);
+        }
+    }
+
+    /** Called with the line to which the cursor of the shown program was moved. */
+    set onMove(handler: (line: number) => void) {
+        this.#editor.onMove = handler;
+    }
+
+    /** The line of the cursor. */
+    get line(): number {
+        return this.#editor.line;
+    }
+
+    /** The lines of a program at which the simulation is to stop. */
+    breaks(motor: number): number[] {
+        return this.#editor.breaks(motor - 1);
+    }
+
     #mark(motor: number, change: Partial<Marks>): void {
         const marks = { ...(this.#marks.get(motor) ?? { unit: null, simulated: null }), ...change };
         this.#marks.set(motor, marks);
@@ -178,6 +204,7 @@ export class Programs {
                 tab.checked = text;
                 tab.verdict = verdict;
                 this.#editor.mark(index, text, verdict.problems);
+                this.#on.check();
             }
         } catch (error) {
             tab.trouble = error instanceof Refused ? `${t("verdict.refused")}: ${error.message}` : t("verdict.unknown");
