@@ -7,26 +7,8 @@ import re
 
 import pytest
 from playwright.sync_api import Locator, expect
+from plot_pixels import coloured, height, pixels
 from service_page import ServicePage
-
-PIXELS = """([canvas_of, colour]) => {
-    const probe = document.createElement("span");
-    probe.style.color = `var(${colour})`;
-    document.body.append(probe);
-    const wanted = getComputedStyle(probe).color.match(/\\d+/g).map(Number);
-    probe.remove();
-    const canvas = document.querySelector(canvas_of);
-    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-    let [count, top, bottom] = [0, canvas.height, 0];
-    for (let i = 0; i < data.length; i += 4) {
-        if (wanted.every((value, k) => Math.abs(value - data[i + k]) < 8) && data[i + 3] > 200) {
-            const row = Math.floor(i / 4 / canvas.width);
-            [count, top, bottom] = [count + 1, Math.min(top, row), Math.max(bottom, row)];
-        }
-    }
-    return [count, (bottom - top) / canvas.height];
-}"""
-
 
 LEVELS = """(canvas_of) => {
     const canvas = document.querySelector(canvas_of);
@@ -38,7 +20,8 @@ LEVELS = """(canvas_of) => {
     const context = canvas.getContext("2d");
     const { data, width, height } = context.getImageData(0, 0, canvas.width, canvas.height);
     const is = (x, y) =>
-        wanted.every((value, k) => Math.abs(value - data[4 * (y * width + x) + k]) < 8);
+        wanted.every((value, k) => Math.abs(value - data[4 * (y * width + x) + k]) < 8)
+        && data[4 * (y * width + x) + 3] > 200;
     let levels = 0;
     let before = false;
     for (let y = 0; y < height; y += 1) {
@@ -53,22 +36,6 @@ LEVELS = """(canvas_of) => {
     return levels;
 }"""
 """How many horizontal stretches the line of motor 1 has."""
-
-
-def pixels(page: ServicePage, plot: str, motor: int) -> int:
-    """Pixels of a plot that have the colour of a motor."""
-    return coloured(page, f"#{plot} canvas", f"--motor-{motor}")
-
-
-def coloured(page: ServicePage, canvas: str, colour: str) -> int:
-    count: int = page.page.evaluate(PIXELS, [canvas, colour])[0]
-    return count
-
-
-def height(page: ServicePage, plot: str, motor: int) -> float:
-    """The part of a plot's height over which the line of a motor goes, from 0 to 1."""
-    part: float = page.page.evaluate(PIXELS, [f"#{plot} canvas", f"--motor-{motor}"])[1]
-    return part
 
 
 def surface(page: ServicePage, plot: str) -> Locator:

@@ -9,6 +9,9 @@ const MARGIN_Y = 0.08;
 const SPAN_MIN = { speed: 10, position: 4 };
 /** Distances between the numbers of an axis of whole steps or steps/s: 1, 2, 5, 10 and so on. */
 const WHOLE = Array.from({ length: 36 }, (_, i) => (10 ** Math.floor(i / 3)) * ([1, 2, 5][i % 3] ?? 1));
+/** The same of mm and degrees. */
+const FINE = [...[0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5], ...WHOLE];
+const FINE_PART = 0.01;
 const FONT = "12px system-ui, sans-serif";
 const DRAG_MIN_PX = 6;
 
@@ -31,6 +34,8 @@ export interface ChartOptions {
     showsTime: boolean;
     /** Each motor has two lines, first a broad and pale one, and values of any fraction, as mm have. */
     isDouble?: boolean;
+    /** Whether values are mm or degrees. */
+    isFine?: () => boolean;
     onCursor?: (x: number | null) => void;
     onSelect?: (range: Range) => void;
     onClick?: (x: number) => void;
@@ -50,12 +55,13 @@ const FAINT = "26";
 const noData = (lines: number): ChartData => [[], ...Array.from({ length: lines }, () => [])];
 
 /** The y axis follows what is seen; the line never touches the frame. */
-function rangeOfValues(seen: Range | null, quantity: Quantity): Range {
+function rangeOfValues(seen: Range | null, quantity: Quantity, isFine: boolean): Range {
     const [least, most] = seen ?? [0, 0];
     const zero = quantity === "speed";
     const low = zero ? Math.min(0, least) : least;
     const high = zero ? Math.max(0, most) : most;
-    const missing = Math.max(SPAN_MIN[quantity] - (high - low), 0);
+    const span_min = SPAN_MIN[quantity] * (isFine ? FINE_PART : 1);
+    const missing = Math.max(span_min - (high - low), 0);
     const margin = (high - low + missing) * MARGIN_Y;
     return [low - margin - (zero ? 0 : missing / 2), high + margin + (zero ? missing : missing / 2)];
 }
@@ -90,9 +96,9 @@ export class Chart {
 
     /** Draws again, with the range as it is now; values are fitted to what is in sight. */
     redraw(): void {
-        const { range, quantity } = this.#options;
+        const { range, quantity, isFine } = this.#options;
         const [min, max] = range();
-        const [low, high] = rangeOfValues(extent(this.#data, [min, max]), quantity);
+        const [low, high] = rangeOfValues(extent(this.#data, [min, max]), quantity, isFine?.() === true);
         this.#plot.setScale("x", { min, max });
         this.#plot.setScale("y", { min: low, max: high });
         this.#plot.redraw(false, true);
@@ -145,7 +151,7 @@ export class Chart {
             series: [{}, ...this.#broad(), ...MOTORS.map((motor) => this.#series(motor))],
             axes: [
                 this.#options.showsTime ? time : { ...time, values: noWords },
-                { ...axis, size: AXIS_WIDTH, space: 15, ...(this.#options.isDouble ? {} : { incrs: WHOLE }) },
+                { ...axis, size: AXIS_WIDTH, space: 15, ...(this.#options.isDouble ? {} : { incrs: () => (this.#options.isFine?.() ? FINE : WHOLE) }) },
             ],
             cursor: this.#cursor(),
             hooks: {

@@ -6,6 +6,7 @@ import type { Link } from "./link";
 import { lineCounts, lineWords, motorState, unitFacts } from "./live_words";
 import type { Presence } from "./presence";
 import { MOTORS, type Live, type MotorLive, type UnitState } from "./protocol";
+import { inUnits, isScaled, onScale, positionNumber, speedWords } from "./scale";
 
 const SHOWN_SECONDS = 30;
 /** Looks further apart have no line between them. */
@@ -51,7 +52,9 @@ export class LiveView {
         this.#presence = presence;
         const range = (): Range => [-SHOWN_SECONDS, 0];
         const chart = (quantity: Quantity): Chart =>
-            new Chart({ host: byId(`live-${quantity}`, HTMLElement), quantity, group: "live", range, showsTime: true });
+            new Chart({
+                host: byId(`live-${quantity}`, HTMLElement), quantity, group: "live", range, showsTime: true, isFine: isScaled,
+            });
         this.#charts = [chart("speed"), chart("position")];
         for (const [index, button] of this.#inputs.entries()) {
             button.addEventListener("click", () => this.#toggle(index));
@@ -61,6 +64,7 @@ export class LiveView {
         presence.isFresh.onChange(() => this.#show());
         presence.seconds.onChange(() => this.#show());
         language.watch(() => this.#show());
+        onScale(() => this.#show());
     }
 
     /** Says what is wired to inputs and outputs. */
@@ -116,9 +120,9 @@ export class LiveView {
         this.#cards.forEach((card, index) => {
             const motor = known?.motors[index];
             if (motor) {
-                this.#showMotor(card, motor);
+                this.#showMotor(card, motor, index + 1);
             } else {
-                this.#showUnknown(card, this.#last?.motors[index]);
+                this.#showUnknown(card, this.#last?.motors[index], index + 1);
             }
         });
         this.#showLamps(known);
@@ -128,22 +132,22 @@ export class LiveView {
         this.#charts[1].setData(this.#series("position"));
     }
 
-    #showMotor(card: Card, motor: MotorLive): void {
+    #showMotor(card: Card, motor: MotorLive, number: number): void {
         const [kind, words] = motorState(motor);
         card.root.dataset.state = kind;
         card.root.dataset.moving = String(motor.moving === true);
-        card.position.textContent = numberText(motor.position);
-        card.speed.textContent = motor.speed === null ? NOT_KNOWN : t("live.speed", { speed: numberText(motor.speed) });
+        card.position.textContent = positionNumber(number, motor.position);
+        card.speed.textContent = motor.speed === null ? NOT_KNOWN : speedWords(number, motor.speed);
         card.state.textContent = words;
     }
 
     /** What a motor was like is told as a thing of the past. */
-    #showUnknown(card: Card, last: MotorLive | undefined): void {
+    #showUnknown(card: Card, last: MotorLive | undefined, number: number): void {
         card.root.dataset.state = "unknown";
         card.root.dataset.moving = "false";
         card.position.textContent = NOT_KNOWN;
         card.speed.textContent = "";
-        const words = last ? t("live.lastPosition", { position: numberText(last.position) }) : t("live.unknown");
+        const words = last ? t("live.lastPosition", { position: positionNumber(number, last.position) }) : t("live.unknown");
         card.state.textContent = words;
     }
 
@@ -201,7 +205,7 @@ export class LiveView {
         const times = this.#samples.map((sample) => sample.time_s - now_s);
         const values = (index: number): (number | null)[] =>
             this.#samples.map((sample) => sample.motors[index]?.[quantity] ?? null);
-        return [times, ...MOTORS.map((_, index) => values(index))];
+        return inUnits([times, ...MOTORS.map((_, index) => values(index))]);
     }
 
     #toggle(index: number): void {

@@ -137,7 +137,7 @@ function troubleOf({ key, problems }: NoMachine): string {
 }
 
 /** What is wired where, how far a step goes, and what is not to be exceeded. */
-function factsOf(machine: MachineContent): string[] {
+export function factsOf(machine: MachineContent): string[] {
     const named = (key: "live.input" | "live.output", names: Record<string, string> = {}): string[] =>
         Object.entries(names).map(([number, name]) => `${t(key, { number })}: ${name}`);
     return [

@@ -16,8 +16,10 @@ import { Log } from "./log";
 import { Machine } from "./machine";
 import { Plan } from "./plan";
 import { Presence } from "./presence";
+import { PrintView } from "./print";
 import { Programs } from "./programs";
 import { ALL_MOTORS } from "./protocol";
+import { ScaleSwitch } from "./scale";
 import { Scan } from "./scan";
 import { ServiceLine } from "./service_line";
 import { Stop } from "./stop";
@@ -63,9 +65,19 @@ const machine = new Machine({
         plan.setInputs(parseInputs(inputs) ?? []);
     },
 });
+const headingOf = (plot: string): string => byId(plot, HTMLElement).previousElementSibling?.textContent ?? "";
+new PrintView(() => ({
+    machine: machine.content.value,
+    programs: programs.all().map(({ text }) => text),
+    inputs: plan.inputs,
+    curve: plan.curve,
+    headings: { speed: headingOf("plan-speed"), position: headingOf("plan-position") },
+}));
+const scale = new ScaleSwitch(commands.motor);
 machine.content.watch((content) => {
     programs.setNames((content?.motors ?? []).map(({ name }) => name ?? ""));
     live.setNames(content?.input_names, content?.output_names);
+    scale.setMachine(content);
 });
 
 stop.onPress(() => commands.forgetReset());

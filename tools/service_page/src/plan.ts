@@ -8,6 +8,7 @@ import { OutputRows } from "./outputs";
 import type { Programs } from "./programs";
 import { MOTORS, type Curve, type CurveRequest, type MotorCurve } from "./protocol";
 import { keep, recall } from "./storage";
+import { inUnits, isLeftOut, isScaled, onScale, positionWords, speedWords } from "./scale";
 import { Stepping } from "./stepping";
 import { Zoom } from "./zoom";
 
@@ -57,6 +58,7 @@ export class Plan {
         byId("zoom-out", HTMLButtonElement).addEventListener("click", () => this.#zoom.by(-3));
         byId("zoom-reset", HTMLButtonElement).addEventListener("click", () => this.#zoom.reset());
         language.onChange(() => this.#draw());
+        onScale(() => this.#draw());
         new ResizeObserver(() => this.#drawOutputs()).observe(this.#root);
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#drawOutputs());
     }
@@ -89,6 +91,11 @@ export class Plan {
     setInputs(changes: InputChange[]): void {
         this.#inputs.value = formatInputs(changes);
         this.#settingsChanged();
+    }
+
+    /** What the programs that are there now would do; null: not known. */
+    get curve(): Curve | null {
+        return this.#isOld ? null : this.#curve;
     }
 
     /** What the inputs do, as it is written. */
@@ -196,8 +203,8 @@ export class Plan {
         this.#root.dataset.steps = String(singleSteps(curve, this.#zoom.range));
         this.#root.dataset.points = String(motors.reduce((sum, motor) => sum + motor.t.length, 0));
         this.#root.dataset.pulses = String(motors.reduce((sum, motor) => sum + motor.pulses, 0));
-        this.#charts.speed.setData(toChartData(curve, "speed", this.#shown));
-        this.#charts.position.setData(toChartData(curve, "position", this.#shown));
+        this.#charts.speed.setData(inUnits(toChartData(curve, "speed", this.#shown)));
+        this.#charts.position.setData(inUnits(toChartData(curve, "position", this.#shown)));
         this.#drawOutputs();
     }
 
@@ -214,7 +221,7 @@ export class Plan {
         this.#status.textContent = this.#title(seconds);
         for (const [motor, words] of this.#legend) {
             const one = (seconds === null ? this.#curve : this.#drawn)?.motors[motor];
-            words.replaceChildren(...(one ? this.#lines(one, seconds) : []).map((line) => make("span", {}, line)));
+            words.replaceChildren(...(one ? this.#lines(motor, one, seconds) : []).map((line) => make("span", {}, line)));
             words.classList.toggle("is-bad", one?.error != null);
             words.title = one ? this.#hint(one) : "";
         }
@@ -237,15 +244,15 @@ export class Plan {
         return t(end, { seconds: numberText(this.#curve.seconds, 3) });
     }
 
-    #lines(one: MotorCurve, seconds: number | null): string[] {
+    #lines(motor: number, one: MotorCurve, seconds: number | null): string[] {
         if (seconds === null) {
-            const peak = t("plan.peak", { speed: numberText(one.peak) });
-            return [one.error ?? t("plan.pulses", { pulses: numberText(one.pulses) }), peak];
+            const peak = t("plan.peak", { speed: speedWords(motor, one.peak) });
+            const pulses = t("plan.pulses", { pulses: numberText(one.pulses) });
+            return [one.error ?? pulses, isLeftOut(motor) ? t("scale.none") : peak];
         }
         const speed = valueAt(one, "speed", seconds) ?? 0;
         const position = valueAt(one, "position", seconds);
-        const steps = position === null ? "–" : numberText(position);
-        return [t("live.speed", { speed: numberText(speed) }), t("plan.steps", { steps })];
+        return [speedWords(motor, speed), position === null ? "–" : positionWords(motor, position)];
     }
 
     #hint(one: MotorCurve): string {
@@ -276,6 +283,7 @@ export class Plan {
             quantity,
             group: "plan",
             range: () => this.#zoom.range,
+            isFine: isScaled,
             showsTime,
             onCursor: (seconds) => {
                 this.#tell(seconds);

@@ -5,6 +5,7 @@ import { byId } from "./dom";
 import { language, numberText, t } from "./i18n";
 import { MOTORS, type Curve, type CurveRequest } from "./protocol";
 import type { Programs } from "./programs";
+import { onScale, positionWords } from "./scale";
 import { Cell } from "./signal";
 
 /** Of a part of the time that is asked for because the whole has more commands than are told. */
@@ -63,6 +64,7 @@ export class Stepping {
             this.show();
         });
         language.onChange(() => this.show());
+        onScale(() => this.show());
     }
 
     /** Takes over a curve; a moment that is looked at stays at its time. */
@@ -267,7 +269,7 @@ export class Stepping {
             words.push(t("steps.many"));
         }
         if (one !== undefined) {
-            words.push(t("plan.steps", { steps: numberText(valueAt(one, "position", moment.seconds) ?? one.before) }));
+            words.push(positionWords(motor, valueAt(one, "position", moment.seconds) ?? one.before));
         }
         return words.join(" · ");
     }
