@@ -166,7 +166,7 @@ def last_answer(page: Page) -> str:
 def messages_to(node: int, sent: bytes) -> list[bytes]:
     """What went to a node, sessions and looks left out."""
     found = [unescape(part) for part in sent.split(b"\x7e") if part]
-    return [each[2:-2] for each in found if each[0] == node and each[2] not in (1, 200)]
+    return [each[2:-2] for each in found if each[0] == node and each[2] not in (1, 7, 200)]
 
 
 def test_it_connects_shows_the_state_sends_runs_and_stops(page, bridge):
