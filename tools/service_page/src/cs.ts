@@ -251,6 +251,13 @@ export const cs: Dictionary = {
     "steps.notReached": "řádek kurzoru do {seconds} s znovu nezačne",
     "steps.noBreak": "do {seconds} s se nedojde k žádnému bodu zastavení",
 
+    "inputs.rows": "Vstupy v čase",
+    "inputs.rowsLabel": "Vstupy v čase křivek: klepnutí změní úroveň od toho místa dál, klepnutí na změnu ji odebere. Klávesnicí: pole Vstupy",
+    "inputs.open": "Otevřít .csv",
+    "inputs.openLabel": "Otevřít soubor vstupů: řádky milisekundy,vstup,úroveň, jako pro rkm04 sim --inputs",
+    "inputs.save": "Uložit .csv",
+    "inputs.saveLabel": "Uložit vstupy jako soubor pro rkm04 sim --inputs",
+
     "plan.title": "Co by programy udělaly",
     "plan.speed": "Rychlost, kroky/s",
     "plan.position": "Poloha, kroky",

@@ -249,6 +249,13 @@ export const en = {
     "steps.notReached": "the line of the cursor does not begin again until {seconds} s",
     "steps.noBreak": "no break point is reached until {seconds} s",
 
+    "inputs.rows": "Inputs in time",
+    "inputs.rowsLabel": "Inputs over the time of the curves: a click changes the level from there on, a click at a change takes it away. By keyboard: the field Inputs",
+    "inputs.open": "Open .csv",
+    "inputs.openLabel": "Open a file of inputs: lines of milliseconds,input,level, as rkm04 sim --inputs takes it",
+    "inputs.save": "Save .csv",
+    "inputs.saveLabel": "Save the inputs as a file for rkm04 sim --inputs",
+
     "plan.title": "What the programs would do",
     "plan.speed": "Speed, steps/s",
     "plan.position": "Position, steps",

@@ -3,6 +3,7 @@ import { Chart, type Range } from "./chart";
 import { singleSteps, toChartData, valueAt, type Quantity } from "./curve";
 import { byId, debounced, make } from "./dom";
 import { language, numberText, t } from "./i18n";
+import { InputRows } from "./input_rows";
 import { formatInputs, parseInputs, type InputChange } from "./inputs_text";
 import { OutputRows } from "./outputs";
 import type { Programs } from "./programs";
@@ -26,6 +27,11 @@ export class Plan {
     readonly #inputs = byId("plan-inputs", HTMLInputElement);
     readonly #seconds = byId("plan-seconds", HTMLSelectElement);
     readonly #outputs = new OutputRows(byId("plan-outputs", HTMLCanvasElement));
+    readonly #inputRows = new InputRows({
+        changes: () => parseInputs(this.#inputs.value),
+        set: (changes) => this.setInputs(changes),
+        scale: () => ({ range: this.#zoom.range, ...this.#charts.position.span }),
+    });
     readonly #zoom = new Zoom(() => this.#zoomed());
     readonly #shown = new Set<number>(MOTORS);
     readonly #programs: () => Record<string, string>;
@@ -212,6 +218,7 @@ export class Plan {
         this.#outputs.setChanges(this.#curve?.outputs ?? [], this.#curve?.seconds ?? 0);
         const { left, width } = this.#charts.position.span;
         this.#outputs.draw(this.#zoom.range, left, width);
+        this.#inputRows.draw();
     }
 
     /** Says what is under the cursor, or what the whole is. */
