@@ -3,8 +3,9 @@
     python -m checks.ram_code UNIT IMAGE.elf
 
 The linker leaves its relocations in the image. None of those in the section .ram may refer to the
-flash, neither to code nor to constants; and what begins there, interrupts, faults and flash.c, must
-lie in it. So nothing that these may ever call or read lies in the flash.
+flash, neither to code nor to constants, but for what only plans of paths call; and what begins
+there, interrupts, faults and flash.c, must lie in it. So nothing that these may ever call or read
+lies in the flash.
 """
 
 from __future__ import annotations
@@ -33,6 +34,9 @@ UNIT_ENTRIES = {
     "positioning": ["positioning_lay_isr", "positioning_tick_isr"],
 }
 
+# Only plans of paths call these. They lie in RAM for speed alone: the flash is written at a stand.
+PLANS = {"find_before", "find_between", "find_early", "keep_before"}
+
 RELOCATION = re.compile(r"([0-9a-f]{8})\s+[0-9a-f]+\s+(R_ARM_\w+)\s+([0-9a-f]{8})\s+(\S+)")
 SYMBOL = re.compile(r"([0-9a-f]+) [tT] (\S+)")
 
@@ -51,7 +55,8 @@ def find_errors(unit: str, relocations: list[str], symbols: list[str]) -> Iterat
     found = list(references(relocations))
     if len(found) < REFERENCES_MIN:
         yield f"only {len(found)} relocations in {SECTION}; link with -Wl,-q"
-    for name in sorted({name for name, address in found if address in FLASH}):
+    in_flash = {name for name, address in found if address in FLASH}
+    for name in sorted(in_flash - PLANS):
         yield f"code in RAM refers to {name}, which lies in the flash"
     addresses = {match[2]: int(match[1], 16) for line in symbols if (match := SYMBOL.match(line))}
     for name in [*ENTRIES, *UNIT_ENTRIES[unit]]:

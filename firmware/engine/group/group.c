@@ -38,11 +38,17 @@ void group_connect(struct group *group, unsigned motor, struct step_channel *cha
     group->axis[motor] = (uint8_t)axis;
 }
 
+static void take_manner(struct group *group)
+{
+    path_set_start_speed(&group->path, group->manner.start_speed);
+    path_set_before(&group->path, group->manner.before);
+}
+
 void group_set_manner(struct group *group, const struct group_manner *manner)
 {
     assert(!group_is_busy(group) && group->path.first == group->path.end);
     group->manner = *manner;
-    path_set_start_speed(&group->path, manner->start_speed);
+    take_manner(group);
 }
 
 bool group_add(struct group *group, const struct path_vector *vector)
@@ -252,7 +258,7 @@ void group_forget(struct group *group)
 {
     assert(!group_is_busy(group));
     path_init(&group->path, group->path.ring, group->path.size, group->path.turn_us);
-    path_set_start_speed(&group->path, group->manner.start_speed);
+    take_manner(group);
 }
 
 uint32_t group_speed_at(struct group *group, uint32_t section, uint32_t step)

@@ -36,7 +36,9 @@ struct group_manner {
     uint32_t start_speed; /* path_set_start_speed */
     uint32_t fault_accel; /* with which a stop for AXIS_CAUSE_FAULT brakes, 1/128 step/s^2, up to PATH_ACCEL_MAX; 0, or
                              where the motion ends before: as other stops. What is left is not to be gone on with. */
-    bool between_steps;   /* in a cruise a change does not wait for a step that is due more than 0.5 ms later */
+    struct path_kept *before; /* path_set_before; the caller's, who keeps it */
+    bool between_steps;       /* in a cruise a change does not wait for a step that is due more than 0.5 ms later; on a
+                                 slow ramp it takes one that is due earlier */
 };
 
 /*

@@ -16,6 +16,14 @@ void path_set_start_speed(struct path *path, uint32_t start_speed)
     path->start_speed = start_speed;
 }
 
+void path_set_before(struct path *path, struct path_kept *before)
+{
+    path->before = before;
+    if (before != NULL) {
+        before->valid = false;
+    }
+}
+
 bool path_is_laid(const struct path *path)
 {
     return path->laid == path->known;
@@ -53,8 +61,9 @@ uint32_t path_speed_at(struct path *path, uint32_t section, uint32_t step)
         return 0;
     }
     struct wide place = path_wide_multiply(path_section_grains_per_step(path_section_of(path, section)), step);
-    bool before = path_lay_is_before(path, section) && path_wide_is_at_least(path->origin.entry.place, place);
-    const struct path_course *course = before ? &path->before.course : path_lay_course(path, section);
+    const struct path_kept *before = section == path->origin.section ? path_lay_before(path) : NULL;
+    bool past = before != NULL && path_wide_is_at_least(path->origin.entry.place, place);
+    const struct path_course *course = past ? &before->course : path_lay_course(path, section);
     struct path_entry at = path_course_step(course, step);
     return (uint32_t)wide_root_nearest((struct wide){.low = at.speed2});
 }
@@ -80,7 +89,7 @@ bool path_start(struct path *path, uint64_t start_tick)
     path->stopping = false;
     path->chain = path->end;
     path_section_of(path, place.section)->turning = 0;
-    path->before.valid = false;
+    path_set_before(path, path->before);
     path_lay_begin(path, &place);
     return true;
 }

@@ -76,7 +76,7 @@ struct path {
     struct path_speeds speeds;
     struct path_cursor axis[PATH_AXES];
     struct path_kept kept[PATH_KEPT];
-    struct path_kept before; /* the section of the origin as it goes up to there, where the path was changed in it */
+    struct path_kept *before; /* path_set_before */
 };
 
 /* An empty path that stands. `size` places, a power of two, at least 2. `turn_us`: DIR wants so much time from the last
@@ -100,13 +100,17 @@ void path_init(struct path *path, struct path_section *ring, uint32_t size, uint
  * Borders are as ever: the path is at 0 where a border speed wants it. The path must stand. */
 void path_set_start_speed(struct path *path, uint32_t start_speed);
 
+/* Where the path keeps its course up to the last change, as it was before it; NULL, as after path_init: nowhere. It is
+ * of use for changes between steps while another one is yet to come, and for path_speed_at. The path must stand. */
+void path_set_before(struct path *path, struct path_kept *before);
+
 /* Appends a vector; false if the ring is full. A path that moves joins it by itself, if not all of it has been laid.
  * Look-ahead comes later, once for all vectors that have been added until the path hangs on them. */
 bool path_add(struct path *path, const struct path_vector *vector);
 
 /* The speed with which the path comes through a whole step of a section's longest axis, as it is planned, or was before
- * the last change, if that comes after the step; where it was changed between that step and the last change, the speed
- * at the one before. 1/256 step/s; 0 where the section has not been laid. */
+ * the last change, if that comes after the step (path_set_before); where it was changed between that step and the last
+ * change, the speed at the one before. 1/256 step/s; 0 where the section has not been laid. */
 uint32_t path_speed_at(struct path *path, uint32_t section, uint32_t step);
 
 /* Whether a change would make the path faster or longer, as vectors have been added after it had been laid so far that

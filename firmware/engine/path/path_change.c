@@ -1,5 +1,7 @@
 #include "path.h"
 
+#include <stddef.h>
+
 #include "base_hint.h"
 #include "path_fixed.h"
 #include "path_lay.h"
@@ -94,7 +96,8 @@ static struct wide between_steps(const struct look *look, uint64_t grains_per_st
 }
 
 /* Finds a place between steps in the cruise that the path is in, or comes to before `until_tick`. */
-static bool find_between(struct look look, uint64_t until_tick, uint64_t grains_per_step, struct path_entry *entry)
+BASE_APART static bool find_between(struct look look, uint64_t until_tick, uint64_t grains_per_step,
+                                    struct path_entry *entry)
 {
     const struct path_leg *end = &look.course->leg[look.course->legs];
     while (look.leg != end && look.leg->accel != 0) {
@@ -113,7 +116,8 @@ static bool find_between(struct look look, uint64_t until_tick, uint64_t grains_
 }
 
 /* The step before one, if it counts. */
-static bool find_early(const struct look *look, uint64_t step, uint64_t grains_per_step, struct path_entry *entry)
+BASE_APART static bool find_early(const struct look *look, uint64_t step, uint64_t grains_per_step,
+                                  struct path_entry *entry)
 {
     struct path_entry early = path_course_step(look->course, step - 1U);
     bool counts = early.time.high >= look->early_tick && early.speed2 <= (uint64_t)EARLY_SPEED * EARLY_SPEED &&
@@ -175,13 +179,14 @@ static bool pass_border(const struct path *path, struct path_place *place)
 }
 
 /* In the cruise that the path is in before the place that it has been planned from. */
-static bool find_before(const struct path *path, const struct path_wish *wish, struct path_place *place)
+BASE_APART static bool find_before(const struct path *path, const struct path_wish *wish, struct path_place *place)
 {
     uint64_t until_tick = wish->tick + wish->patience_ticks;
-    if (!path->before.valid || !is_due(path->origin.entry.time, until_tick)) {
+    const struct path_kept *before = path_lay_before(path);
+    if (before == NULL || !is_due(path->origin.entry.time, until_tick)) {
         return false;
     }
-    struct look look = {.course = &path->before.course, .tick = wish->tick};
+    struct look look = {.course = &before->course, .tick = wish->tick};
     look.leg = leg_at(look.course, wish->tick);
     return find_between(look, until_tick, path_lay_grains(path, place), &place->entry);
 }
@@ -303,20 +308,22 @@ bool path_back(const struct path *path, const struct path_place *place, uint64_t
 }
 
 /* How the path goes up to a place after its origin. */
-static void keep_before(struct path *path, const struct path_place *place)
+BASE_APART static void keep_before(struct path *path, const struct path_place *place)
 {
     const struct path_kept *kept = &path->kept[place->section % PATH_KEPT];
     bool later =
         place->section != path->origin.section || !path_wide_is_at_least(path->origin.entry.time, place->entry.time);
     if (later) {
-        path->before = *kept;
-        path->before.valid = kept->valid && kept->section == place->section;
+        *path->before = *kept;
+        path->before->valid = kept->valid && kept->section == place->section;
     }
 }
 
 static void plan_from(struct path *path, const struct path_place *place, bool stopping)
 {
-    keep_before(path, place);
+    if (path->before != NULL) {
+        keep_before(path, place);
+    }
     if (place->accel != 0) {
         set_accel(path, place);
     }

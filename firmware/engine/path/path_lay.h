@@ -4,6 +4,7 @@
 #ifndef PATH_LAY_H
 #define PATH_LAY_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "path.h"
@@ -24,10 +25,10 @@ static inline const struct path_course *path_lay_course(struct path *path, uint3
     return kept->valid && kept->section == count ? &kept->course : path_lay_anew(path, count);
 }
 
-/* Whether path->before is of the section of a count, in which the path was changed. */
-static inline bool path_lay_is_before(const struct path *path, uint32_t count)
+/* The section of the origin as it goes up to there, where the path was changed in it; NULL: that is not kept. */
+static inline const struct path_kept *path_lay_before(const struct path *path)
 {
-    return path->before.valid && count == path->origin.section;
+    return path->before != NULL && path->before->valid ? path->before : NULL;
 }
 
 /* In which a place counts: so many are a step. */

@@ -64,6 +64,7 @@ void pos_drive_aim(struct pos_drive *drive, const struct pos_measure *measure)
     group_forget(&drive->group);
     group_set_manner(&drive->group, &(struct group_manner){.start_speed = measure->start_speed,
                                                            .fault_accel = measure->fault_accel,
+                                                           .before = &drive->before,
                                                            .between_steps = true});
     drive->measure = *measure;
     drive->origin_steps = pos_drive_steps(drive);

@@ -52,6 +52,7 @@ struct pos_drive {
     uint8_t motor;
     bool stirred; /* planned anew since the last poll: more is to be handed over soon */
     struct step_channel channel;
+    struct path_kept before; /* of the group's path */
     struct path_section ring[POS_DRIVE_SECTIONS];
     struct group group;
 };

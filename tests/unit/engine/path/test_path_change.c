@@ -473,6 +473,8 @@ void test_the_speed_at_a_step_is_that_of_the_plan(void)
 
 void test_the_speed_at_a_step_before_two_changes_is_that_at_the_first_one(void)
 {
+    static struct path_kept before;
+    path_set_before(&rig.path, &before);
     start();
     all_pulses(UINT64_MAX);
     TEST_ASSERT_TRUE(find(1000 + 2940000, UINT64_MAX / 2U));

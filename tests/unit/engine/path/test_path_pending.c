@@ -13,13 +13,20 @@ enum {
 };
 
 static struct path_rig rig;
+static struct path_kept before;
 static uint64_t back[PATH_AXES];
 static struct path_place place;
+
+static void begin(void)
+{
+    rig_init(&rig);
+    path_set_before(&rig.path, &before);
+}
 
 /* 10 steps/s, with ramps of a millisecond. */
 void setUp(void)
 {
-    rig_init(&rig);
+    begin();
     (void)rig_add(&rig, 100, 33, 10, 10000);
 }
 
@@ -43,7 +50,7 @@ static void start(void)
 /* A path of its own with a slow ramp; and when it comes to a step on it. */
 static void start_ramp(int32_t steps, uint32_t accel)
 {
-    rig_init(&rig);
+    begin();
     (void)rig_add(&rig, steps, 0, 100000, accel);
     start();
 }
@@ -91,7 +98,7 @@ void test_a_change_in_a_cruise_does_not_wait_for_one_that_is_pending_at_a_far_st
     TEST_ASSERT_TRUE(find(START + 500000, PATIENCE, 0));
     TEST_ASSERT_UINT64_WITHIN(2, START + 500000, place.entry.time.high);
     TEST_ASSERT_EQUAL_UINT64(UINT64_C(2560) * 2560U, place.entry.speed2);
-    uint64_t tick = path_course_step(&rig.path.before.course, 1).time.high;
+    uint64_t tick = path_course_step(&before.course, 1).time.high;
     change(20);
     TEST_ASSERT_TRUE(path_lay_course(&rig.path, 0)->leg[0].time.high < tick);
     TEST_ASSERT_TRUE(path_course_step(path_lay_course(&rig.path, 0), 1).time.high < tick - STEP_TICKS / 4);
@@ -197,7 +204,7 @@ void test_a_place_between_steps_is_no_step_before_the_wish(void)
 void test_with_a_high_start_speed_no_step_before_the_wish_is_taken(void)
 {
     for (unsigned speed = 1500; speed <= 1501; speed++) {
-        rig_init(&rig);
+        begin();
         path_set_start_speed(&rig.path, speed * PATH_SPEED_UNITS);
         (void)rig_add(&rig, 3, 0, 10, 10000);
         start();
@@ -253,11 +260,11 @@ void test_a_change_at_a_border_of_what_is_not_laid_has_nothing_before_it(void)
     (void)rig_add(&rig, 100, 33, 10, 10000);
     TEST_ASSERT_TRUE(path_start(&rig.path, START));
     change_at_border(1);
-    TEST_ASSERT_FALSE(rig.path.before.valid);
+    TEST_ASSERT_FALSE(before.valid);
     hand_over_pulses(0, 100);
     hand_over_pulses(1, 33);
     change_at_border(3);
-    TEST_ASSERT_FALSE(rig.path.before.valid);
+    TEST_ASSERT_FALSE(before.valid);
     hand_over(UINT64_MAX);
     TEST_ASSERT_EQUAL_UINT32(10 * PATH_SPEED_UNITS, path_speed_at(&rig.path, 3, 0));
 }
@@ -268,9 +275,18 @@ void test_the_speeds_before_a_change_are_those_of_its_section(void)
     start();
     TEST_ASSERT_TRUE(find(START + UINT64_C(50) * STEP_TICKS, UINT64_MAX / 2U, 0));
     change(30);
-    TEST_ASSERT_TRUE(rig.path.before.valid);
+    TEST_ASSERT_TRUE(before.valid);
     TEST_ASSERT_EQUAL_UINT32(10 * PATH_SPEED_UNITS, path_speed_at(&rig.path, 0, 40));
     TEST_ASSERT_EQUAL_UINT32(20 * PATH_SPEED_UNITS, path_speed_at(&rig.path, 1, 40));
+}
+
+void test_without_a_place_for_the_course_before_it_a_change_waits_for_one_that_is_pending(void)
+{
+    path_set_before(&rig.path, NULL);
+    change_at_first_step();
+    TEST_ASSERT_TRUE(find(START + 500000, PATIENCE, 0));
+    assert_at_step(1);
+    TEST_ASSERT_EQUAL_UINT32(10 * PATH_SPEED_UNITS, path_speed_at(&rig.path, 0, 0));
 }
 
 void test_a_start_forgets_the_speeds_before_it(void)
@@ -279,7 +295,7 @@ void test_a_start_forgets_the_speeds_before_it(void)
     TEST_ASSERT_TRUE(find(rig.path.origin.entry.time.high + STEP_TICKS, UINT64_MAX / 2U, 0));
     TEST_ASSERT_TRUE(rig_stop(&rig, &place, back));
     hand_over(UINT64_MAX);
-    TEST_ASSERT_TRUE(rig.path.before.valid);
+    TEST_ASSERT_TRUE(before.valid);
     TEST_ASSERT_TRUE(path_start(&rig.path, UINT64_C(1) << 32U));
-    TEST_ASSERT_FALSE(rig.path.before.valid);
+    TEST_ASSERT_FALSE(before.valid);
 }
