@@ -29,10 +29,9 @@ PAIRS = 10_000 if LONG else 80
 
 BEGIN = 2 * MS
 LATE_MS_MAX = 110_000
-"""The contract has windows for changes; the engine keeps them but where one comes before an older
-one has taken effect, for whose place it waits, or less than 0.34 ms before a pulse on a ramp, which
-then is followed by a whole interval. So late is no more than an interval of the slowest pulses
-here."""
+"""The contract has windows for changes; the engine keeps them but for faults, which are planned
+first, and for a change on a ramp at the very tick of a pulse, which is followed by a whole
+interval. So late is no more than an interval of the slowest pulses here."""
 
 SLOWEST = 0.01
 """steps/s"""

@@ -21,10 +21,10 @@ from pos_words import MS, Mismatch, Unsure
 SESSIONS = int(os.environ.get("RKM04_PROGRAMS", "200"))
 BATCH = 1000
 FRESH = 40
-FRESH_WRONG_MAX = 3
-WRONG_SHARE_MAX = 0.02
-"""A change in a slow cruise waits for the next pulse if an earlier one is pending there: a fault of
-the engine that sessions meet now and then."""
+FRESH_WRONG_MAX = 1
+WRONG_SHARE_MAX = 0.005
+"""A homing that has not begun sees its switch come and go, a fault of the unit; and a measure that
+is refused just after one that a software limit cuts at once, one of the model."""
 
 UNSURE_SHARE_MAX = 0.1
 """What is open at once may be more than the model can follow: pos_model.py tells what."""
