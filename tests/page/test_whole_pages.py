@@ -28,7 +28,8 @@ SAME = {
     "Reset", "Reset \\",
     "Set Command", "Store Flash", "Get Position", "Get Command", "Get Tabul Run", "Get Pozic Run",
     "Motor {motor}", "motor {motor}", "motor {motor}: {value}", "Ref X", "Ref Y", "Ref Z", "Ref A",
-    "n", "mm/min", "{speed} mm/min", "{speed} {unit}/s", "max. {speed}", "mm, °", "{position} {unit}",
+    "n", "mm/min", "{speed} mm/min", "{speed} {unit}/s", "max. {speed}", "mm, °",
+    "{position} {unit}",
 }  # fmt: skip
 """What is the same in Czech: names of the original's messages, signs, and words that both have."""
 PHONE = (360, 740)
