@@ -219,6 +219,22 @@ def test_a_comment_or_another_layout_is_as_it_was_proved(tmp_path: Path, other: 
     assert digest(put_together(path, root)) == digest(put_together(path))
 
 
+@pytest.mark.parametrize(
+    ("other", "same"),
+    [
+        ("#define MOST 2\nint a;", True),
+        ("#define MORE MOST\n#define MOST 2\nint a;", True),
+        ('#define MOST 2\nstatic_assert(MOST > 1, "why");\nint a;', True),
+        ("#define MOST 2\nint a; /*@ lemma most: MOST < 3; */", False),
+        ("#define MOST 2\nint a = MOST;", False),
+    ],
+)
+def test_a_macro_counts_where_it_is_used(other: str, same: bool) -> None:
+    one = digest(Contracts("a", text=other))
+
+    assert (one == digest(Contracts("a", text=other.replace("MOST 2", "MOST 3")))) is same
+
+
 def test_an_annotation_counts_although_it_is_a_comment() -> None:
     one, other = (
         Contracts("a", text=f"/*@ requires {what}; */\nvoid f(void);")

@@ -17,9 +17,9 @@ If an anchor names nothing, or more than one thing, the source has changed and t
 follow: the run fails.
 
 proved.json says what has been proved: a digest of what Frama-C sees of each file and of all that it
-includes, and the number of its goals. What is as it was then is proved again with --all, or if it
-is named; --record writes down what this run has proved. With --minutes, what has not been begun by
-then is told and left out (status 77).
+includes and uses, and the number of its goals. What is as it was then is proved again with --all,
+or if it is named; --record writes down what this run has proved. With --minutes, what has not been
+begun by then is told and left out (status 77).
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ import shutil
 import subprocess
 import sys
 import time
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -71,6 +72,8 @@ FOLDERS = (*sorted(path for path in (ROOT / "firmware").rglob("*") if path.is_di
            ROOT / "hal/include", PROOFS)  # fmt: skip
 
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+CHECKED = re.compile(r"\bstatic_assert \(.*?\) ;")
+DEFINED = re.compile(r"^#define (\w+)\b.*$\n?", re.MULTILINE)
 LEMMA = re.compile(r"(?<!admit )\blemma (\w+)")
 PROVED = re.compile(r"^\[wp\] Proved goals:\s+(\d+) / (\d+)$", re.MULTILINE)
 # With one prover, what it said stands after the goal.
@@ -220,11 +223,22 @@ def read(path: Path) -> Contracts:
 
 
 def digest(contracts: Contracts) -> str:
-    """Of all that a proof depends on, but the provers and this file: not of comments and layout."""
-    headers = [(name, essence(text)) for name, text in sorted(_headers(contracts.text, {}).items())]
+    """Of all that a proof depends on, but the provers and this file: not of comments and layout,
+    of macros that nothing uses, or of what is checked when it is compiled."""
+    headers = sorted(_headers(contracts.text, {}).items())
     asked = (contracts.proved, contracts.unsigned, contracts.options, list(contracts.provers))
-    what = (VERSION, asked, essence(contracts.text), headers)
+    texts = [contracts.text, *(text for _, text in headers)]
+    text = _used("\n".join(essence(each) for each in texts))
+    what = (VERSION, asked, text, [name for name, _ in headers])
     return hashlib.sha256(repr(what).encode()).hexdigest()
+
+
+def _used(text: str) -> str:
+    """Without static_assert, and without the macros whose names stand nowhere else."""
+    text = CHECKED.sub("", text)
+    words = Counter(re.findall(r"\w+", text))
+    used = DEFINED.sub(lambda match: match[0] if words[match[1]] > 1 else "", text)
+    return used if used == text else _used(used)
 
 
 def recorded() -> dict[str, dict[str, str | int]]:
