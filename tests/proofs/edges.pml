@@ -14,7 +14,7 @@
  * LATE: the interrupt may come at any time. Otherwise it comes in time, and no pulse may be late.
  * PLANT_...: an error, to see that it is found.
  */
-#define RING 6 /* pulses; 64 in the firmware */
+#define RING 6 /* pulses; 64 at least in the firmware */
 #define EDGES (2 * RING)
 #define LAY_MAX 2
 #define WAITING_MAX (RING - 2 - LAY_MAX)
@@ -334,7 +334,7 @@ inline append(ahead)
 #ifdef PLANT_RING_OVERRUN
     :: false
 #else
-    :: waiting > WAITING_MAX -> from_tick = due_tick
+    :: waiting > WAITING_MAX -> from_tick = ring[RISE(laid + RING - WAITING_MAX)]
 #endif
     :: else ->
         if
