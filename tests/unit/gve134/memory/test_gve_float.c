@@ -186,6 +186,21 @@ void test_the_largest_number_is_taken_and_the_first_that_would_be_infinite_is_to
     assert_refused(GVE_FLOAT_TOO_LARGE, "1000000000000000000000000000000000000000E0");
 }
 
+void test_an_exponent_of_any_length_is_not_taken_for_a_small_one(void)
+{
+    assert_refused(GVE_FLOAT_TOO_LARGE, "1E4294967297");
+    assert_refused(GVE_FLOAT_TOO_LARGE, "1E18446744073709551617");
+    assert_read(0, "1E-4294967297");
+    assert_read(0, "1E-18446744073709551617");
+}
+
+void test_what_stands_after_the_text_of_a_number_does_not_count(void)
+{
+    uint32_t bits = UNTOUCHED;
+    TEST_ASSERT_EQUAL_INT(GVE_FLOAT_OK, gve_float_read((const uint8_t *)"15", 1, &bits));
+    TEST_ASSERT_EQUAL_HEX32(bits_of(1.0F), bits);
+}
+
 void test_half_of_the_smallest_number_is_zero_and_a_little_more_is_the_smallest(void)
 {
     assert_read(0, "7.0064923216240853546186479164495806564013097093825788587853E-46");
