@@ -41,7 +41,7 @@ static void on_output(void *context, uint64_t tick, uint8_t levels)
 static void on_trace(void *context, uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
 {
     struct bench *bench = context;
-    if (!bench->forgets_events) {
+    if (!bench->forgets_events && event != HAL_TRACE_COMMAND) {
         TEST_ASSERT_LESS_THAN_UINT32_MESSAGE(BENCH_EVENTS_MAX, bench->event_count, "too many events for the bench");
         bench->events[bench->event_count] =
             (struct bench_event){.tick = tick, .value = value, .motor = (uint8_t)motor, .event = event};
