@@ -281,10 +281,8 @@ export const en = {
     "plan.pulses": "pulses {pulses}",
     "plan.moves": "moves {moves}",
 
-    "scale.switch": "mm, °",
+    "scale.switch": "in mm, °",
     "scale.switchLabel": "Curves, positions and speeds in mm or degrees, for the motors of which the machine says how far a step goes",
-    "scale.speed": "{speed} {unit}/s",
-    "scale.position": "{position} {unit}",
     "scale.speeds": "Speed, {units}",
     "scale.positions": "Position, {units}",
     "scale.none": "not drawn: no mm or °",

@@ -28,15 +28,13 @@ export function speedWords(motor: number, steps_per_s: number): string {
     const scale = scales.value.get(motor);
     return scale === undefined
         ? t("live.speed", { speed: numberText(steps_per_s) })
-        : t("scale.speed", { speed: numberText(steps_per_s / scale.steps, DIGITS), unit: scale.unit });
+        : `${numberText(steps_per_s / scale.steps, DIGITS)} ${scale.unit}/s`;
 }
 
 /** A position as a number, with its unit if that is not the step. */
 export function positionNumber(motor: number, steps: number): string {
     const scale = scales.value.get(motor);
-    return scale === undefined ? numberText(steps) : t("scale.position", {
-        position: numberText(steps / scale.steps, DIGITS), unit: scale.unit,
-    });
+    return scale === undefined ? numberText(steps) : `${numberText(steps / scale.steps, DIGITS)} ${scale.unit}`;
 }
 
 /** A position in words. */
