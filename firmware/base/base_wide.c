@@ -75,8 +75,9 @@ static uint32_t divide_digit(uint64_t *rest, uint32_t next, uint64_t divisor)
 uint64_t wide_divide(struct wide value, uint64_t divisor, uint64_t *remainder)
 {
     if (value.high == 0) {
-        *remainder = value.low % divisor;
-        return value.low / divisor;
+        uint64_t quotient = value.low / divisor;
+        *remainder = value.low - quotient * divisor;
+        return quotient;
     }
     if (value.high >= divisor) {
         *remainder = 0;

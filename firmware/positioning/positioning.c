@@ -62,6 +62,8 @@ void positioning_init(struct pos_unit *unit)
     for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
         pos_axis_init(&unit->axes[axis], axis, unit->registers.axes[axis]);
     }
+    unit->asked = NULL;
+    unit->exception = MODBUS_EXCEPTION_NONE;
     positioning_init_line(unit);
 }
 
@@ -103,10 +105,9 @@ static void watch_bus(struct pos_unit *unit, uint64_t now)
     unit->silences += acts ? 1U : 0U;
 }
 
-/* Planning the change of an axis takes as long as what the one before has in hand lasts. */
-static void feed(struct pos_unit *unit, unsigned last)
+static void feed(struct pos_unit *unit)
 {
-    for (unsigned axis = 0; axis <= last; axis++) {
+    for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
         if (pos_drive_is_stirred(&unit->axes[axis].drive)) {
             (void)pos_drive_poll(&unit->axes[axis].drive);
         }
@@ -120,7 +121,6 @@ static bool follow(struct pos_unit *unit)
     bool again = false;
     for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
         again = pos_axis_follow(&unit->axes[axis]) || again;
-        feed(unit, axis);
     }
     uint64_t start_tick = hal_time_now() + (uint64_t)START_TICKS;
     for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
@@ -129,6 +129,7 @@ static bool follow(struct pos_unit *unit)
             again = true;
         }
     }
+    feed(unit);
     return again;
 }
 
@@ -157,6 +158,7 @@ uint64_t positioning_poll(struct pos_unit *unit)
     plc_pass(unit);
     watch_bus(unit, hal_time_now());
     bool again = follow(unit);
+    positioning_answer(unit);
     show_leds(unit, now);
     return again ? hal_time_now() : wake;
 }

@@ -24,6 +24,8 @@ struct pos_unit {
     uint64_t start_tick;
     uint64_t leds_tick; /* when the LEDs are to be looked at */
     uint32_t silences;
+    const struct modbus_request *asked; /* it is to be answered yet; NULL: none is */
+    enum modbus_exception exception;    /* what came of it */
     struct pos_settings settings;
     struct modbus server;
     struct pos_registers registers;

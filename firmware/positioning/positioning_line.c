@@ -111,6 +111,20 @@ static void answer(struct pos_unit *unit, const struct modbus_request *request)
     modbus_answer(&unit->server, values);
 }
 
+void positioning_answer(struct pos_unit *unit)
+{
+    const struct modbus_request *asked = unit->asked;
+    unit->asked = NULL;
+    if (asked == NULL) {
+        return;
+    }
+    if (unit->exception == MODBUS_EXCEPTION_NONE) {
+        answer(unit, asked);
+    } else {
+        modbus_refuse(&unit->server, unit->exception);
+    }
+}
+
 /* ---- writes ---------------------------------------------------------------------------------------------------- */
 
 static enum pos_error execute(struct pos_unit *unit, unsigned axis, unsigned code)
@@ -157,26 +171,33 @@ static void instruct(struct pos_unit *unit, const struct pos_written *written)
 }
 
 /* CONTROL and FEED of an axis, if one of them is written, are one POS_CONTROL. */
-static void control(struct pos_unit *unit, unsigned axis)
+static void control(struct pos_unit *unit)
 {
+    struct {
+        uint32_t feed;
+        int mp;
+        bool written;
+    } wanted[POS_AXES];
+    for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
+        wanted[axis].feed = unit->axes[axis].feed;
+        wanted[axis].mp = POS_MP_NIL;
+        wanted[axis].written = false;
+    }
     uint32_t next = 0;
-    uint32_t feed = unit->axes[axis - 1U].feed;
-    int mp = POS_MP_NIL;
-    bool is_written = false;
     const struct pos_written *written = pos_write_next(&unit->write, POS_USE_MOTION, &next);
     for (; written != NULL; written = pos_write_next(&unit->write, POS_USE_MOTION, &next)) {
-        if (written->place.axis != axis) {
-            continue;
-        }
-        is_written = true;
+        unsigned axis = written->place.axis - 1U;
+        wanted[axis].written = true;
         if (written->place.index == (uint8_t)POS_AXIS_FEED) {
-            feed = written->value;
+            wanted[axis].feed = written->value;
         } else {
-            mp = (int)(written->value & (uint32_t)POS_CNT_MP);
+            wanted[axis].mp = (int)(written->value & (uint32_t)POS_CNT_MP);
         }
     }
-    if (is_written) {
-        (void)pos_control(unit, NULL, feed, mp, axis);
+    for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
+        if (wanted[axis].written) {
+            (void)pos_control(unit, NULL, wanted[axis].feed, wanted[axis].mp, axis + 1U);
+        }
     }
 }
 
@@ -219,9 +240,7 @@ static bool write(struct pos_unit *unit)
     for (; written != NULL; written = pos_write_next(&unit->write, POS_USE_INSTRUCTION, &next)) {
         instruct(unit, written);
     }
-    for (unsigned axis = 1; axis <= (unsigned)POS_AXES; axis++) {
-        control(unit, axis);
-    }
+    control(unit);
     return true;
 }
 
@@ -268,17 +287,11 @@ static enum modbus_exception take(struct pos_unit *unit, const struct modbus_req
 /* True: a request has been executed. */
 static bool serve(struct pos_unit *unit)
 {
-    const struct modbus_request *request = modbus_next(&unit->server);
-    if (request == NULL) {
-        return false;
+    unit->asked = modbus_next(&unit->server);
+    if (unit->asked != NULL) {
+        unit->exception = take(unit, unit->asked);
     }
-    enum modbus_exception exception = take(unit, request);
-    if (exception == MODBUS_EXCEPTION_NONE) {
-        answer(unit, request);
-    } else {
-        modbus_refuse(&unit->server, exception);
-    }
-    return true;
+    return unit->asked != NULL;
 }
 
 /* ---- bytes ----------------------------------------------------------------------------------------------------- */

@@ -125,8 +125,8 @@ def test_steps_waveforms_and_a_picture_are_written(positioning: Tool, tmp_path: 
 
 # Example and motor: how many pulses; the first, the middle and the last one, tick and position.
 GOLDEN = {
-    ("first-move", 1): (1000, [(2261663, 1), (28380781, 501), (73433034, 1000)]),
-    ("hold", 1): (2500, [(2150400, 1), (54686991, 1251), (78393000, 2500)]),
+    ("first-move", 1): (1000, [(2261663, 1), (28380781, 501), (73438433, 1000)]),
+    ("hold", 1): (2500, [(2150400, 1), (54707758, 1251), (78409800, 2500)]),
     ("hold", 2): (1250, [(2324370, -1), (25389000, -626), (48980400, -1250)]),
     ("home", 1): (2727, [(2261663, -1), (282164400, 4), (341090400, 1367)]),
 }

@@ -31,8 +31,13 @@ if(small)
         endif()
     endforeach()
     target_compile_options(hal_stm32 PRIVATE -Os)
-    set_source_files_properties(${PROJECT_SOURCE_DIR}/hal/stm32/stm32_step.c
-        DIRECTORY ${PROJECT_SOURCE_DIR}/hal/stm32 PROPERTIES COMPILE_OPTIONS -O2)
+    # But for the steps, and for what a pulse that is to change waits for most.
+    foreach(fast hal/stm32/stm32_step.c firmware/engine/path/path_divide.c
+            firmware/engine/path/path_root.c)
+        get_filename_component(folder ${fast} DIRECTORY)
+        set_source_files_properties(${PROJECT_SOURCE_DIR}/${fast}
+            DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} PROPERTIES COMPILE_OPTIONS -O2)
+    endforeach()
 endif()
 
 # firmware_add_image(<target> <name> <library> <source>...): a main and the library that it needs, for the board.

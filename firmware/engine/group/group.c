@@ -94,7 +94,8 @@ static bool has_room(const struct group *group, unsigned axis)
 bool group_feed_axis(struct group *group, unsigned axis, uint64_t until_tick)
 {
     struct path_segment next;
-    if (!has_room(group, axis) || !path_next(&group->path, axis, until_tick, &next)) {
+    if (!path_moves(&group->path, axis) || !has_room(group, axis) ||
+        !path_next(&group->path, axis, until_tick, &next)) {
         return false;
     }
     for (unsigned left = group->motors[axis]; left != 0; left &= left - 1U) {

@@ -7,9 +7,10 @@
  * begins with group_start and is over when group_take_end has said so. What a stop has left of the path stays:
  * group_start goes on with it, group_forget drops it.
  *
- * A change takes effect at a whole step of the longest axis, the first that is due 0.33 ms after it was asked for, or
- * up to 0.2 ms later where many sections get other speeds. Each channel is frozen from there on while the path is
- * planned; where the plan is late, so are the pulses, and the motors are where the path says all the same.
+ * A change takes effect at a whole step of the longest axis, the first that is due 0.33 ms after it was asked for, if
+ * the manner says no other time, or up to 0.2 ms later where many sections get other speeds. Each channel is frozen
+ * from there on while the path is planned; where the plan is late, so are the pulses, and the motors are where the path
+ * says all the same.
  */
 #ifndef GROUP_H
 #define GROUP_H
@@ -36,6 +37,9 @@ struct group_manner {
     uint32_t start_speed; /* path_set_start_speed */
     uint32_t fault_accel; /* with which a stop for AXIS_CAUSE_FAULT brakes, 1/128 step/s^2, up to PATH_ACCEL_MAX; 0, or
                              where the motion ends before: as other stops. What is left is not to be gone on with. */
+    uint32_t lead_ticks;  /* from when a change is asked for until it can take effect, as long as planning takes, which
+                             hangs on the axes and where the code lies, up to 0.33 ms; 0: that */
+    uint32_t go_on_ticks; /* so much is handed over at once after that; 0: 0.37 ms */
     struct path_kept *before; /* path_set_before; the caller's, who keeps it */
     bool between_steps;       /* in a cruise a change does not wait for a step that is due more than 0.5 ms later; on a
                                  slow ramp it takes one that is due earlier */

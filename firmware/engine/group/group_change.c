@@ -48,7 +48,7 @@ static void recall(struct group *group, const uint64_t back[PATH_AXES], uint64_t
 {
     for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
         struct path_segment next;
-        bool moves = path_next(&group->path, axis, until_tick, &next);
+        bool moves = path_moves(&group->path, axis) && path_next(&group->path, axis, until_tick, &next);
         for (unsigned left = group->motors[axis]; left != 0; left &= left - 1U) {
             unsigned motor = group_lowest(left);
             step_channel_recall(group->channel[motor], back[axis], moves ? &next.segment : NULL,
@@ -64,6 +64,9 @@ static void feed_until(struct group *group, uint64_t tick, uint64_t end_tick)
     while (fed) {
         fed = false;
         for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
+            if (!path_moves(&group->path, axis)) {
+                continue;
+            }
             if (hal_time_now() >= end_tick) {
                 return;
             }
@@ -86,6 +89,11 @@ static void take_speeds(struct group *group, uint32_t first)
     group->speeds_wait = false;
 }
 
+static uint64_t go_on_of(const struct group *group)
+{
+    return group->manner.go_on_ticks != 0 ? group->manner.go_on_ticks : (uint64_t)GO_ON_TICKS;
+}
+
 /* All that is to come after the place is frozen. Laying it would take the time in which its first segments, which may
  * be short, are planned: so that waits until they are there, or the place is near. */
 static void plan_from(struct group *group, const struct path_place *place, const uint64_t back[PATH_AXES])
@@ -99,10 +107,11 @@ static void plan_from(struct group *group, const struct path_place *place, const
         path_change(&group->path, place);
     }
     uint64_t tick = place->entry.time.high;
+    uint64_t until_tick = tick + go_on_of(group);
     recall(group, back, tick + (uint64_t)FIRST_TICKS);
-    feed_until(group, tick + (uint64_t)GO_ON_TICKS, tick - (uint64_t)THAW_TICKS);
+    feed_until(group, until_tick, tick - (uint64_t)THAW_TICKS);
     thaw(group, UNIT_MOTORS);
-    feed_until(group, tick + (uint64_t)GO_ON_TICKS, TICK_NEVER);
+    feed_until(group, until_tick, TICK_NEVER);
 }
 
 enum change {
@@ -125,12 +134,18 @@ static bool reach(struct group *group, const struct path_place *place, uint64_t 
     return path_back(&group->path, place, back);
 }
 
+/* How long planning takes where no section is looked at. */
+static uint64_t least_lead_of(const struct group *group)
+{
+    return group->manner.lead_ticks != 0 ? group->manner.lead_ticks : (uint64_t)LEAD_TICKS;
+}
+
 /* How long planning takes at most. */
 static uint64_t lead_of(const struct group *group)
 {
     uint64_t sections = group->path.end - group->path.first;
     uint64_t each = is_in(group, AXIS_BRAKING) ? 0 : (uint64_t)LOOK_TICKS;
-    return (uint64_t)LEAD_TICKS + sections * each;
+    return least_lead_of(group) + sections * each;
 }
 
 /* With which a stop brakes; 0: with that of the sections. */
@@ -146,7 +161,7 @@ static bool find(struct group *group, uint64_t lead, struct path_place *place)
     struct path_wish wish = {
         .tick = hal_time_now() + lead,
         .patience_ticks = group->manner.between_steps ? (uint64_t)PATIENCE_TICKS : TICK_NEVER / 2U,
-        .early_ticks = group->manner.between_steps ? (uint64_t)LEAD_TICKS : 0U,
+        .early_ticks = group->manner.between_steps ? least_lead_of(group) : 0U,
         .accel = accel_of(group),
     };
     bool found = path_find(&group->path, &wish, place);

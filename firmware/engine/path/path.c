@@ -4,6 +4,7 @@
 
 #include "path_lay.h"
 #include "path_look.h"
+#include "path_root.h"
 #include "path_segment.h"
 
 void path_init(struct path *path, struct path_section *ring, uint32_t size, uint32_t turn_us)
@@ -48,6 +49,9 @@ bool path_add(struct path *path, const struct path_vector *vector)
     if (path->end != path->first) {
         path_section_mind_turns(section, path_section_of(path, path->end - 1U), path->turn_us);
     }
+    for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
+        path->axes |= (uint8_t)(vector->steps[axis] != 0 ? 1U << axis : 0U);
+    }
     path->end++;
     if (path->start_speed == 0 || vector->straight) {
         join(path);
@@ -65,7 +69,7 @@ uint32_t path_speed_at(struct path *path, uint32_t section, uint32_t step)
     bool past = before != NULL && path_wide_is_at_least(path->origin.entry.place, place);
     const struct path_course *course = past ? &before->course : path_lay_course(path, section);
     struct path_entry at = path_course_step(course, step);
-    return (uint32_t)wide_root_nearest((struct wide){.low = at.speed2});
+    return (uint32_t)path_root((struct wide){.low = at.speed2});
 }
 
 bool path_lags(struct path *path)
@@ -137,8 +141,8 @@ static const struct path_course *seek(struct path *path, unsigned axis, uint64_t
     struct path_cursor *cursor = &path->axis[axis];
     while (reach(path, cursor->section, until_tick)) {
         uint32_t steps = path_section_steps(path_section_of(path, cursor->section), axis);
-        const struct path_course *course = path_lay_course(path, cursor->section);
-        if (seek_leg(cursor, course, steps)) {
+        const struct path_course *course = steps != 0 ? path_lay_course(path, cursor->section) : NULL;
+        if (course != NULL && seek_leg(cursor, course, steps)) {
             return course;
         }
         if (cursor->section + 1U == path->known) {
@@ -190,4 +194,9 @@ bool path_next(struct path *path, unsigned axis, uint64_t until_tick, struct pat
 void path_drop(struct path *path, uint32_t section)
 {
     path->first = section;
+    for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
+        if (!path_moves(path, axis)) {
+            path->axis[axis].section = section;
+        }
+    }
 }

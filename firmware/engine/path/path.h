@@ -68,6 +68,7 @@ struct path {
     uint32_t chain;  /* count after the last one that a path with a start speed goes on to */
     bool stopping;
     bool too_fast;            /* `laid` is left at the speed to which it can be braked */
+    uint8_t axes;             /* that have had steps since path_init: a bit each */
     bool held_back;           /* the speed at which `laid` is entered was as low as the end that was known made it */
     struct path_place origin; /* where the path left a stand, was changed or stopped */
     struct path_entry next;   /* the entry of section `laid` */
@@ -120,6 +121,12 @@ bool path_lags(struct path *path);
 /* Leaves a stand at a whole tick: begins, or goes on from where it rests. False if no vector is left. Pulses up to the
  * rest must have been handed over. */
 bool path_start(struct path *path, uint64_t start_tick);
+
+/* Whether an axis has had steps since path_init: else nothing is to be handed over, and path_next need not be asked. */
+static inline bool path_moves(const struct path *path, unsigned axis)
+{
+    return (path->axes >> axis & 1U) != 0U;
+}
 
 /* The next segment of an axis; false if there is none whose first pulse is before `until_tick`. Sections that begin
  * later are not laid, so that vectors may still join without a change. */

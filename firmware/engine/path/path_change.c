@@ -59,26 +59,29 @@ static uint64_t way_at(const struct look *look, uint64_t *rest)
     return wide_divide(path_wide_multiply(mean, ticks), STEP_QUANTA, rest);
 }
 
-/* The first whole step of the course after its beginning that is due at or after a tick; after the last one if none is.
- * What way_at tells is less than the way of a tick too much, so the step before that one is due earlier. It is hardly
- * too little: the leg's place and the way are rounded down, which makes two steps, a speed's fraction of a quantum and
- * the last digit of a time may make one each. So the search ends after as many more. */
-static uint64_t find_step(const struct look *look)
+/* Finds the first whole step of the course after its beginning that is due at or after a tick; if none is, false and
+ * the one after the last. What way_at tells is less than the way of a tick too much, so the step before that one is due
+ * earlier. It is hardly too little: the leg's place and the way are rounded down, which makes two steps, a speed's
+ * fraction of a quantum and the last digit of a time may make one each. So the search ends after as many more. */
+static bool find_step(const struct look *look, uint64_t *step, struct path_entry *entry)
 {
     const unsigned most = 4;
     uint64_t rest = 0;
     uint64_t begin = wide_divide(look->leg->place, look->course->grains_per_step, &rest);
     uint64_t first = wide_divide(look->course->leg[0].place, look->course->grains_per_step, &rest) + 1U;
     uint64_t last = wide_divide(look->course->end, look->course->grains_per_step, &rest);
-    uint64_t step = begin + way_at(look, &rest);
-    step = step < first ? first : step;
-    for (unsigned i = 0; i < most; i++) {
-        if (step > last || is_due(path_course_step(look->course, step).time, look->tick)) {
-            break;
+    uint64_t near = begin + way_at(look, &rest);
+    near = near < first ? first : near;
+    *step = last + 1U;
+    last = last < near + most ? last : near + most;
+    for (uint64_t at = near; at <= last; at++) {
+        *entry = path_course_step(look->course, at);
+        if (is_due(entry->time, look->tick)) {
+            *step = at;
+            return true;
         }
-        step++;
     }
-    return step;
+    return false;
 }
 
 /* A place of a cruise between steps, an even number of grains, at the tick or just after it. */
@@ -133,13 +136,9 @@ BASE_APART static bool find_early(const struct look *look, uint64_t step, uint64
 BASE_APART static bool find_in(const struct look *look, uint64_t patience_ticks, uint64_t grains_per_step,
                                struct path_entry *entry)
 {
-    uint64_t rest = 0;
-    uint64_t last = wide_divide(look->course->end, look->course->grains_per_step, &rest);
-    uint64_t step = find_step(look);
-    bool follows = step <= last;
-    step = follows ? step : last + 1U;
+    uint64_t step = 0;
+    bool follows = find_step(look, &step, entry);
     if (follows) {
-        *entry = path_course_step(look->course, step);
         entry->place = path_wide_multiply(grains_per_step, step);
     }
     uint64_t until_tick = look->tick + patience_ticks;

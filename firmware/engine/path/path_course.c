@@ -72,26 +72,28 @@ static struct wide cruise_time(const struct path_leg *leg, struct wide steps)
     return path_wide_add(leg->time, path_fixed_multiply(path_wide_subtract(steps, leg->begin), leg->pace));
 }
 
+/* The path at a place of a cruise, `steps` of it. */
+static struct path_entry cruise_at(const struct path_leg *leg, struct wide place, struct wide steps)
+{
+    return (struct path_entry){.time = cruise_time(leg, steps), .place = place, .speed2 = leg->twice_speed2 / 2U};
+}
+
 struct path_entry path_course_step(const struct path_course *course, uint64_t step)
 {
     struct wide place = path_wide_multiply(course->grains_per_step, step);
     const struct path_leg *leg = &course->leg[0];
     if (!path_wide_is_at_least(place, leg->place)) {
-        place = leg->place;
+        return path_course_at(course, leg, leg->place);
     }
     for (unsigned i = 0; i + 1U < course->legs && !path_wide_is_at_least(course->leg[i].end, place); i++) {
         leg = &course->leg[i + 1U];
     }
-    return path_course_at(course, leg, place);
+    return leg->accel == 0 ? cruise_at(leg, place, (struct wide){.high = step}) : path_course_at(course, leg, place);
 }
 
 struct path_entry path_course_cruise_at(const struct path_leg *leg, struct wide place, uint64_t grains_per_step)
 {
-    return (struct path_entry){
-        .time = cruise_time(leg, path_fixed_divide(place, grains_per_step)),
-        .place = place,
-        .speed2 = leg->twice_speed2 / 2U,
-    };
+    return cruise_at(leg, place, path_fixed_divide(place, grains_per_step));
 }
 
 /* The time between two speeds of a ramp. */
@@ -230,9 +232,10 @@ uint32_t path_course_last_pulse(const struct path_course *course, struct wide pl
         return steps;
     }
     uint64_t rest = 0;
+    bool all = steps == course->length;
     const struct path_divisor grains = path_divisor_of(course->grains_per_step);
-    uint64_t way = path_divide(path_wide_times(place, steps), &grains, &rest);
-    return (uint32_t)path_divide((struct wide){.low = way}, &course->per_length, &rest);
+    uint64_t way = path_divide(all ? place : path_wide_times(place, steps), &grains, &rest);
+    return (uint32_t)(all ? way : path_divide((struct wide){.low = way}, &course->per_length, &rest));
 }
 
 /* The place of a pulse, steps of the longest axis: 64.64. */

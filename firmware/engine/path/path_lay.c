@@ -31,8 +31,9 @@ void path_lay_pulses(const struct path *path, const struct path_place *place, ui
     uint64_t step = path_divide(place->entry.place, &grains, &rest);
     for (unsigned axis = 0; axis < PATH_AXES; axis++) {
         uint32_t steps = path_section_steps(section, axis);
-        pulses[axis] = rest == 0 ? pulses_at(step, steps, section->length)
-                                 : pulses_between(place->entry.place, steps, &grains, section->length);
+        bool whole = rest == 0 || steps == 0;
+        pulses[axis] = whole ? pulses_at(step, steps, section->length)
+                             : pulses_between(place->entry.place, steps, &grains, section->length);
     }
 }
 
@@ -41,10 +42,12 @@ void path_lay_begin(struct path *path, const struct path_place *place)
     uint32_t pulses[PATH_AXES];
     path_lay_pulses(path, place, pulses);
     for (unsigned axis = 0; axis < PATH_AXES; axis++) {
-        path->axis[axis] = (struct path_cursor){
-            .section = place->section,
-            .pulse = pulses[axis] + 1U,
-        };
+        struct path_cursor *cursor = &path->axis[axis];
+        cursor->section = place->section;
+        cursor->pulse = pulses[axis] + 1U;
+        cursor->leg = 0;
+        cursor->entered = false;
+        cursor->found = false;
     }
     for (unsigned i = 0; i < PATH_KEPT; i++) {
         path->kept[i].valid = false;

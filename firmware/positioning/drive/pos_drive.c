@@ -6,7 +6,9 @@
 #include "hal_time.h"
 
 enum {
-    AXIS = 0, /* of the path */
+    AXIS = 0,                         /* of the path */
+    LEAD_TICKS = 215 * TICKS_PER_US,  /* planning one axis takes 0.15 ms beside four at their top rate */
+    GO_ON_TICKS = 700 * TICKS_PER_US, /* meanwhile the others are planned */
 };
 
 /* A section; and what of a measure may be left when there is room for the next one, so that none is short. */
@@ -65,6 +67,8 @@ void pos_drive_aim(struct pos_drive *drive, const struct pos_measure *measure)
     group_set_manner(&drive->group, &(struct group_manner){.start_speed = measure->start_speed,
                                                            .fault_accel = measure->fault_accel,
                                                            .before = &drive->before,
+                                                           .lead_ticks = LEAD_TICKS,
+                                                           .go_on_ticks = GO_ON_TICKS,
                                                            .between_steps = true});
     drive->measure = *measure;
     drive->origin_steps = pos_drive_steps(drive);

@@ -18,13 +18,13 @@ enum {
         .form = POS_FORM_##form_,                                                                                      \
     }
 
-static const struct pos_row unit_rows[POS_UNIT_REGISTERS] = {
+const struct pos_row pos_unit_rows[POS_UNIT_REGISTERS] = {
 #define U(name, number, type, use, form, min, max, start, unit, text) ROW(number, type, use, form, min, max, start),
 #include "registers.def"
 #undef U
 };
 
-static const struct pos_row axis_rows[POS_AXIS_REGISTERS] = {
+const struct pos_row pos_axis_rows[POS_AXIS_REGISTERS] = {
 #define A(name, number, type, use, form, min, max, start, unit, text) ROW(number, type, use, form, min, max, start),
 #include "registers.def"
 #undef A
@@ -56,16 +56,6 @@ static const struct image images[] = {
 #include "registers.def"
 #undef W
 };
-
-bool pos_row_is_wide(const struct pos_row *row)
-{
-    return row->type >= (uint8_t)POS_TYPE_U32;
-}
-
-const struct pos_row *pos_row(const struct pos_place *place)
-{
-    return place->axis == 0U ? &unit_rows[place->index] : &axis_rows[place->index];
-}
 
 static bool find_begun(const uint8_t *begins, uint32_t size, uint32_t number, struct pos_place *place)
 {

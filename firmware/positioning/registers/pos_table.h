@@ -71,11 +71,20 @@ struct pos_place {
     bool low;      /* the lower word of two */
 };
 
+extern const struct pos_row pos_unit_rows[POS_UNIT_REGISTERS];
+extern const struct pos_row pos_axis_rows[POS_AXIS_REGISTERS];
+
 /* The row of a place. */
-const struct pos_row *pos_row(const struct pos_place *place);
+static inline const struct pos_row *pos_row(const struct pos_place *place)
+{
+    return place->axis == 0U ? &pos_unit_rows[place->index] : &pos_axis_rows[place->index];
+}
 
 /* Whether it has two registers. */
-bool pos_row_is_wide(const struct pos_row *row);
+static inline bool pos_row_is_wide(const struct pos_row *row)
+{
+    return row->type >= (uint8_t)POS_TYPE_U32;
+}
 
 /* Finds a register by its number, images included. False: there is none. */
 bool pos_find(uint32_t number, struct pos_place *place);
