@@ -18,9 +18,9 @@
     X(VAR, "var")         /* a variable of programs is written; as OUT */                                              \
     X(WAIT, "wait")       /* a wait begins; value = milliseconds, or 0 where its time is not set */                    \
     X(SPEED, "speed")     /* the speed of the move in progress changes; value = steps/s */                             \
-    X(COMMAND, "command") /* a command of the program begins; value = its place as message 7 counts */                 \
     X(ERROR, "error")     /* the program ends with an error; value = its number in the unit's list */                  \
-    X(END, "end")         /* the program has nothing left to do; value 0 */
+    X(END, "end")         /* the program has nothing left to do; value 0 */                                            \
+    X(COMMAND, "command") /* a command of the program begins; value = its place as message 7 counts */
 
 enum hal_trace_event {
 #define X(name, text) HAL_TRACE_##name,

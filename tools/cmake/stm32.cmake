@@ -32,12 +32,14 @@ if(small)
     endforeach()
     target_compile_options(hal_stm32 PRIVATE -Os)
     # But for the steps, and for what a pulse that is to change waits for most.
-    foreach(fast hal/stm32/stm32_step.c firmware/engine/path/path_divide.c
-            firmware/engine/path/path_root.c)
+    foreach(fast hal/stm32/stm32_step.c firmware/engine/path/path_divide.c firmware/engine/path/path_fixed.c
+            firmware/engine/path/path_root.c firmware/positioning/registers/pos_table.c)
         get_filename_component(folder ${fast} DIRECTORY)
         set_source_files_properties(${PROJECT_SOURCE_DIR}/${fast}
             DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} PROPERTIES COMPILE_OPTIONS -O2)
     endforeach()
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/firmware/engine/step/step_channel_change.c
+        DIRECTORY ${PROJECT_SOURCE_DIR}/firmware/engine/step PROPERTIES COMPILE_OPTIONS -Os)
 endif()
 
 # firmware_add_image(<target> <name> <library> <source>...): a main and the library that it needs, for the board.
