@@ -28,7 +28,18 @@ enum hal_trace_event {
 #undef X
 };
 
-/* Reports an event of motor 1 to 4 (0: the unit) that happened at `tick` of the unit's time. */
+/* Reports an event of motor 1 to 4 (0: the unit) that happened at `tick` of the unit's time. On a board nobody hears of
+ * it, so there a call is nothing: HAL_TRACE_NONE of the build. */
+#ifdef HAL_TRACE_NONE
+static inline void hal_trace(uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
+{
+    (void)tick;
+    (void)motor;
+    (void)event;
+    (void)value;
+}
+#else
 void hal_trace(uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value);
+#endif
 
 #endif

@@ -84,7 +84,7 @@ enum {
 
     RING_PULSES = IMAGE_STEP_RING_PULSES,
     RING_EDGES = 2 * RING_PULSES,
-    LAY_LONG_MAX = RING_PULSES / 4,
+    LAY_LONG_MAX = RING_PULSES >= 128 ? 32 : 24,
     /* What has been made is known modulo the ring, and the edge that is never has a place. */
     WAITING_MAX = RING_PULSES - 2 - LAY_LONG_MAX,
 };

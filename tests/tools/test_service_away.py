@@ -13,7 +13,7 @@ from rkm04_tools.service.fields import Asked
 from rkm04_tools.service.orders import Act, Connect, Disconnect, Request
 from service_desk import CLIENT, Desk
 
-READS = {1, 4, 200}
+READS = {1, 4, 7, 200}
 """Messages that change nothing: Version, Get Position, Get Status."""
 AT_REST = statuses.Vector("").whole
 AT_WORK = next(each for each in statuses.VECTORS if each.name == "at work").whole
@@ -197,7 +197,7 @@ def test_the_first_port_of_the_service_is_tried_until_it_is_there(unit, monkeypa
     again.close()
 
 
-def test_an_original_unit_tells_positions_only_and_is_asked_for_no_more(desk, unit, line):
+def test_an_original_unit_tells_positions_and_places_in_programs_and_is_asked_for_no_more(desk, unit, line):
     unit.status = b""
     unit.positions = [10, 20, 30, 40]
     desk.connect(line.port, 3)
@@ -209,7 +209,7 @@ def test_an_original_unit_tells_positions_only_and_is_asked_for_no_more(desk, un
     assert [motor["position"] for motor in told["motors"]] == [10, 20, 30, 40]
     assert {motor["moving"] for motor in told["motors"]} == {None}
     assert (told["inputs"], told["outputs"], told["unit"]) == (None, None, None)
-    assert kinds(line) == {4}
+    assert kinds(line) == {4, 7}
 
 
 def test_a_unit_that_was_changed_for_another_is_asked_for_its_status_again(desk, unit, line):
