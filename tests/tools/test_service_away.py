@@ -197,7 +197,7 @@ def test_the_first_port_of_the_service_is_tried_until_it_is_there(unit, monkeypa
     again.close()
 
 
-def test_an_original_unit_tells_positions_and_places_in_programs_and_is_asked_for_no_more(desk, unit, line):
+def test_an_original_unit_is_asked_for_positions_and_places_in_programs_only(desk, unit, line):
     unit.status = b""
     unit.positions = [10, 20, 30, 40]
     desk.connect(line.port, 3)
