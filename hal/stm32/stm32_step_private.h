@@ -91,7 +91,7 @@ enum {
 #define NEVER_TICKS (UINT32_C(1) << 31)
 
 static_assert((RING_PULSES & (RING_PULSES - 1)) == 0, "pulses are counted modulo the ring");
-static_assert((int)LAY_LONG_MAX >= (int)LAY_FAST_MAX, "a long portion is at least a fast one");
+static_assert(LAY_LONG_MAX >= LAY_FAST_MAX, "a long portion is at least a fast one");
 static_assert(HIGH_TICKS >= SETTLE_TICKS - 6 && LOW_TICKS >= SETTLE_TICKS - 6,
               "two edges are as far apart as streams need");
 

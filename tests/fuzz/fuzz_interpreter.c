@@ -75,7 +75,7 @@ bool hal_board_may_move(void)
 void hal_trace(uint64_t tick, unsigned motor, enum hal_trace_event event, int64_t value)
 {
     (void)value;
-    FUZZ_REQUIRE(motor == 1 && event <= HAL_TRACE_END && tick <= bench.now);
+    FUZZ_REQUIRE(motor == 1 && event <= HAL_TRACE_COMMAND && tick <= bench.now);
     bench.events++;
 }
 

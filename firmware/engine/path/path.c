@@ -141,8 +141,8 @@ static const struct path_course *seek(struct path *path, unsigned axis, uint64_t
     struct path_cursor *cursor = &path->axis[axis];
     while (reach(path, cursor->section, until_tick)) {
         uint32_t steps = path_section_steps(path_section_of(path, cursor->section), axis);
-        const struct path_course *course = steps != 0 ? path_lay_course(path, cursor->section) : NULL;
-        if (course != NULL && seek_leg(cursor, course, steps)) {
+        const struct path_course *course = path_lay_course(path, cursor->section);
+        if (seek_leg(cursor, course, steps)) {
             return course;
         }
         if (cursor->section + 1U == path->known) {
