@@ -111,24 +111,24 @@ static void turn_back(struct stm32_channel *channel, uint32_t pulse, uint32_t no
 
 /* How many pulses at a time. Slow ones cost more, each; where the others need not wait, fast ones cost less the more
  * they are. */
-static inline uint32_t portion(struct stm32_channel *channel, uint32_t ahead_ticks)
+static inline uint32_t portion(struct stm32_channel *channel, uint32_t left_ticks)
 {
     uint32_t interval = channel->last_tick - slot(channel, channel->laid - 2U)->rise_tick;
     if (channel->laid <= 1U || interval >= (uint32_t)FAST_TICKS) {
         return LAY_MAX;
     }
-    if (ahead_ticks >= (uint32_t)LONG_TICKS) {
+    if (left_ticks >= (uint32_t)LONG_TICKS) {
         return LAY_LONG_MAX;
     }
     return LAY_FAST_MAX;
 }
 
-/* Asks for pulses in one piece of the ring; before they turn, DIR is told. */
-static inline uint32_t ask(unsigned motor, uint32_t waiting, uint32_t ahead_ticks, uint32_t until)
+/* Asks for pulses in one piece of the ring, `left_ticks` before the last one laid; before they turn, DIR is told. */
+static inline uint32_t ask(unsigned motor, uint32_t waiting, uint32_t left_ticks, uint32_t until)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
     uint32_t piece = RING_PULSES - channel->laid % RING_PULSES;
-    uint32_t count = portion(channel, ahead_ticks);
+    uint32_t count = portion(channel, left_ticks);
     struct hal_step_room room = {
         .pulse = slot(channel, channel->laid),
         .count = piece < count ? piece : count,

@@ -44,7 +44,8 @@ enum {
     LAY_FAST_MAX = 16,
     FAST_TICKS = 10 * TICKS_PER_US,
 
-    /* A motor that has so much ahead gets a long portion: it is the most urgent one, so the others can wait for it. */
+    /* A motor that has so much ahead gets a long portion, 14 us of work: the others, served in the order of what they
+     * have ahead, have as much. */
     LONG_TICKS = 45 * TICKS_PER_US,
 
     ENTRY_TICKS = 25 * TICKS_PER_US, /* the interrupt serves what is not urgent for so long */

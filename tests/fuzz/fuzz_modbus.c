@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fuzz_crc.h"
 #include "fuzz_stream.h"
 #include "modbus_corpus.h"
 #include "pos_bench.h"
+#include "rig_crc.h"
 
 enum {
     INPUT_MAX = 4096,
@@ -44,7 +44,7 @@ struct run {
 
 static bool has_crc(const uint8_t *bytes, uint32_t length)
 {
-    uint32_t crc = fuzz_crc(bytes, length - 2U);
+    uint32_t crc = rig_crc(bytes, length - 2U);
     return bytes[length - 2U] == (crc & 0xFFU) && bytes[length - 1U] == (crc >> 8U);
 }
 
@@ -178,7 +178,7 @@ static size_t make_request(uint8_t room[FRAME_ROOM], unsigned seed)
         seed = seed * 1664525U + 1013904223U;
         room[1U + seed / 65536U % (length - 1U)] = (uint8_t)(seed >> 8U);
     }
-    uint32_t crc = fuzz_crc(room, (uint32_t)length);
+    uint32_t crc = rig_crc(room, (uint32_t)length);
     room[length++] = (uint8_t)(crc & 0xFFU);
     room[length++] = (uint8_t)(crc >> 8U);
     room[length++] = SILENCE;

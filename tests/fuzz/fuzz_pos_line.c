@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base_tick.h"
-#include "fuzz_crc.h"
 #include "fuzz_stream.h"
+#include "rig_crc.h"
 
 enum {
     ANSWER_TICKS = (256 + 8) * FUZZ_POS_BYTE_TICKS,
@@ -21,7 +21,7 @@ static bool is_good(const uint8_t *bytes, uint32_t length)
     if (length < 4 || length > 256) {
         return false;
     }
-    uint32_t crc = fuzz_crc(bytes, length - 2U);
+    uint32_t crc = rig_crc(bytes, length - 2U);
     return bytes[length - 2U] == (crc & 0xFFU) && bytes[length - 1U] == (crc >> 8U);
 }
 
@@ -120,7 +120,7 @@ void fuzz_pos_line_ask(struct fuzz_pos_line *line, const uint8_t *bytes, uint32_
     uint8_t frame[FUZZ_POS_FRAME_ROOM];
     uint32_t executed = line->fuzz->executed;
     memcpy(frame, bytes, length);
-    uint32_t crc = fuzz_crc(frame, length);
+    uint32_t crc = rig_crc(frame, length);
     frame[length] = (uint8_t)(crc & 0xFFU);
     frame[length + 1U] = (uint8_t)(crc >> 8U);
     fuzz_pos_line_put(line, frame, length + 2U, UINT32_MAX);

@@ -191,12 +191,16 @@ bool path_next(struct path *path, unsigned axis, uint64_t until_tick, struct pat
     return true;
 }
 
+/* An axis that rests may stand in one of them, as it has not been asked for since; another vector may take its place.
+ */
 void path_drop(struct path *path, uint32_t section)
 {
-    path->first = section;
     for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
-        if (!path_moves(path, axis)) {
-            path->axis[axis].section = section;
+        struct path_cursor *cursor = &path->axis[axis];
+        while (cursor->section - path->first < section - path->first &&
+               cursor->pulse > path_section_steps(path_section_of(path, cursor->section), axis)) {
+            enter_section(cursor);
         }
     }
+    path->first = section;
 }

@@ -13,6 +13,7 @@
 
 #include "base_tick.h"
 #include "modbus.h"
+#include "rig_crc.h"
 
 enum {
     RIG_NODE = 1,
@@ -32,22 +33,6 @@ struct rig_frame {
 
 static struct modbus server;
 static uint64_t rig_tick;
-
-/* 8005 from the high bit down, of bytes turned round, and turned round itself. */
-static inline uint16_t rig_crc(const uint8_t *bytes, uint32_t length)
-{
-    uint32_t rest = 0xFFFF;
-    uint32_t turned = 0;
-    for (uint32_t bit = 0; bit < length * 8U; bit++) {
-        uint32_t in = ((uint32_t)bytes[bit / 8U] >> (bit % 8U)) & 1U;
-        uint32_t out = (rest >> 15U) ^ in;
-        rest = ((rest << 1U) & 0xFFFFU) ^ (out * 0x8005U);
-    }
-    for (uint32_t bit = 0; bit < 16U; bit++) {
-        turned |= ((rest >> bit) & 1U) << (15U - bit);
-    }
-    return (uint16_t)turned;
-}
 
 static inline struct rig_frame rig_bytes(const char *text)
 {

@@ -1,6 +1,13 @@
-#include "fuzz_crc.h"
+/*
+ * The CRC of Modbus as an independent reader makes it: bit by bit, by 8005 from the high bit down, with bytes and rest
+ * turned round.
+ */
+#ifndef RIG_CRC_H
+#define RIG_CRC_H
 
-uint32_t fuzz_crc(const uint8_t *bytes, uint32_t length)
+#include <stdint.h>
+
+static inline uint16_t rig_crc(const uint8_t *bytes, uint32_t length)
 {
     uint32_t rest = 0xFFFF;
     uint32_t turned = 0;
@@ -12,5 +19,7 @@ uint32_t fuzz_crc(const uint8_t *bytes, uint32_t length)
     for (uint32_t bit = 0; bit < 16U; bit++) {
         turned |= ((rest >> bit) & 1U) << (15U - bit);
     }
-    return turned;
+    return (uint16_t)turned;
 }
+
+#endif
