@@ -51,6 +51,33 @@ void test_a_ring_takes_as_many_vectors_as_it_has_places(void)
     TEST_ASSERT_TRUE(rig_add(&rig, 1, 1, 100, 100));
 }
 
+void test_an_axis_that_rested_where_a_vector_was_dropped_has_the_pulses_of_those_after_it_alone(void)
+{
+    const unsigned dropped = 4;
+    for (unsigned i = 0; i < RIG_RING; i++) {
+        (void)rig_add(&rig, 100, i == 0 ? 5 : 0, 10000, 1000000);
+    }
+    (void)path_start(&rig.path, 0);
+    TEST_ASSERT_EQUAL_UINT(5, pulses(1, 1000000));
+    TEST_ASSERT_GREATER_THAN_UINT(dropped * 100U, pulses(0, 6000000));
+    path_drop(&rig.path, dropped);
+    for (unsigned i = 0; i < dropped; i++) {
+        TEST_ASSERT_TRUE(rig_add(&rig, 100, 50, 10000, 1000000));
+    }
+    TEST_ASSERT_EQUAL_UINT(dropped * 50U, pulses(1, UINT64_MAX));
+}
+
+void test_pulses_of_a_dropped_vector_that_were_not_handed_over_still_come(void)
+{
+    for (unsigned i = 0; i < RIG_RING; i++) {
+        (void)rig_add(&rig, 100, 5, 10000, 1000000);
+    }
+    (void)path_start(&rig.path, 0);
+    (void)pulses(0, UINT64_MAX);
+    path_drop(&rig.path, RIG_RING / 2);
+    TEST_ASSERT_EQUAL_UINT(RIG_RING * 5U, pulses(1, UINT64_MAX));
+}
+
 /* 1000 steps with 426 667/256 steps/s and 50 000 steps/s^2. */
 void test_a_vector_of_one_axis_has_its_pulses_where_they_are_known_to_be(void)
 {
