@@ -49,6 +49,7 @@ def bench(page: ServicePage) -> Iterator[ServicePage]:
 
 def expect_cleared(page: ServicePage) -> int:
     """Wait until the motor stands, and has nothing left to go on with; return where."""
+    expect(page.page.locator("#commission-motor")).to_be_enabled()  # the reset is on its way
     expect(page.state(1)).to_have_text(re.compile("nothing left"))
     stands = page.expect_standing()
     page.page.locator("#resume").click()
