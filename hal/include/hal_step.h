@@ -24,7 +24,7 @@ struct hal_step_room {
     unsigned count;               /* of places, at least 1 */
     unsigned waiting;             /* pulses laid before that have not been made */
     uint32_t until_tick;          /* no pulse is wanted after the first that is due at this tick or later */
-    uint32_t high_ticks;          /* the width of a pulse */
+    uint32_t high_ticks;          /* the width of a pulse; the backend may move fall_tick later */
     bool backward;                /* DIR with these pulses; comes in as with those before */
     bool main_has_work;           /* set by the client where main is to be woken */
 };

@@ -52,6 +52,7 @@ enum {
 };
 
 static_assert(IMAGE_STEP_HIGH_NS == 0U, "an interrupt cannot make the width of a pulse that the unit promises");
+static_assert(!IMAGE_STEP_HALF, "an interrupt makes each pulse before it knows the next one");
 static_assert((RING_PULSES & (RING_PULSES - 1)) == 0, "pulses are counted modulo the ring");
 
 /* What the edges write is read by all others with the interrupt of edges held off, or is one word. */

@@ -11,6 +11,13 @@ static inline struct hal_step_pulse *slot(struct stm32_channel *channel, uint32_
     return &channel->ring[pulse % RING_PULSES];
 }
 
+/* The second edge of the last pulse laid. */
+static inline uint32_t last_fall(struct stm32_channel *channel)
+{
+    return WIDEST_TICKS > HIGH_TICKS ? slot(channel, channel->laid - 1U)->fall_tick
+                                     : channel->last_tick + (uint32_t)HIGH_TICKS;
+}
+
 /* Of the words of the ring, NDTR has counted those that have arrived (RM0090 10.5.6); the last of them is the edge to
  * come. A stream that has stopped by itself has met an error, and its edges are missing. */
 static uint32_t count_waiting(const struct stm32_channel *channel)
@@ -72,6 +79,27 @@ static void make_good(struct hal_step_pulse *pulse, uint32_t count, uint32_t tic
     }
 }
 
+/* Whether the second edge of a pulse can still be moved: the stream has it from that of the pulse before on, and from
+ * its start that of the first one. */
+static bool is_open(struct stm32_channel *channel, uint32_t pulse, uint32_t now)
+{
+    return pulse != 0 && is_before(now + (uint32_t)WIDEN_TICKS, slot(channel, pulse - 1U)->fall_tick);
+}
+
+/* Pulses from `first` on that have a next one become half a period wide. */
+BASE_APART static void widen(struct stm32_channel *channel, uint32_t first)
+{
+    uint32_t now = TIM2_CNT;
+    for (uint32_t pulse = first; pulse + 1U != channel->laid; pulse++) {
+        struct hal_step_pulse *one = slot(channel, pulse);
+        uint32_t high = (slot(channel, pulse + 1U)->rise_tick - one->rise_tick) / 2U;
+        high = high < (uint32_t)WIDEST_TICKS ? high : (uint32_t)WIDEST_TICKS;
+        if (is_open(channel, pulse, now)) {
+            one->fall_tick = one->rise_tick + (high > (uint32_t)HIGH_TICKS ? high : (uint32_t)HIGH_TICKS);
+        }
+    }
+}
+
 /* The first tick at which a pulse can rise: the driver of the motor has had its time at low. */
 static uint32_t earliest(const struct stm32_channel *channel, uint32_t now)
 {
@@ -81,18 +109,26 @@ static uint32_t earliest(const struct stm32_channel *channel, uint32_t now)
     return channel->turns ? later(tick, channel->turn_tick + (uint32_t)TURN_SETUP_TICKS) : tick;
 }
 
-/* DIR changes as soon as the pulse laid last allows, which is near. The value comes before the mode, so that a match
- * with the old value changes nothing. */
+/* The value comes before the mode, so that a match with the old value changes nothing. */
+static void arm_turn(struct stm32_channel *channel)
+{
+    *channel->direction.compare = channel->turn_tick & UINT16_MAX;
+    set_mode(&channel->direction, direction_level(channel) ? MODE_HIGH_ON_MATCH : MODE_LOW_ON_MATCH);
+}
+
+/* DIR changes as soon as the pulse laid last allows. TIM3 knows of that when it is near. */
 BASE_APART static void turn(struct stm32_channel *channel)
 {
     uint32_t held = channel->last_tick + (uint32_t)TURN_HOLD_TICKS;
     uint32_t soon = TIM2_CNT + (uint32_t)TURN_TICKS;
     channel->backward = !channel->backward;
-    channel->turn_tick = held - soon < (uint32_t)HORIZON_TICKS ? held : soon;
+    channel->turn_tick = held - soon < (uint32_t)TURN_AHEAD_TICKS ? held : soon;
     channel->turned = channel->laid;
     channel->turns = true;
-    *channel->direction.compare = channel->turn_tick & UINT16_MAX;
-    set_mode(&channel->direction, direction_level(channel) ? MODE_HIGH_ON_MATCH : MODE_LOW_ON_MATCH);
+    channel->armed = WIDEST_TICKS == HIGH_TICKS || channel->turn_tick - soon < (uint32_t)HORIZON_TICKS;
+    if (channel->armed) {
+        arm_turn(channel);
+    }
 }
 
 /* All pulses from `pulse` on are taken back, as counted since the start. A turn before them stays undone, if it is not
@@ -147,14 +183,19 @@ static inline uint32_t ask(unsigned motor, uint32_t waiting, uint32_t left_ticks
     return count;
 }
 
-/* What the ring has from its start: so many pulses. */
+/* What the ring has from its start: so many pulses. Half a period wants the next pulse before the stream has this one's
+ * second edge, so two ahead, but for those that are seconds apart. */
 static void note_laid(struct stm32_channel *channel, uint32_t laid)
 {
     channel->laid = laid;
     channel->last_tick = slot(channel, laid - 1U)->rise_tick;
     slot(channel, laid)->rise_tick = channel->last_tick + NEVER_TICKS;
-    channel->from_tick = channel->last_tick - (uint32_t)NEAR_TICKS;
-    channel->due_tick = channel->last_tick - (uint32_t)LEAD_TICKS;
+    uint32_t tick = channel->last_tick;
+    if (WIDEST_TICKS > HIGH_TICKS && laid > 1U) {
+        tick = later(slot(channel, laid - 2U)->rise_tick, tick - (uint32_t)AHEAD_TICKS);
+    }
+    channel->from_tick = tick - (uint32_t)NEAR_TICKS;
+    channel->due_tick = tick - (uint32_t)LEAD_TICKS;
     channel->ends = false;
 }
 
@@ -162,15 +203,17 @@ static void note_laid(struct stm32_channel *channel, uint32_t laid)
 BASE_APART static void wait_for_turn(struct stm32_channel *channel)
 {
     if (channel->turns) {
-        channel->from_tick = later(channel->from_tick, channel->turn_tick);
-        channel->due_tick = later(channel->due_tick, channel->turn_tick);
+        bool near = WIDEST_TICKS == HIGH_TICKS || channel->armed;
+        uint32_t tick = near ? channel->turn_tick : channel->turn_tick - (uint32_t)NEAR_TICKS;
+        channel->from_tick = later(channel->from_tick, tick);
+        channel->due_tick = later(channel->due_tick, tick);
     }
 }
 
 /* What is laid comes to its end, and the pin to rest, before there is more. */
 static void note_end(struct stm32_channel *channel)
 {
-    channel->from_tick = channel->last_tick + (uint32_t)HIGH_TICKS + (uint32_t)SETTLE_TICKS;
+    channel->from_tick = last_fall(channel) + (uint32_t)SETTLE_TICKS;
     channel->due_tick = channel->from_tick;
     channel->ends = true;
 }
@@ -186,6 +229,9 @@ static void begin(unsigned motor, uint32_t ahead_ticks)
         note_laid(channel, count);
         wait_for_turn(channel);
         start(channel, now);
+        if (WIDEST_TICKS > HIGH_TICKS) {
+            widen(channel, 0);
+        }
     }
 }
 
@@ -193,14 +239,31 @@ static void begin(unsigned motor, uint32_t ahead_ticks)
  * ended, the compare register has what the stream has loaded at its begin: that first one, or still the edge that is
  * never, and then the pulses are missing. So are those that had to be moved on, as nobody knows which tick it loaded.
  */
-BASE_APART static void check_loaded(const struct stm32_channel *channel, uint32_t last, bool moved)
+BASE_APART static void check_loaded(const struct stm32_channel *channel, uint32_t last, uint32_t fall, bool moved)
 {
-    uint32_t fallen = last + (uint32_t)(HIGH_TICKS + SETTLE_TICKS);
+    uint32_t fallen = fall + (uint32_t)SETTLE_TICKS;
     while (is_before(TIM2_CNT, fallen)) {
     }
     if (moved || *channel->step.compare == last + NEVER_TICKS) {
         stm32_fault_stop_output();
     }
+}
+
+/* Nothing is laid before DIR knows of its turn, and while the ring is full. */
+static inline bool must_wait(struct stm32_channel *channel, uint32_t waiting)
+{
+    bool unarmed = WIDEST_TICKS > HIGH_TICKS && channel->turns && !channel->armed;
+    bool crowded = waiting > (uint32_t)WAITING_MAX;
+    if (unarmed) {
+        channel->armed = true;
+        arm_turn(channel);
+        wait_for_turn(channel);
+    } else if (crowded) {
+        channel->from_tick = slot(channel, channel->laid - (uint32_t)WAITING_MAX)->rise_tick;
+    } else {
+        /* there is room, and DIR is as it should be */
+    }
+    return unarmed || crowded;
 }
 
 /* The stream loads what comes after a pulse when that begins. Where that is far from the interrupt's begin, `now`, it
@@ -212,8 +275,7 @@ static void append(unsigned motor, uint32_t now, uint32_t ahead_ticks)
     uint32_t last = channel->last_tick;
     bool far = !is_before(last, now + (uint32_t)FAR_TICKS);
     bool in_time = !is_before(last, now + (uint32_t)(APPEND_TICKS + TICKS_PER_US));
-    if (waiting > (uint32_t)WAITING_MAX) {
-        channel->from_tick = slot(channel, channel->laid - (uint32_t)WAITING_MAX)->rise_tick;
+    if (must_wait(channel, waiting)) {
         return;
     }
     channel->turns = false;
@@ -222,7 +284,8 @@ static void append(unsigned motor, uint32_t now, uint32_t ahead_ticks)
         note_end(channel);
         return;
     }
-    uint32_t least = last + (uint32_t)(HIGH_TICKS + LOW_TICKS);
+    uint32_t fall = last_fall(channel);
+    uint32_t least = fall + (uint32_t)LOW_TICKS;
     if (BASE_SELDOM(channel->turns)) {
         least = channel->turn_tick + (uint32_t)TURN_SETUP_TICKS;
     }
@@ -233,7 +296,10 @@ static void append(unsigned motor, uint32_t now, uint32_t ahead_ticks)
         wait_for_turn(channel);
     }
     if (BASE_SELDOM(!far && is_before(last, TIM2_CNT))) {
-        check_loaded(channel, last, moved);
+        check_loaded(channel, last, fall, moved);
+    }
+    if (WIDEST_TICKS > HIGH_TICKS) {
+        widen(channel, channel->laid - count - 1U);
     }
 }
 
@@ -242,6 +308,7 @@ static void refill(unsigned motor, uint32_t now, uint32_t ahead_ticks)
     struct stm32_channel *channel = &stm32_step.channel[motor];
     if (BASE_SELDOM(channel->ends) && channel->active && !is_before(now, channel->from_tick)) {
         check_made(channel, 0);
+        channel->last_tick = last_fall(channel) - (uint32_t)HIGH_TICKS;
         stop(channel);
     }
     if (BASE_SELDOM(!channel->active)) {
@@ -343,7 +410,7 @@ static bool stop_before(struct stm32_channel *channel, uint32_t pulse, uint32_t 
     check_made(channel, channel->laid - pulse);
     turn_back(channel, pulse, quiet);
     if (pulse != 0) {
-        channel->last_tick = slot(channel, pulse - 1U)->rise_tick;
+        channel->last_tick = slot(channel, pulse - 1U)->fall_tick - (uint32_t)HIGH_TICKS;
     }
     stop(channel);
     return true;
@@ -358,6 +425,9 @@ static bool cut_before(struct stm32_channel *channel, uint32_t pulse, uint32_t n
         return false;
     }
     turn_back(channel, pulse, now);
+    if (WIDEST_TICKS > HIGH_TICKS && is_open(channel, pulse - 1U, now)) {
+        slot(channel, pulse - 1U)->fall_tick = before + (uint32_t)HIGH_TICKS;
+    }
     note_laid(channel, pulse);
     wait_for_turn(channel);
     return true;

@@ -37,9 +37,12 @@ enum {
     TURN_SETUP_TICKS = SETUP_TICKS + 4, /* TIM3 may be a tick or two off */
     TURN_US = (TICKS_OF_NS(BOARD_DIR_HOLD_NS) + SETUP_TICKS + 3 * TICKS_PER_US - 1) / TICKS_PER_US,
 
+    /* A stop waits for the end of a pulse, with interrupts held off; the times below have room for 2.5 us of that. */
+    WAIT_TICKS = WIDEST_TICKS > TICKS_OF_NS(2500U) ? WIDEST_TICKS - TICKS_OF_NS(2500U) : 0,
+
     /* The interrupt comes LEAD_TICKS before the last pulse laid at the latest. That leaves time for what holds it off
      * and for a portion of each of the other three motors. */
-    LEAD_TICKS = 60 * TICKS_PER_US,
+    LEAD_TICKS = 70 * TICKS_PER_US + UNIT_MOTORS * WAIT_TICKS,
     LAY_MAX = 8,
     LAY_FAST_MAX = 16,
     FAST_TICKS = 10 * TICKS_PER_US,
@@ -55,6 +58,10 @@ enum {
     HORIZON_TICKS = 512 * TICKS_PER_US,
     NEAR_TICKS = HORIZON_TICKS / 2,
 
+    /* With pulses of half a period two are laid ahead, but no further than that. */
+    AHEAD_TICKS = 1000 * TICKS_PER_MS,
+    TURN_AHEAD_TICKS = WIDEST_TICKS > HIGH_TICKS ? 2 * AHEAD_TICKS : HORIZON_TICKS,
+
     /* What is laid with all interrupts held off: so much that the interrupt is not due before four motors that stop
      * together have begun to brake. */
     RUN_TICKS = 2 * LEAD_TICKS,
@@ -68,7 +75,7 @@ enum {
     APPEND_TICKS = 10 * TICKS_PER_US,
     START_TICKS = 2 * TICKS_PER_US,
     FAR_TICKS = 2 * LEAD_TICKS,
-    REACT_TICKS = 7 * TICKS_PER_US,
+    REACT_TICKS = 7 * TICKS_PER_US + (UNIT_MOTORS - 1) * WAIT_TICKS,
 
     /* What is taken back is as far ahead as that: the pulse before it, if the stream goes on; or else itself. */
     CUT_TICKS = REACT_TICKS + APPEND_TICKS,
@@ -79,6 +86,8 @@ enum {
     GOOD_TICKS = 12, /* what a pulse that is made good takes */
     SOON_TICKS = 48, /* a compare value nearer than that may be past when it arrives */
     STUCK_TICKS = 5 * TICKS_PER_MS,
+
+    WIDEN_TICKS = 8 * TICKS_PER_US, /* what it takes to make the pulses of a portion wide, with margin */
 
     /* The first lead for a change of speed; where planning takes longer, the axis tries again with twice as much. */
     CHANGE_TICKS = 60 * TICKS_PER_US,
@@ -124,14 +133,15 @@ struct stm32_channel {
     volatile uint32_t *clear; /* DMA1_LIFCR or DMA1_HIFCR */
     uint32_t flags;           /* of the stream, there */
     uint32_t laid;            /* pulses since the stream was started */
-    uint32_t last_tick;       /* the rising edge of the last pulse laid */
+    uint32_t last_tick;       /* the last pulse laid rises; at rest: HIGH_TICKS before it fell */
     uint32_t from_tick;       /* the step interrupt has something to do for it from this tick on, */
     uint32_t due_tick;        /* and at this one at the latest */
     uint32_t turn_tick;       /* while it turns: DIR changes, */
     uint32_t turned;          /* before this pulse, counted since the stream was started */
     bool active;              /* the stream runs */
     bool ends;                /* nothing is laid any more before all has been made */
-    bool turns;               /* nothing is laid any more before DIR has changed */
+    bool turns;               /* nothing is laid any more before DIR has changed, */
+    bool armed;               /* which TIM3 knows of */
     bool backward;            /* DIR with the pulse laid last */
     bool connected;
     bool reversed;        /* the levels of DIR are the other way round */

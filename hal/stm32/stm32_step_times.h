@@ -15,22 +15,36 @@
 
 #define TICKS_OF_NS(ns) (((ns) * TICKS_PER_US + 999U) / 1000U)
 
+/* Pulses of half a period, where the build says so (FIRMWARE_STEP_HALF): each is high until the middle between its
+ * rising edge and the next one, but not longer than WIDEST_TICKS. The first of a motion and after a turn, and one whose
+ * next is not known in time, have the width that all have otherwise. */
+#ifndef IMAGE_STEP_HALF
+#define IMAGE_STEP_HALF 0
+#endif
+
 /* The width of a pulse is the board's, or that of the image. Then two edges are a period of the highest rate apart,
  * which is 2 ticks less where both were rounded. */
+#define HIGH_NS (IMAGE_STEP_HIGH_NS != 0U ? IMAGE_STEP_HIGH_NS : BOARD_STEP_HIGH_NS)
+#define WIDEST_NS 10000U
+
 enum {
     STEP_RATE_MAX = 200000,
     ROUNDED_TICKS = 2,
-    HIGH_TICKS = TICKS_OF_NS(IMAGE_STEP_HIGH_NS != 0U ? IMAGE_STEP_HIGH_NS : BOARD_STEP_HIGH_NS),
+    HIGH_TICKS = TICKS_OF_NS(HIGH_NS),
+    WIDEST_TICKS = TICKS_OF_NS(IMAGE_STEP_HALF ? WIDEST_NS : HIGH_NS),
     LEFT_TICKS = (int)(TICK_HZ / STEP_RATE_MAX) - HIGH_TICKS - ROUNDED_TICKS, /* below 0: no such rate */
     BOARD_LOW_TICKS = TICKS_OF_NS(BOARD_STEP_LOW_NS),
     LOW_TICKS = IMAGE_STEP_HIGH_NS != 0U && BOARD_LOW_TICKS > LEFT_TICKS ? LEFT_TICKS : BOARD_LOW_TICKS,
     SETUP_TICKS = TICKS_OF_NS(BOARD_DIR_SETUP_NS),
-    HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS) + HIGH_TICKS, /* after a rising edge, while main waits */
+    HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS) + WIDEST_TICKS, /* after a rising edge, while main waits */
 };
 
 static_assert(IMAGE_STEP_HIGH_NS == 0U ||
                   (IMAGE_STEP_HIGH_NS >= BOARD_STEP_HIGH_NS && BOARD_LOW_TICKS <= LEFT_TICKS + ROUNDED_TICKS),
               "the drivers of the board want wider pulses than the unit makes, or more time between them");
+
+static_assert(WIDEST_TICKS >= HIGH_TICKS && WIDEST_TICKS <= 10 * TICKS_PER_US,
+              "a stop waits for the end of a pulse, with interrupts held off");
 
 /* Of ticks less than 25 s apart. */
 static inline bool is_before(uint32_t tick, uint32_t other)

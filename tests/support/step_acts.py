@@ -107,6 +107,7 @@ class Acts:
     folder: Path
     board: str = SHORT
     start: int = 0  # where the counter of TIM2 begins
+    half_period: bool = False
     rows: list[bytes] = field(default_factory=list)
     noted: int = 0
 
@@ -200,7 +201,7 @@ class Acts:
     def show(self, *options: str) -> Shown:
         """Run it."""
         assert len(self.rows) < ACTS
-        image = board.build(self.board, "step_acts_image")
+        image = board.build(self.board, "step_acts_image", half_period=self.half_period)
         (self.folder / "pins").write_text(virtual_board.board_pins(self.board))
         elf = image.file("elf").with_name(f"{image.name}-step-acts.elf")
         acts = b"".join(self.rows).ljust(ACTS * ACT.size, b"\0").hex()

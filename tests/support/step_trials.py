@@ -50,9 +50,11 @@ class Tried:
 TryTrains = Callable[..., Tried]
 
 
-def try_trains(program: Path, folder: Path, name: str, train: Train, *options: str) -> Tried:
+def try_trains(
+    program: Path, folder: Path, name: str, train: Train, *options: str, half_period: bool = False
+) -> Tried:
     """Run trains of one kind on a board."""
-    image = board.build(name, "take_back_image")
+    image = board.build(name, "take_back_image", half_period=half_period)
     (folder / "pins").write_text(virtual_board.board_pins(name))
     elf = image.file("elf").with_name(f"{image.name}-take-back.elf")
     setting = struct.pack("<8I", *astuple(train)).hex()

@@ -207,6 +207,7 @@ static void plan_stop(struct group *group)
     hal_step_release();
 }
 
+/* While a stop is yet to be planned all goes on as before, and it may be taken back: speeds wait for that. */
 void group_plan(struct group *group)
 {
     bool moves = is_in(group, AXIS_MOVING);
@@ -215,7 +216,7 @@ void group_plan(struct group *group)
     } else if (moves && (path_lags(&group->path) || group->speeds_wait)) {
         moves = change(group) != RESTS;
     }
-    if (group->speeds_wait && !moves) {
+    if (group->speeds_wait && !moves && !is_in(group, AXIS_BRAKING)) {
         take_speeds(group, group->path.first);
     }
 }

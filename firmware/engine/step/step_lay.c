@@ -25,6 +25,22 @@ static unsigned lay_cruise(struct step_generator *generator, const struct hal_st
     return count - (unsigned)(end - pulse);
 }
 
+/* One tick on, or back, from a prediction that was wrong. */
+static inline struct step_guess mend(struct step_guess guess, int32_t accel)
+{
+    uint64_t gain = wide_from_signed(accel);
+    if (wide_to_signed(guess.residual) > 0) {
+        guess.residual -= guess.slope - gain;
+        guess.slope -= 2U * gain;
+        guess.interval--;
+    } else {
+        guess.residual += guess.slope + gain;
+        guess.slope += 2U * gain;
+        guess.interval++;
+    }
+    return guess;
+}
+
 static unsigned lay_ramp(struct step_generator *generator, const struct hal_step_room *room, unsigned first,
                          unsigned count)
 {
@@ -38,10 +54,14 @@ static unsigned lay_ramp(struct step_generator *generator, const struct hal_step
     do {
         struct step_guess guess = step_generator_guess(residual, slope, accel, interval);
         if (BASE_SELDOM(!step_generator_is_near(guess.residual, guess.slope))) {
-            generator->residual = residual;
-            generator->slope = slope;
-            (void)step_generator_search(generator, guess.interval);
-            guess = (struct step_guess){generator->residual, generator->slope, generator->interval};
+            struct step_guess mended = mend(guess, accel);
+            if (!step_generator_is_near(mended.residual, mended.slope)) {
+                generator->residual = residual;
+                generator->slope = slope;
+                (void)step_generator_search(generator, guess.interval);
+                mended = (struct step_guess){generator->residual, generator->slope, generator->interval};
+            }
+            guess = mended;
         }
         residual = guess.residual;
         slope = guess.slope;

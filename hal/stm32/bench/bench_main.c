@@ -23,6 +23,7 @@ struct bench_move {
 struct bench_table {
     struct bench_move move[UNIT_MOTORS];
     uint32_t stop_at_late; /* not 0: nothing matters after the first late step */
+    uint32_t guards;       /* inputs that stop every move while they are 1; bit 0 is input 1 */
 };
 
 struct bench_report {
@@ -62,9 +63,9 @@ static void start_move(struct rkm04 *unit, unsigned motor, uint64_t tick)
         .speed_steps_per_s = move->speed_steps_per_s,
         .accel_steps_per_s2 = move->accel_steps_per_s2,
     };
-    const struct axis_guards none = {.stop_high = 0};
+    const struct axis_guards guards = {.stop_high = (uint8_t)table()->guards};
     if (move->steps != 0) {
-        axis_begin(&unit->axis[motor], &order, false, tick + move->delay_ticks, &none);
+        axis_begin(&unit->axis[motor], &order, false, tick + move->delay_ticks, &guards);
     }
 }
 

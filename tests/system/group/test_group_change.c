@@ -80,6 +80,54 @@ void test_a_motion_is_over_with_its_last_pulse_also_if_that_is_late(void)
     machine.late_steps = 0;
 }
 
+static void stop_and_go_on_to_the_end(void)
+{
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
+    run_to_the_end();
+    TEST_ASSERT_TRUE(group_has_rest(&group));
+    start();
+    run_to_the_end();
+}
+
+/* What has been handed over ends after 20 ms, somewhere on the path: the motors stand there, and what comes then is
+ * late. */
+static void stay_away_ms(uint64_t milliseconds)
+{
+    begin_ring(AHEAD_TICKS, LONG_RING);
+    for (unsigned i = 0; i < LONG_RING; i++) {
+        add(40, -13, i % 2 != 0 ? 7 : -7, 1, 20000);
+    }
+    start();
+    run_us(30000);
+    busy_until = machine.now + milliseconds * TICKS_PER_MS;
+    run_us(milliseconds * 1000U - 1000U);
+    int64_t stands = position[0];
+    run_us(999);
+    TEST_ASSERT_EQUAL_INT64(stands, position[0]);
+    TEST_ASSERT_TRUE(stands > 0 && stands < ordered[0]);
+}
+
+void test_motors_for_which_a_plan_comes_too_late_wait_on_their_steps_and_go_on(void)
+{
+    static const uint64_t away_ms[] = {30, 50, 400};
+    for (unsigned i = 0; i < sizeof away_ms / sizeof away_ms[0]; i++) {
+        stay_away_ms(away_ms[i]);
+        TEST_ASSERT_EQUAL_UINT64(0, machine.late_steps);
+        run_to_the_end();
+        assert_arrived();
+        TEST_ASSERT_GREATER_THAN_UINT64(0, machine.late_steps);
+        machine.late_steps = 0;
+    }
+}
+
+void test_a_stop_of_motors_for_which_a_plan_came_too_late_loses_no_step(void)
+{
+    stay_away_ms(50);
+    stop_and_go_on_to_the_end();
+    assert_arrived();
+    machine.late_steps = 0;
+}
+
 /* Vectors of 5 us, each a segment: the queues end before a change can take effect. */
 static void begin_dense(void)
 {
@@ -123,15 +171,6 @@ void test_speeds_wait_where_the_queues_end_before_they_can_take_effect(void)
     }
 }
 
-static void stop_and_go_on_to_the_end(void)
-{
-    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
-    run_to_the_end();
-    TEST_ASSERT_TRUE(group_has_rest(&group));
-    start();
-    run_to_the_end();
-}
-
 void test_motors_that_were_frozen_thaw_where_another_one_cannot_be(void)
 {
     machine.faults.keep_ticks = 600 * TICKS_PER_US;
@@ -143,7 +182,7 @@ void test_motors_that_were_frozen_thaw_where_another_one_cannot_be(void)
     assert_arrived();
 }
 
-void test_a_stop_that_finds_no_place_is_planned_later(void)
+static void begin_a_stop_that_finds_no_place(void)
 {
     begin(10 * TICKS_PER_MS);
     machine.faults.keep_ticks = 20 * TICKS_PER_MS;
@@ -151,11 +190,44 @@ void test_a_stop_that_finds_no_place_is_planned_later(void)
     start();
     run_us(60000);
     TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_COMMAND));
+}
+
+void test_a_stop_that_finds_no_place_is_planned_later(void)
+{
+    begin_a_stop_that_finds_no_place();
     run_us(5000);
     machine.faults.keep_ticks = 0;
     run_to_the_end();
     TEST_ASSERT_TRUE(group_has_rest(&group));
     start();
+    run_to_the_end();
+    assert_arrived();
+}
+
+void test_speeds_wait_for_a_stop_that_is_yet_to_be_planned(void)
+{
+    uint32_t speed = 1000;
+    const struct group_speeds speeds = {.of = slow, .context = &speed};
+    begin_a_stop_that_finds_no_place();
+    group_set_speeds(&group, &speeds);
+    TEST_ASSERT_TRUE(group.speeds_wait);
+    machine.faults.keep_ticks = 0;
+    run_to_the_end();
+    TEST_ASSERT_FALSE(group.speeds_wait);
+    TEST_ASSERT_EQUAL_UINT32(1000 * PATH_SPEED_UNITS, ring[0].vector.speed);
+}
+
+void test_speeds_take_effect_after_a_stop_that_is_taken_back_before_it_is_planned(void)
+{
+    uint32_t speed = 1000;
+    const struct group_speeds speeds = {.of = slow, .context = &speed};
+    begin_a_stop_that_finds_no_place();
+    group_set_speeds(&group, &speeds);
+    machine.faults.keep_ticks = 0;
+    TEST_ASSERT_TRUE(group_resume(&group));
+    run_us(500000);
+    TEST_ASSERT_FALSE(group.speeds_wait);
+    TEST_ASSERT_EQUAL_UINT32(1000 * PATH_SPEED_UNITS, group_speed_at(&group, group_first(&group), 1500));
     run_to_the_end();
     assert_arrived();
 }

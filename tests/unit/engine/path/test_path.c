@@ -54,17 +54,21 @@ void test_a_ring_takes_as_many_vectors_as_it_has_places(void)
 void test_an_axis_that_rested_where_a_vector_was_dropped_has_the_pulses_of_those_after_it_alone(void)
 {
     const unsigned dropped = 4;
-    for (unsigned i = 0; i < RIG_RING; i++) {
-        (void)rig_add(&rig, 100, i == 0 ? 5 : 0, 10000, 1000000);
+    for (unsigned axis = 0; axis < 2; axis++) {
+        rig_init(&rig);
+        for (unsigned i = 0; i < RIG_RING; i++) {
+            int32_t few = i == 0 ? 5 : 0;
+            (void)rig_add(&rig, axis == 0 ? few : 100, axis == 1 ? few : 100, 10000, 1000000);
+        }
+        (void)path_start(&rig.path, 0);
+        TEST_ASSERT_EQUAL_UINT(5, pulses(axis, 1000000));
+        TEST_ASSERT_GREATER_THAN_UINT(dropped * 100U, pulses(1U - axis, 6000000));
+        path_drop(&rig.path, dropped);
+        for (unsigned i = 0; i < dropped; i++) {
+            TEST_ASSERT_TRUE(rig_add(&rig, axis == 0 ? 50 : 100, axis == 1 ? 50 : 100, 10000, 1000000));
+        }
+        TEST_ASSERT_EQUAL_UINT(dropped * 50U, pulses(axis, UINT64_MAX));
     }
-    (void)path_start(&rig.path, 0);
-    TEST_ASSERT_EQUAL_UINT(5, pulses(1, 1000000));
-    TEST_ASSERT_GREATER_THAN_UINT(dropped * 100U, pulses(0, 6000000));
-    path_drop(&rig.path, dropped);
-    for (unsigned i = 0; i < dropped; i++) {
-        TEST_ASSERT_TRUE(rig_add(&rig, 100, 50, 10000, 1000000));
-    }
-    TEST_ASSERT_EQUAL_UINT(dropped * 50U, pulses(1, UINT64_MAX));
 }
 
 void test_pulses_of_a_dropped_vector_that_were_not_handed_over_still_come(void)
@@ -76,6 +80,67 @@ void test_pulses_of_a_dropped_vector_that_were_not_handed_over_still_come(void)
     (void)pulses(0, UINT64_MAX);
     path_drop(&rig.path, RIG_RING / 2);
     TEST_ASSERT_EQUAL_UINT(RIG_RING * 5U, pulses(1, UINT64_MAX));
+}
+
+void test_the_last_pulse_of_a_dropped_vector_that_was_not_handed_over_still_comes(void)
+{
+    struct path_segment next;
+    (void)rig_add(&rig, 100, 1, 10000, 1000000);
+    (void)rig_add(&rig, 100, 1, 10000, 1000000);
+    (void)path_start(&rig.path, 0);
+    (void)pulses(0, UINT64_MAX);
+    path_drop(&rig.path, 1);
+    TEST_ASSERT_TRUE(path_next(&rig.path, 1, UINT64_MAX, &next));
+    TEST_ASSERT_TRUE(next.tick < rig.ring[1].entered.high + 2U);
+    TEST_ASSERT_EQUAL_UINT(1, pulses(1, UINT64_MAX));
+}
+
+/* Both axes make the same steps; axis 1 has made those of the first vector and has not been asked for more. */
+void test_an_axis_goes_on_after_a_dropped_vector_on_its_ticks(void)
+{
+    struct path_segment next;
+    uint32_t made = 0;
+    (void)rig_add(&rig, 100, 100, 10000, 1000000);
+    (void)rig_add(&rig, 100, 100, 10000, 1000000);
+    (void)path_start(&rig.path, 0);
+    TEST_ASSERT_EQUAL_UINT(200, pulses(0, UINT64_MAX));
+    const uint64_t expected[] = {ticks[100], ticks[199]};
+    while (made < 100 && path_next(&rig.path, 1, UINT64_MAX, &next)) {
+        made += next.segment.steps;
+    }
+    TEST_ASSERT_EQUAL_UINT32(100, made);
+    path_drop(&rig.path, 1);
+    TEST_ASSERT_EQUAL_UINT(100, pulses(1, UINT64_MAX));
+    TEST_ASSERT_EQUAL_UINT64(expected[0], ticks[0]);
+    TEST_ASSERT_EQUAL_UINT64(expected[1], ticks[99]);
+}
+
+void test_where_all_has_been_dropped_no_axis_has_anything_left(void)
+{
+    (void)rig_add(&rig, 100, 0, 10000, 1000000);
+    (void)path_start(&rig.path, 0);
+    TEST_ASSERT_EQUAL_UINT(100, pulses(0, UINT64_MAX));
+    path_drop(&rig.path, 1);
+    for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
+        TEST_ASSERT_EQUAL_UINT(0, pulses(axis, UINT64_MAX));
+    }
+    (void)rig_add(&rig, 50, 20, 10000, 1000000);
+    TEST_ASSERT_TRUE(path_start(&rig.path, 100000000));
+    TEST_ASSERT_EQUAL_UINT(50, pulses(0, UINT64_MAX));
+    TEST_ASSERT_EQUAL_UINT(20, pulses(1, UINT64_MAX));
+}
+
+void test_the_speed_in_a_vector_that_is_not_laid_is_0_also_where_others_have_been_dropped(void)
+{
+    for (unsigned i = 0; i < 4; i++) {
+        (void)rig_add(&rig, 100, 0, 10000, 1000000);
+    }
+    (void)path_start(&rig.path, 0);
+    TEST_ASSERT_GREATER_THAN_UINT(100, pulses(0, 1500000));
+    path_drop(&rig.path, 1);
+    TEST_ASSERT_EQUAL_UINT32(2, rig.path.laid);
+    TEST_ASSERT_EQUAL_UINT32(10000 * PATH_SPEED_UNITS, path_speed_at(&rig.path, 1, 50));
+    TEST_ASSERT_EQUAL_UINT32(0, path_speed_at(&rig.path, 2, 50));
 }
 
 /* 1000 steps with 426 667/256 steps/s and 50 000 steps/s^2. */
@@ -143,6 +208,30 @@ void test_what_begins_later_than_wanted_is_not_handed_over(void)
     TEST_ASSERT_EQUAL_UINT32(1, rig.path.laid);
     TEST_ASSERT_EQUAL_UINT(100, pulses(0, 5000000));
     TEST_ASSERT_EQUAL_UINT32(2, rig.path.laid);
+}
+
+void test_a_vector_that_begins_at_the_tick_up_to_which_is_asked_is_not_laid(void)
+{
+    (void)rig_add(&rig, 100, 0, 10000, 1000000);
+    (void)rig_add(&rig, 100, 0, 10000, 1000000);
+    (void)path_start(&rig.path, 0);
+    (void)pulses(0, 1);
+    const uint64_t border = rig.path.next.time.high;
+    (void)pulses(0, border);
+    TEST_ASSERT_EQUAL_UINT32(1, rig.path.laid);
+    (void)pulses(0, border + 1U);
+    TEST_ASSERT_EQUAL_UINT32(2, rig.path.laid);
+}
+
+void test_only_an_axis_that_has_had_steps_need_be_asked(void)
+{
+    (void)rig_add(&rig, 0, -5, 1000, 10000);
+    TEST_ASSERT_FALSE(path_moves(&rig.path, 0));
+    TEST_ASSERT_TRUE(path_moves(&rig.path, 1));
+    TEST_ASSERT_FALSE(path_moves(&rig.path, 2));
+    (void)rig_add(&rig, 5, 0, 1000, 10000);
+    TEST_ASSERT_TRUE(path_moves(&rig.path, 0));
+    TEST_ASSERT_TRUE(path_moves(&rig.path, 1));
 }
 
 void test_borders_are_as_fast_as_the_vectors_and_the_border_speed_allow(void)

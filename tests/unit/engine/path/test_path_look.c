@@ -245,3 +245,52 @@ void test_a_course_that_is_not_kept_is_laid_once_more(void)
     TEST_ASSERT_EQUAL_UINT64(kept.end_time.high, course->end_time.high);
     TEST_ASSERT_EQUAL_UINT64(kept.end_time.low, course->end_time.low);
 }
+
+/* Each of them gains 200 000 (steps/s)^2; the second one is to be left with that, as the third one ends the path. */
+void test_a_vector_that_was_to_brake_for_the_end_speeds_up_where_others_have_joined(void)
+{
+    for (unsigned i = 0; i < 3; i++) {
+        add(10, 1000, 10000);
+    }
+    (void)path_start(&path, 0);
+    path_lay_next(&path);
+    for (unsigned i = 0; i < 3; i++) {
+        add(10, 1000, 10000);
+    }
+    path_lay_next(&path);
+    TEST_ASSERT_EQUAL_UINT64(UINT64_C(200000) * 65536U, ring[0].leave2);
+    TEST_ASSERT_EQUAL_UINT64(UINT64_C(400000) * 65536U, ring[1].leave2);
+}
+
+void test_what_the_brake_leaves_over_is_the_speed_at_the_end(void)
+{
+    add(10, 1000, 10000);
+    ring[0].exit2 = 0;
+    TEST_ASSERT_EQUAL_UINT64(0, path_look_exit2(&path, &ring[0], ring[0].gain2));
+    TEST_ASSERT_EQUAL_UINT64(1, path_look_exit2(&path, &ring[0], ring[0].gain2 + 1U));
+}
+
+/* 10 steps before a border, with 1 step/s^2: u + 1 cannot be braked to u where (u + 1)^2 is one more than
+ * u^2 + 1024*128*10. What follows is long enough to end from there. */
+void test_a_path_that_is_too_fast_by_the_least_that_there_is_is_too_fast(void)
+{
+    const uint32_t slow = 512U * 128U * 10U;
+    struct path_vector vector = rig_vector(1000, 0, 1, 1);
+    vector.speed = slow + 1U;
+    TEST_ASSERT_TRUE(path_add(&path, &vector));
+    vector = rig_vector(4000000, 0, 1, 1);
+    vector.speed = slow;
+    TEST_ASSERT_TRUE(path_add(&path, &vector));
+    (void)path_start(&path, 0);
+    path_lay_next(&path);
+    rig_set_speed(&path, 0, slow);
+    struct path_place place = {.entry = {.speed2 = ((uint64_t)slow + 1U) * (slow + 1U)}};
+    place.entry.place = path_wide_multiply(path_section_grains_per_step(&ring[0]), 990);
+    path_lay_begin(&path, &place);
+    TEST_ASSERT_TRUE(path.too_fast);
+    TEST_ASSERT_EQUAL_UINT64((uint64_t)slow * slow + 1U, ring[0].exit2);
+    place.entry.place = path_wide_multiply(path_section_grains_per_step(&ring[0]), 989);
+    path_lay_begin(&path, &place);
+    TEST_ASSERT_FALSE(path.too_fast);
+    TEST_ASSERT_EQUAL_UINT64((uint64_t)slow * slow, ring[0].exit2);
+}

@@ -269,6 +269,30 @@ void test_a_change_at_a_border_of_what_is_not_laid_has_nothing_before_it(void)
     TEST_ASSERT_EQUAL_UINT32(10 * PATH_SPEED_UNITS, path_speed_at(&rig.path, 3, 0));
 }
 
+/* It is laid, a change within the vector before it makes that void, and it is not laid again. */
+void test_a_change_at_a_border_forgets_how_the_vector_after_it_was_laid_before(void)
+{
+    for (uint32_t section = 0; section < 2; section++) {
+        begin();
+        for (unsigned i = 0; i < 4; i++) {
+            (void)rig_add(&rig, 100, 33, 10, 10000);
+        }
+        start();
+        TEST_ASSERT_TRUE(find(START + (uint64_t)STEP_TICKS * (100U * section + 50U) - 1000U, UINT64_MAX / 2U, 0));
+        TEST_ASSERT_EQUAL_UINT32(section, place.section);
+        assert_at_step(50);
+        TEST_ASSERT_TRUE(path_lay_course(&rig.path, section + 1U)->legs != 0);
+        TEST_ASSERT_TRUE(rig_change(&rig, &place, back));
+        hand_over_pulses(0, 50);
+        hand_over_pulses(1, 17);
+        TEST_ASSERT_EQUAL_UINT32(section + 1U, rig.path.laid);
+        TEST_ASSERT_TRUE(find(rig.path.next.time.high - 1000U, UINT64_MAX / 2U, 0));
+        TEST_ASSERT_EQUAL_UINT32(section + 1U, place.section);
+        TEST_ASSERT_TRUE(rig_change(&rig, &place, back));
+        TEST_ASSERT_FALSE(before.valid);
+    }
+}
+
 void test_the_speeds_before_a_change_are_those_of_its_section(void)
 {
     (void)rig_add(&rig, 100, 33, 20, 10000);

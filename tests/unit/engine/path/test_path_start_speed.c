@@ -208,6 +208,62 @@ void test_a_change_below_the_start_speed_falls_at_once_when_it_is_slow_already(v
     TEST_ASSERT_EQUAL_UINT64(84000000 + 840000, ticks[0]);
 }
 
+/* 50 steps before the border at 900 steps/s, no faster than the start speed: the brake alone would not be enough. */
+void test_what_falls_at_once_is_not_too_fast_for_what_follows(void)
+{
+    (void)rig_add(&rig, 100, 0, 900, 10);
+    (void)rig_add(&rig, 100, 0, 900, 10);
+    start(1000);
+    (void)pulses(1);
+    rig_set_speed(&rig.path, 0, 100 * PATH_SPEED_UNITS);
+    rig_set_speed(&rig.path, 1, 100 * PATH_SPEED_UNITS);
+    change_at(UINT64_C(84000000) * 50 / 900 - 10, false);
+    TEST_ASSERT_EQUAL_UINT(50 + 100, pulses(UINT64_MAX));
+    TEST_ASSERT_EQUAL_UINT64(speed2_of(100), rig.ring[0].leave2);
+    TEST_ASSERT_EQUAL_UINT64(speed2_of(100), rig.ring[1].enter2);
+}
+
+/* At the start speed, and down to 500 at once; over 50 steps that cannot be braked to 100. */
+void test_what_falls_at_once_and_is_still_too_fast_brakes_from_there(void)
+{
+    (void)rig_add(&rig, 100, 0, 1000, 10);
+    (void)rig_add(&rig, 20000, 0, 1000, 10);
+    start(1000);
+    (void)pulses(1);
+    rig_set_speed(&rig.path, 0, 500 * PATH_SPEED_UNITS);
+    rig_set_speed(&rig.path, 1, 100 * PATH_SPEED_UNITS);
+    change_at(84000 * 50 - 10, false);
+    TEST_ASSERT_EQUAL_UINT(50 + 20000, pulses(UINT64_MAX));
+    TEST_ASSERT_EQUAL_UINT64((500 * 500 - 2 * 10 * 50) * UINT64_C(65536), rig.ring[0].leave2);
+    TEST_ASSERT_EQUAL_UINT64(rig.ring[0].leave2, rig.ring[1].enter2);
+}
+
+/* 5 steps/s faster than the start speed, which 50 steps do not brake away. */
+void test_what_is_faster_than_the_start_speed_does_not_fall_at_once(void)
+{
+    (void)rig_add(&rig, 600, 0, 1005, 10);
+    (void)rig_add(&rig, 60000, 0, 1005, 10);
+    start(1000);
+    (void)pulses(1);
+    rig_set_speed(&rig.path, 0, 100 * PATH_SPEED_UNITS);
+    rig_set_speed(&rig.path, 1, 100 * PATH_SPEED_UNITS);
+    change_at(46074600, false);
+    TEST_ASSERT_EQUAL_UINT64(550 * path_section_grains_per_step(&rig.ring[0]), place.entry.place.low);
+    TEST_ASSERT_EQUAL_UINT(50 + 60000, pulses(UINT64_MAX));
+    TEST_ASSERT_EQUAL_UINT64((1005 * 1005 - 2 * 10 * 50) * UINT64_C(65536), rig.ring[0].leave2);
+    TEST_ASSERT_EQUAL_UINT64(rig.ring[0].leave2, rig.ring[1].enter2);
+}
+
+void test_a_border_speed_without_a_turn_does_not_hold_back_the_start_speed(void)
+{
+    struct path_vector vector = rig_vector(100, 0, 1000, 10000);
+    vector.border_speed = 10 * PATH_SPEED_UNITS;
+    TEST_ASSERT_TRUE(path_add(&rig.path, &vector));
+    start(1000);
+    (void)pulses(1);
+    TEST_ASSERT_EQUAL_UINT64(speed2_of(1000), rig.ring[0].enter2);
+}
+
 /* The second vector is slower than the start speed: nothing falls to it before it begins, and 500 steps/s are too fast
  * to be braked away over 50 steps. */
 void test_what_is_too_fast_for_a_slower_vector_to_come_brakes_into_it(void)
@@ -233,6 +289,7 @@ void test_vectors_that_come_later_are_a_chain_of_their_own(void)
     TEST_ASSERT_FALSE(path_lags(&rig.path));
     change_at(2000000, false);
     TEST_ASSERT_TRUE(pulses(UINT64_MAX) < 100);
+    TEST_ASSERT_FALSE(path_lags(&rig.path));
     TEST_ASSERT_TRUE(path_start(&rig.path, 100000000));
     TEST_ASSERT_EQUAL_UINT(100, pulses(UINT64_MAX));
 }
@@ -264,4 +321,32 @@ void test_vectors_that_come_later_and_go_straight_on_join(void)
     TEST_ASSERT_EQUAL_UINT32(2, rig.path.known);
     TEST_ASSERT_EQUAL_UINT(2000, pulses(UINT64_MAX));
     TEST_ASSERT_EQUAL_UINT64(speed2_of(3000), rig.ring[1].enter2);
+}
+
+void test_vectors_that_have_joined_are_part_of_what_is_planned_anew(void)
+{
+    struct path_vector vector = rig_vector(1000, 0, 3000, 10000);
+    (void)rig_add(&rig, 1000, 0, 3000, 10000);
+    start(1000);
+    vector.straight = true;
+    TEST_ASSERT_TRUE(path_add(&rig.path, &vector));
+    change_at(16800000 + 28000 * 50, false);
+    TEST_ASSERT_EQUAL_UINT(2000 - 450, pulses(UINT64_MAX));
+}
+
+/* y has made its last pulse long ago, and DIR has had its time. */
+void test_a_start_at_a_border_does_not_mind_a_turn_that_would_be_too_fast_for_a_path_that_moves(void)
+{
+    struct path_vector there = rig_vector(-1000, -500, 50000, 1000000);
+    struct path_vector back_again = rig_vector(1000, 500, 200000, 1000000);
+    (void)path_add(&rig.path, &there);
+    (void)path_add(&rig.path, &back_again);
+    TEST_ASSERT_TRUE(rig.ring[1].border2 < speed2_of(200000));
+    start(200000);
+    change_at(1000 * 1680 - 10, true);
+    (void)pulses(UINT64_MAX);
+    (void)rig_pulses(&rig, 1, UINT64_MAX, ticks, 0);
+    TEST_ASSERT_EQUAL_UINT32(1, rig.path.rest.section);
+    TEST_ASSERT_TRUE(path_start(&rig.path, 10000000));
+    TEST_ASSERT_EQUAL_UINT64(speed2_of(200000), rig.path.next.speed2);
 }
