@@ -228,23 +228,29 @@ static void answer_late(struct gve134 *unit)
     }
 }
 
-/* J leaves nothing of what waits before it; H ends a reference run, and is answered after it. */
-static void act_at_once(struct gve134 *unit)
+/* J leaves nothing of what waits before it; H ends a reference run, and is answered after it. True: the axes have got
+ * another end. */
+static bool act_at_once(struct gve134 *unit)
 {
     struct gve_request request;
+    bool acts = false;
     if (waits_for(unit, GVE134_WAITS_NOT)) {
-        return;
+        return false;
     }
     if (gve_line_ends_with(&unit->line, GVE_RESET)) {
         do {
             (void)gve_line_next(&unit->line, &request);
         } while (!is_command(&request, GVE_RESET));
         serve(unit, &request);
-    } else if (waits_for(unit, GVE134_WAITS_FOR_HOME) && gve_line_keeps(&unit->line, GVE_HALT)) {
+        acts = true;
+    } else if (waits_for(unit, GVE134_WAITS_FOR_HOME) && !unit->queue.halting &&
+               gve_line_keeps(&unit->line, GVE_HALT)) {
         (void)gve_queue_halt(&unit->queue);
+        acts = true;
     } else {
         /* it waits for its turn */
     }
+    return acts;
 }
 
 /* A request is there whose turn it is as soon as the answer before it is out. */
@@ -293,8 +299,7 @@ static uint64_t poll_queue(struct gve134 *unit)
 {
     uint64_t wake = gve_queue_poll(&unit->queue, io_inputs(&unit->io));
     answer_late(unit);
-    act_at_once(unit);
-    if (serve_some(unit)) {
+    if (act_at_once(unit) || serve_some(unit)) {
         return hal_time_now();
     }
     return has_turn(unit) ? earlier(wake, hal_time_now() + (uint64_t)OUT_TICKS) : wake;

@@ -230,6 +230,7 @@ LIMITS: dict[str, tuple[tuple[int, int], ...]] = {
     "EW": ((0, 0xFF), (0, 0xFF)),
     "EUW": ((0, 0xFC), (0, 0xFFFFFFFF)),
     "*E": ((0, 128),),
+    "7V": ((0, 1000),),
 }
 HEXADECIMAL = ("ER", "EUR", "EFR", "EW", "EUW")
 """All of their numbers; of SW and O the last one."""
@@ -253,11 +254,12 @@ def numbers_at(name: str, place: int, low: int, high: int) -> Iterable[str]:
 def test_every_number_at_its_limits_and_past_them_has_its_code(probe: Probe, name: str) -> None:
     host = Host()
     limits = LIMITS[name]
+    address = "" if name == "7V" else "0"
     for place, (low, high) in enumerate(limits):
         right = [written(name, at, max(least, 0)) for at, (least, _) in enumerate(limits)]
         for number in numbers_at(name, place, low, high):
             text = ",".join((*right[:place], number, *right[place + 1 :]))
-            host.ask("0V200", f"0{name}{text}", "0SR6", "0J")
+            host.ask("0V200", f"{address}{name}{text}", "0SR6", "0J")
             host.pause(DAMAGE_MS)
     host.held(probe)
 

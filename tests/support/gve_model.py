@@ -48,7 +48,9 @@ class Model:
         self.waiting: deque[Request] = deque()
         """H and W that wait for the axes."""
         self.acted: list[Item] = []
-        """H that came while others waited: it has acted, and is executed again in its turn."""
+        """H that came while others waited: it has acted, and is executed again in its turn. It acts
+        on the next one that waits, too: that came before it."""
+        self.waits_since = 0
         self.brake_tick = FAR
         if memory is not None:
             self.unit.state.memory = bytearray(memory)
@@ -98,7 +100,7 @@ class Model:
             return max(item.tick, self.unit.ready_tick), item
         for item in self.items:
             if named(item, "H", "J") and item not in self.acted and item.tick <= self._wait_end():
-                return item.tick, item
+                return max(item.tick, self.waits_since), item
         return FAR, None
 
     def _wait_end(self) -> int:
@@ -168,6 +170,8 @@ class Model:
             was = unit.state.fault
             if not self.commands.execute(item, tick):
                 self.waiting.append(item)
+                self.waits_since = tick
+                self.acted.clear()
             if was and not unit.state.fault:
                 self._set_brake(tick)
 

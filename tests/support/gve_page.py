@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import Browser, Locator, expect
 from service_page import NOT_KNOWN, PATIENCE_SECONDS
 from unit_page import UnitPage, UnitService, unit_shown
 
@@ -41,6 +41,21 @@ class GvePage(UnitPage):
     def doing(self, words: str | re.Pattern[str]) -> None:
         """Wait for what the unit does."""
         expect(self.at("live-state")).to_have_text(words)
+
+    def jog(self, button: str) -> None:
+        """Press the button of a step, such as X+, after the danger was confirmed."""
+        self.confirm_danger()
+        self.jog_button(button).click()
+
+    def jog_button(self, button: str) -> Locator:
+        """Such as X+."""
+        name = button.replace("-", "\N{MINUS SIGN}")
+        return self.page.locator("#axes button").get_by_text(name, exact=True)
+
+    def home(self, axis: str = "X") -> None:
+        """Begin the reference run of an axis, likewise."""
+        self.confirm_danger()
+        self.page.locator("#axes").get_by_role("button", name=re.compile(f"^Home {axis}:")).click()
 
     def steps(self, axis: str = "X") -> int:
         """The position of an axis, pulses."""

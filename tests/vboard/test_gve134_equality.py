@@ -15,14 +15,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 from judge import Steps, read_steps
-from rkm04_tools import board, virtual_board
+from reference import TICK_HZ
+from rkm04_tools import board
 from rkm04_tools.gve134 import host as gve134_host
-from virtual_board import TICKS_PER_MS, Modelled, of_motor
+from rkm04_tools.gve134 import sim_board
+from rkm04_tools.sim_board import READY_MS
+from rkm04_tools.source import Source
+from rkm04_tools.target_run import Rig
+from virtual_board import Modelled, of_motor
 
 UNIT = "gve134"
-BEGIN_MS = 50.0
-SETTLE_MS = 30.0
-BYTE_MS = 10 / 115.2
+BAUD = 115_200
+BYTE_MS = 10_000 / BAUD
+SECONDS = 60.0
+SETTLE_SECONDS = 0.03
 MOTORS = range(1, 5)
 
 
@@ -34,44 +40,36 @@ class Path134:
     vectors: list[str]
 
     @property
-    def lines(self) -> list[str]:
-        return [*self.modal, "*S", *self.vectors, f"*E{len(self.vectors)}"]
+    def text(self) -> str:
+        """The file."""
+        packet = ["*S", *self.vectors, f"*E{len(self.vectors)}"]
+        return "".join(f"{line}\n" for line in [*self.modal, *packet])
 
 
 @pytest.fixture
 def play(
     program: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Callable[..., tuple[Modelled, Steps]]:
+) -> Callable[..., tuple[sim_board.Played, Modelled, Steps]]:
     """Play a path on both."""
     monkeypatch.setenv("RKM04_BUILD", str(program.parents[1]))
-    image = board.build(board.DEFAULT_BOARD, what=UNIT)
 
-    def both(path: Path134) -> tuple[Modelled, Steps]:
-        file, simulated, modelled = (tmp_path / name for name in ("p.gve", "s.csv", "board.csv"))
-        file.write_text("".join(f"{line}\n" for line in path.lines))
+    def both(path: Path134, half_period: bool = False) -> tuple[sim_board.Played, Modelled, Steps]:
+        image = board.build(board.DEFAULT_BOARD, what=UNIT, half_period=half_period)
+        file, simulated = tmp_path / "p.gve", tmp_path / "s.csv"
+        file.write_text(path.text)
         command = [gve134_host.program_path(), "sim", file, "--steps", simulated]
         subprocess.run(list(map(str, command)), check=True, capture_output=True)
         steps = read_steps(simulated)
-        path_ms = float(steps.tick.max() - steps.tick.min()) / TICKS_PER_MS
-        data = "".join(f"!0{line}\r" for line in path.lines) + "!0P4\r"
-        wait = BEGIN_MS + len(data) * BYTE_MS + SETTLE_MS + path_ms
-        asks = f"{BEGIN_MS} {data[:-5].encode().hex()}\n{wait:.3f} {data[-5:].encode().hex()}\n"
-        for name, text in (("line", asks), ("pins", virtual_board.board_pins(image.board, UNIT))):
-            (tmp_path / name).write_text(text)
-        options = ["--elf", str(image.file("elf")), "--pins", str(tmp_path / "pins")]
-        options += ["--line-script", str(tmp_path / "line"), "--baud", "115200"]
-        options += ["--line-log", str(tmp_path / "log.txt"), "--steps", str(modelled)]
-        options += ["--vcd", str(tmp_path / "board.vcd"), "--watch", "stm32_late_steps"]
-        options += ["--stack-limit", "stm32_stack_bottom", "--for", f"{(wait + 20) / 1000:.6f}"]
-        summary = virtual_board.run(program, options)
-        return Modelled(summary, read_steps(modelled), tmp_path), steps
+        path_seconds = float(steps.tick.max() - steps.tick.min()) / TICK_HZ
+        rig, log = Rig(program, image, tmp_path), tmp_path / "log.txt"
+        # At its end the unit tells where the axes have come to rest.
+        text = f"{path.text};@wait {path_seconds + SETTLE_SECONDS:.3f}\nP4\n"
+        source = Source("p.gve", text)
+        played = sim_board.play(rig, source, BAUD, SECONDS, None, "--line-log", str(log))
+        modelled = Modelled(played.ran.summary, read_steps(tmp_path / "steps.csv"), tmp_path)
+        return played, modelled, steps
 
     return both
-
-
-def answers(modelled: Modelled) -> list[str]:
-    rows = (modelled.folder / "log.txt").read_text().split()[1::2]
-    return bytes(int(byte, 16) for byte in rows).decode().rstrip("\r").split("\r")
 
 
 def random_path(seed: int) -> Path134:
@@ -103,11 +101,12 @@ def same(modelled: Modelled, simulated: Steps) -> None:
 @pytest.mark.parametrize("seed", range(10))
 def test_a_path_on_the_board_is_that_of_the_simulator(play, seed):
     path = random_path(seed)
-    modelled, simulated = play(path)
-    said = answers(modelled)
-    ends = [int(way) for way in said[-1].split(",")[1:]]
+    played, modelled, simulated = play(path)
+    told = sim_board.course(played)
+    (said,) = told["answers"]
+    ends = [int(way) for way in said["answer"].split(",")[1:]]
 
-    assert said[:-1] == ["0"] * len(path.modal) + [f"0,{len(path.vectors)}"]
+    assert (told["ended"], told["refused"], told["vectors"]) == ("idle", 0, len(path.vectors))
     assert ends == [
         sum(int(vector[1:].split(",")[motor]) for vector in path.vectors) for motor in range(4)
     ]
@@ -116,9 +115,19 @@ def test_a_path_on_the_board_is_that_of_the_simulator(play, seed):
         assert motor["pulses"] == 0 or motor["width_min"] == pytest.approx(2.5, abs=0.001)
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_pulses_of_half_a_period_are_at_the_same_ticks_and_turn_as_the_others(play, seed):
+    _, modelled, simulated = play(random_path(seed), half_period=True)
+
+    same(modelled, simulated)
+    assert all(
+        motor["width_min"] >= 2.499 for motor in modelled.summary["motors"] if motor["pulses"]
+    )
+
+
 def test_the_unit_answers_within_a_millisecond(play):
-    modelled, _ = play(Path134(["V1000"], ["C10,0,0,0"]))
+    _, modelled, _ = play(Path134(["V1000"], ["C10,0,0,0"]))
     rows = [row.split() for row in (modelled.folder / "log.txt").read_text().splitlines()]
-    asked = BEGIN_MS + len("!0V1000\r") * BYTE_MS
+    asked = READY_MS + len("!0V1000\r") * BYTE_MS
 
     assert float(rows[0][0]) - asked < 1.0

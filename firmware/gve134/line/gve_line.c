@@ -7,10 +7,13 @@
 
 enum {
     INDEX_BYTES_MAX = 3,
+    ROOM_FOR_COMMANDS = GVE_LINE_KEPT - GVE_LINE_SPARED,
+    ROOM_FOR_NEWS = GVE_LINE_KEPT - GVE_LINE_SPARED_STOPS,
+    ROOM_FOR_STOPS = GVE_LINE_KEPT,
 };
 
 /* A request with room spared for it comes at the least of this many bytes. */
-static_assert((GVE_LINE_KEPT - GVE_LINE_SPARED) * 3 >= 256, "256 bytes are kept");
+static_assert(ROOM_FOR_COMMANDS * 3 >= 256, "256 bytes are kept");
 
 void gve_line_init(struct gve_line *line, unsigned interpolator, unsigned spindle)
 {
@@ -26,10 +29,9 @@ static const struct gve_request *kept_at(const struct gve_line *line, uint32_t p
     return &line->kept[(line->first + place) % GVE_LINE_KEPT];
 }
 
-/* False: there is no room. */
-static bool keep(struct gve_line *line, const struct gve_request *request, bool spared)
+/* False: so many are kept that there is no room. */
+static bool keep(struct gve_line *line, const struct gve_request *request, uint32_t room)
 {
-    uint32_t room = spared ? GVE_LINE_KEPT : GVE_LINE_KEPT - GVE_LINE_SPARED;
     if (line->count >= room) {
         return false;
     }
@@ -61,11 +63,21 @@ bool gve_line_ends_with(const struct gve_line *line, enum gve_opcode opcode)
 
 /* ---- what comes ------------------------------------------------------------------------------------------------ */
 
+static bool is_stop(const struct gve_request *request)
+{
+    return is_command(request, GVE_HALT) || is_command(request, GVE_RESET);
+}
+
 /* A wrong parameter makes the end of a packet wrong, but it stays its end; H and J are others with parameters. */
 static bool is_packet_end(const struct gve_request *request)
 {
-    return request->command.opcode == (uint8_t)GVE_PACKET_END || is_command(request, GVE_HALT) ||
-           is_command(request, GVE_RESET);
+    return request->command.opcode == (uint8_t)GVE_PACKET_END || is_stop(request);
+}
+
+static uint32_t room_for(const struct gve_request *request)
+{
+    uint32_t room = is_packet_end(request) ? ROOM_FOR_NEWS : ROOM_FOR_COMMANDS;
+    return is_stop(request) ? ROOM_FOR_STOPS : room;
 }
 
 /* What counts from the next byte on. */
@@ -91,17 +103,15 @@ static void keep_bad_line(struct gve_line *line)
 {
     struct gve_request request = {.kind = GVE_REQUEST_BAD_LINE, .packet = true};
     if (!line->bad_packet) {
-        line->bad_packet = keep(line, &request, true);
+        line->bad_packet = keep(line, &request, ROOM_FOR_NEWS);
     }
 }
 
-/* Without room it is tried again after each further silence. */
+/* Where it finds no room the line stays open all the same: H and J must be heard. */
 static void keep_damage(struct gve_line *line)
 {
     struct gve_request request = {.kind = GVE_REQUEST_DAMAGE};
-    if (!keep(line, &request, true)) {
-        gve_receiver_refuse(&line->receiver);
-    }
+    line->owes = !keep(line, &request, ROOM_FOR_NEWS);
 }
 
 /* What does not fit is damage. The end of a packet always fits: nothing else of it takes room that is spared, but the
@@ -110,7 +120,7 @@ static void refuse_command(struct gve_line *line, const struct gve_request *requ
 {
     if (is_command(request, GVE_RESET)) {
         line->count = 0;
-        (void)keep(line, request, true);
+        (void)keep(line, request, ROOM_FOR_STOPS);
     } else if (line->receiver.packet) {
         keep_bad_line(line);
     } else {
@@ -130,7 +140,7 @@ static void keep_command(struct gve_line *line)
         .fault = (uint8_t)(cut ? GVE_FAULT_TOO_LONG : reading.fault),
         .packet = receiver->packet,
     };
-    if (keep(line, &request, is_packet_end(&request))) {
+    if (keep(line, &request, room_for(&request))) {
         follow_command(line, &request);
     } else {
         refuse_command(line, &request);
@@ -198,6 +208,9 @@ bool gve_line_next(struct gve_line *line, struct gve_request *request)
     *request = *kept_at(line, 0);
     line->first = (line->first + 1U) % GVE_LINE_KEPT;
     line->count--;
+    if (line->owes) {
+        keep_damage(line);
+    }
     bool command = request->kind == (uint8_t)GVE_REQUEST_COMMAND;
     uint8_t opcode = request->command.opcode;
     line->apart = command && (opcode == (uint8_t)GVE_INDEX || opcode == (uint8_t)GVE_REPEAT);

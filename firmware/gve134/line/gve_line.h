@@ -19,8 +19,9 @@
 
 enum {
     /* Requests that are kept: 256 bytes of the shortest commands, `!0` and CR, and those for which room is spared: the
-     * news of damage, the end of a packet, H and J. */
-    GVE_LINE_SPARED = 4,
+     * news of damage and the end of a packet, and beyond these H and J, which nothing else keeps out. */
+    GVE_LINE_SPARED_STOPS = 2,
+    GVE_LINE_SPARED = 2 + GVE_LINE_SPARED_STOPS,
     GVE_LINE_KEPT = 86 + GVE_LINE_SPARED,
 };
 
@@ -44,6 +45,7 @@ struct gve_line {
     uint32_t first; /* of `kept`, in the order in which they came */
     uint32_t count;
     bool bad_packet; /* of the packet being received damage has been told */
+    bool owes;       /* damage found no room: it is kept, once, as soon as there is some */
     bool sums;       /* answers have checksums */
     bool apart;      /* the answer to what was taken last is not kept to be sent again */
     uint8_t index;

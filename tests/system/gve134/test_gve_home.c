@@ -254,6 +254,46 @@ void test_a_halt_ends_the_run_in_each_phase_and_is_answered_after_it(void)
     }
 }
 
+void test_a_halt_that_waits_already_ends_a_run_before_its_first_pulse(void)
+{
+    rig_heard_count = 0;
+    rig_send("!0?\r!0?\r!0WX-1000,1000,100,100\r!0H\r");
+    rig_run_ms(4);
+    rig_heard[rig_heard_count] = '\0';
+    TEST_ASSERT_EQUAL_STRING("8\r8\r", &rig_heard[rig_heard_count - 4U]);
+    TEST_ASSERT_EQUAL_UINT(0, rig_pulses[0]);
+}
+
+/* A host that does not wait has asked until nothing more is kept, and goes on, with pauses in which damage ends. */
+static void begin_among_questions(void)
+{
+    put_cam(0, -2000000, -1000000);
+    rig_expect("0A20", "0");
+    begin("0WX-1000000,1000,10,500");
+    for (unsigned i = 0; i < 100; i++) {
+        rig_send("!0P\r");
+        rig_run_ms(130);
+    }
+}
+
+void test_a_halt_and_a_reset_act_at_once_whatever_could_not_be_kept(void)
+{
+    begin_among_questions();
+    int64_t asked = rig_position[0];
+    rig_send("!0H\r");
+    rig_run_ms(1000);
+    TEST_ASSERT_INT64_WITHIN(110, asked, rig_position[0]);
+    rig_expect("0J", "0");
+    begin_among_questions();
+    rig_heard_count = 0;
+    rig_send("!0J\r");
+    TEST_ASSERT_EQUAL_STRING("0", rig_answer_within(2));
+    unsigned made = rig_pulses[0];
+    rig_run_ms(1000);
+    TEST_ASSERT_EQUAL_UINT32(made, rig_pulses[0]);
+    memset(rig_position, 0, sizeof rig_position);
+}
+
 void test_a_reset_ends_the_run_at_once_and_is_answered_alone(void)
 {
     for (unsigned ms = 10; ms < 2500; ms += 100) {

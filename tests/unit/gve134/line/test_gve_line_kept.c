@@ -65,33 +65,79 @@ void test_what_does_not_fit_is_damage_and_halt_still_does(void)
     assert_nothing();
 }
 
-void test_damage_that_finds_no_room_is_told_when_there_is_some_and_nothing_is_taken_before(void)
+static void take_halts(void)
 {
-    fill();
     for (unsigned i = 0; i < GVE_LINE_SPARED; i++) {
         take("!0H\r");
     }
+}
+
+/* More than all places are full: a command, and then silence, each time. */
+static void poll_on_and_on(void)
+{
+    for (unsigned i = 0; i < 3 * GVE_LINE_SPARED; i++) {
+        take("!0F\r");
+        wait(SILENCE_TICKS);
+    }
+}
+
+void test_damage_that_finds_no_room_is_told_once_when_there_is_some_before_what_comes_later(void)
+{
+    unsigned news = GVE_LINE_SPARED - GVE_LINE_SPARED_STOPS;
+    unsigned taken = news + 2;
+    fill();
+    poll_on_and_on();
+    for (unsigned i = 0; i < taken; i++) {
+        assert_next(GVE_FLAGS);
+    }
+    take("!0V10\r");
+    for (unsigned i = taken; i < GVE_LINE_KEPT - GVE_LINE_SPARED; i++) {
+        assert_next(GVE_FLAGS);
+    }
+    for (unsigned i = 0; i < news + 1; i++) {
+        assert_next_kind(GVE_REQUEST_DAMAGE);
+    }
+    assert_next(GVE_SPEED);
+    assert_nothing();
+}
+
+void test_halt_is_heard_however_much_could_not_be_kept(void)
+{
+    fill();
+    poll_on_and_on();
     take("!0H\r");
+    TEST_ASSERT_TRUE(gve_line_keeps(&line, GVE_HALT));
+}
+
+void test_reset_is_heard_however_much_could_not_be_kept(void)
+{
+    fill();
+    poll_on_and_on();
+    take_halts();
     wait(SILENCE_TICKS);
+    take("!0J\r");
+    TEST_ASSERT_TRUE(gve_line_ends_with(&line, GVE_RESET));
+    assert_next(GVE_RESET);
+}
+
+void test_halts_that_find_no_room_are_damage(void)
+{
+    fill();
+    take_halts();
+    take("!0H\r");
     wait(SILENCE_TICKS);
     empty();
     for (unsigned i = 0; i < GVE_LINE_SPARED; i++) {
         assert_next(GVE_HALT);
     }
-    assert_nothing();
-    wait(SILENCE_TICKS);
     assert_next_kind(GVE_REQUEST_DAMAGE);
     assert_nothing();
-    take("!0F\r");
-    assert_next(GVE_FLAGS);
 }
 
 void test_a_reset_finds_room_where_there_is_none(void)
 {
     fill();
-    for (unsigned i = 0; i < GVE_LINE_SPARED; i++) {
-        take("!0H\r");
-    }
+    take_halts();
     take("!0J\r");
     TEST_ASSERT_TRUE(gve_line_keeps(&line, GVE_RESET));
     assert_next(GVE_RESET);
