@@ -63,7 +63,6 @@ void positioning_init(struct pos_unit *unit)
         pos_axis_init(&unit->axes[axis], axis, unit->registers.axes[axis]);
     }
     unit->asked = NULL;
-    unit->exception = MODBUS_EXCEPTION_NONE;
     positioning_init_line(unit);
 }
 
@@ -114,6 +113,20 @@ static void feed(struct pos_unit *unit)
     }
 }
 
+/* When those begin that are to: also where one is to stand in a moment, not before. */
+static uint64_t start_tick_of(const struct pos_unit *unit)
+{
+    uint64_t start_tick = hal_time_now() + (uint64_t)START_TICKS;
+    for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
+        const struct pos_axis *own = &unit->axes[axis];
+        uint64_t rest_tick = pos_axis_wants_start(own) ? pos_drive_rest_tick(&own->drive) : 0U;
+        if (start_tick <= rest_tick) {
+            start_tick = rest_tick + 1U;
+        }
+    }
+    return start_tick;
+}
+
 /* What the pass has brought takes effect; axes that are to begin do so together. True: the next pass is to come at
  * once. */
 static bool follow(struct pos_unit *unit)
@@ -122,7 +135,7 @@ static bool follow(struct pos_unit *unit)
     for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
         again = pos_axis_follow(&unit->axes[axis]) || again;
     }
-    uint64_t start_tick = hal_time_now() + (uint64_t)START_TICKS;
+    uint64_t start_tick = start_tick_of(unit);
     for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
         if (pos_axis_wants_start(&unit->axes[axis])) {
             pos_axis_start(&unit->axes[axis], start_tick, io_inputs(&unit->io));

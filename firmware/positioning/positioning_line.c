@@ -170,24 +170,21 @@ static void instruct(struct pos_unit *unit, const struct pos_written *written)
     }
 }
 
-/* CONTROL and FEED of an axis, if one of them is written, are one POS_CONTROL. */
+/* CONTROL and FEED of an axis are one POS_CONTROL; one with what there is, where neither is written. */
 static void control(struct pos_unit *unit)
 {
     struct {
         uint32_t feed;
         int mp;
-        bool written;
     } wanted[POS_AXES];
     for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
         wanted[axis].feed = unit->axes[axis].feed;
         wanted[axis].mp = POS_MP_NIL;
-        wanted[axis].written = false;
     }
     uint32_t next = 0;
     const struct pos_written *written = pos_write_next(&unit->write, POS_USE_MOTION, &next);
     for (; written != NULL; written = pos_write_next(&unit->write, POS_USE_MOTION, &next)) {
         unsigned axis = written->place.axis - 1U;
-        wanted[axis].written = true;
         if (written->place.index == (uint8_t)POS_AXIS_FEED) {
             wanted[axis].feed = written->value;
         } else {
@@ -195,9 +192,7 @@ static void control(struct pos_unit *unit)
         }
     }
     for (unsigned axis = 0; axis < (unsigned)POS_AXES; axis++) {
-        if (wanted[axis].written) {
-            (void)pos_control(unit, NULL, wanted[axis].feed, wanted[axis].mp, axis + 1U);
-        }
+        (void)pos_control(unit, NULL, wanted[axis].feed, wanted[axis].mp, axis + 1U);
     }
 }
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from checks.plc import DOCUMENT, LIBRARY
 from fake_positioning import CODES
 from plc_cycle import Plc
-from st_program import Blocks
+from st_program import Blocks, Instance
+
+UNIT_PAGE = Path(__file__).resolve().parents[2] / "firmware/positioning/docs/unit.md"
 
 INIT, MODE, RESET = CODES["POS_INIT"], CODES["POS_MODE"], CODES["POS_RESET"]
 FEED = 3000 << 16  # 50 mm/s
@@ -126,16 +130,38 @@ def test_a_button_that_is_let_go_at_once_leaves_nothing_moving(cycles, plc) -> N
     assert axis.executed[-1] == RESET
 
 
-def test_the_program_of_the_document_moves_an_axis(make_plc) -> None:
-    document = DOCUMENT.read_text(encoding="utf-8")
-    body = document.partition("```iecst\n")[2].partition("```")[0]
-    program = f"PROGRAM DOCUMENTED {DECLARATIONS} {body} END_PROGRAM"
-    plc = make_plc()
+def documented(document: Path) -> str:
+    """The first program in Structured Text of a document."""
+    text = document.read_text(encoding="utf-8")
+    return text.partition("```iecst\n")[2].partition("```")[0]
+
+
+def begin_documented(plc: Plc, program: str, name: str, **inputs: bool) -> Instance:
     plc.blocks = Blocks(LIBRARY.read_text(encoding="utf-8") + program)
     plc.restart()
-    main = plc.add("DOCUMENTED", AXIS_1=plc.axes[0], Released=True)
+    main = plc.add(name, AXIS_1=plc.axes[0], **inputs)
     plc.run(10)
     main["Button"] = True
+    return main
+
+
+def test_the_first_move_of_the_unit_s_page_moves(make_plc) -> None:
+    program = documented(UNIT_PAGE)
+    assert program.count("\n") <= 10
+    plc = make_plc()
+    main = begin_documented(plc, program, "FIRST_MOVE")
+    for position in (10000, 20000):
+        main["Button"] = True
+        plc.until(lambda: main["Motion"]["Done"])
+        assert plc.unit.axes[0].position == position
+        main["Button"] = False
+        plc.run(5)
+
+
+def test_the_program_of_the_document_moves_an_axis(make_plc) -> None:
+    program = f"PROGRAM DOCUMENTED {DECLARATIONS} {documented(DOCUMENT)} END_PROGRAM"
+    plc = make_plc()
+    main = begin_documented(plc, program, "DOCUMENTED", Released=True)
     plc.until(lambda: main["Motion"]["Done"])
     assert plc.unit.axes[0].position == 12500
     main["Button"] = False

@@ -251,3 +251,16 @@ def test_pulses_do_not_burst_out_where_a_change_would_be_far_ahead():
     events = tuple(Event(tick, CONTROL, feed) for tick, feed in feeds)
 
     held(iter([Case(-500, 200, events, settings)]), "a change before a cruise of minutes")
+
+
+def test_a_hold_that_acts_as_it_is_taken_back_is_left_by_a_start():
+    """On a ramp to a crawl no hold can act; in the crawl, where it is over, it is taken back."""
+    settings = Settings(steps=1, micrometres=10, start_feed=279_934)
+    go, crawl = 357_953, 12_974
+    first = ((168_000, go, 1), (329_185, go, 0), (5_375_362, go, 1))
+    last = ((8_863_544, crawl, 1), (8_863_852, crawl, 0), (9_015_955, go, 1))
+    events = tuple(Event(tick, CONTROL, feed, mp) for tick, feed, mp in (*first, *last))
+
+    found = held(iter([Case(193, 13, events, settings)]), "a hold that acts late")
+
+    assert found.stands == 2

@@ -57,8 +57,8 @@ class Axis:
         """What CAPTURED_STEPS may be; empty: nothing was captured."""
         self.initiated = 0
         """By then the initiator has done its work."""
-        self.before: tuple[Origin, Bits] | None = None
-        """What was before it, if it has found nothing to do."""
+        self.before: tuple[Origin, Bits, Act] | None = None
+        """What was before it, and the measure, if it has found nothing to do."""
         self.crystal = True
         self.damaged = False
 
@@ -87,8 +87,9 @@ class Axis:
         """Execute an instruction."""
         bits = self.bits
         renews = act.code in RENEWING and (act.code != Code.POS_INIT or not refusal(self, act))
+        waiting = None
         if self.before and act.tick < self.initiated and renews:
-            self._undo()
+            waiting = self._undo(self.before)
         if act.code == Code.POS_CONTROL:
             self._control(act)
         else:
@@ -104,24 +105,27 @@ class Axis:
             else:
                 self._measure(act)
         self.note(act.tick, act.tick + MS)
+        if waiting and bits.result:
+            self.initiate(waiting, act.tick, act.tick + MS)
 
-    def _undo(self) -> None:
-        """A measure of no pulses that is replaced at once may not have been looked at."""
-        if self.before and self.ways.choose():
-            self.origin, bits = self.before
-            for name in ("referenced", "pol", "err", "error", "disp", "prog"):
-                setattr(self.bits, name, getattr(bits, name))
-            self.goal = self.homing = None
-            self.cut = False
+    def _undo(self, before: tuple[Origin, Bits, Act]) -> Act | None:
+        """A measure of no pulses may not have been looked at yet; then it is returned."""
         self.before = None
+        if not self.ways.choose():
+            return None
+        self.origin, bits, measure = before
+        for name in ("referenced", "pol", "err", "error", "disp", "prog"):
+            setattr(self.bits, name, getattr(bits, name))
+        self.goal = self.homing = None
+        self.cut = False
+        return measure
 
     def minds(self, act: Act) -> bool:
         """Whether it makes a difference if the axis stands or is about to."""
         if self.homing and self.homing.part:
             return act.code != Code.POS_CAPTURE
-        return act.code in MEASURES or (
-            act.code in (Code.POS_INIT, Code.POS_RESET) and self.goal is not None
-        )
+        aims = self.goal is not None or self.programmed is not None
+        return act.code in MEASURES or (act.code in (Code.POS_INIT, Code.POS_RESET) and aims)
 
     def goal_of(self, act: Act) -> Goal:
         """What a measure aims at."""
@@ -157,6 +161,7 @@ class Axis:
     def _measure(self, act: Act) -> None:
         bits = self.bits
         bits.prog, bits.inic, bits.pol, bits.cont, bits.feed = True, True, False, False, 0
+        bits.homing = False
         self.programmed = act
         if not bits.jede:
             self.note(act.tick, act.tick + MS)
@@ -168,7 +173,7 @@ class Axis:
         """The axis stands: the measure is there."""
         bits = self.bits
         bits.inic = False
-        self.before = replace(self.origin), replace(bits)
+        self.before = replace(self.origin), replace(bits), act
         self.programmed, self.goal, self.cut, self.homing = None, None, False, None
         accel = self.settings.accel(act.values[-1])
         if act.code == Code.POS_HOME:
@@ -266,6 +271,13 @@ class Axis:
         if order != self.order:
             self.order = order
             self.motion.change(tick, order, self.late)
+
+    def limit(self, tick: int) -> None:
+        """Brake at a limit; of an axis that is free there is no fault to be told."""
+        if self.bits.disp:
+            self.fault(Error.LIMIT, tick, tick)
+        else:
+            self._give_up(tick, self.settings.accel(self.settings.error_accel))
 
     def fault(self, error: Error, low: int, high: float) -> None:
         """A fault ends the measure."""

@@ -29,6 +29,13 @@ Option = tuple[int, Curve, Places]
 """After how many pulses, on which curve, where."""
 
 
+Kind = tuple[int, Fraction | int]
+"""On a ramp up or down, or how fast."""
+
+Known = tuple[Curve, float, Kind]
+"""A curve, and where and how it is when the change comes."""
+
+
 def ceil_tick(time: int) -> int:
     """The first tick at or after a time."""
     return -(-time >> BITS)
@@ -98,7 +105,7 @@ def changed(
     tick, late = window
     waiting, moving_on = _parted(families, window)
     found += [_restarted(family, order) for family in waiting]
-    known: dict[int, list[Curve]] = {}
+    known: dict[int, list[Known]] = {}
     for family in moving_on:
         if family.base and _undone(family, tick):
             _put(known.setdefault(seen, []), family.base, tick)
@@ -110,25 +117,28 @@ def changed(
                 found += _of_wide(part, made, window, order, last=last)
                 blind += ((made, *each) for each in _between_of(part, made, window))
     for made, curves in known.items():
-        for curve in curves:
+        for curve, *_ in curves:
             found += _of_curve(curve, made, tick, order, late)
     for group in _alike(blind):
         found.append(_blindly(group, window, order))
     return found
 
 
-def _put(curves: list[Curve], curve: Curve, tick: int) -> None:
+def _put(known: list[Known], curve: Curve, tick: int) -> None:
     """Keep a curve, or make one that is as good as the same wider by it."""
-    for index, other in enumerate(curves):
-        if other.legs == curve.legs or _kind(other, tick) == _kind(curve, tick):
+    near = resolution(curve, tick)
+    place, kind = float(curve.place_at(tick << BITS)), _kind(curve, tick)
+    for index, (other, there, other_kind) in enumerate(known):
+        if abs(there - place) <= near and (other.legs == curve.legs or other_kind == kind):
             gap = apart(other, curve, tick << BITS)
-            if gap <= resolution(curve, tick):
-                curves[index] = replace(other, blur=max(other.blur, curve.blur + gap))
+            if gap <= near:
+                wider = replace(other, blur=max(other.blur, curve.blur + gap))
+                known[index] = wider, there, other_kind
                 return
-    curves.append(curve)
+    known.append((curve, place, kind))
 
 
-def _kind(curve: Curve, tick: int) -> tuple[int, Fraction | int]:
+def _kind(curve: Curve, tick: int) -> Kind:
     """Whether a curve is on a ramp at a tick, else how fast it is."""
     leg = _leg_during(curve, tick)
     return (leg.sign, 0 if leg.sign else leg.square2) if leg else (0, 0)
@@ -222,7 +232,7 @@ def _of_wide(
     """A change at the next pulse, of curves that are too many to follow each; or none in time."""
     tick, late = window
     both = family.both
-    options = [list(_places(curve, made, tick, late)) for curve in both]
+    options = [list(_places(curve, made, tick, late)) for curve in family.spread]
     if any(low <= made + 1 <= high for places in options for low, high in _pulses(places)):
         yield _composed(family, order, made + 1)
     if not last or (family.starts and any(curve.waits(tick) for curve in both)):

@@ -33,8 +33,7 @@ Numbers = NDArray[np.int64]
 
 def root(square2: Place) -> int:
     """The speed that belongs to a doubled square, scaled by 2^BITS."""
-    exact = Fraction(square2)
-    return math.isqrt((exact.numerator << 2 * BITS) // (2 * exact.denominator))
+    return math.isqrt((square2.numerator << 2 * BITS) // (2 * square2.denominator))
 
 
 @dataclass(frozen=True)
@@ -69,9 +68,10 @@ class Leg:
 
     def place_at(self, time: int) -> Fraction:
         """Where the axis is at a time, to 2^-BITS step or so."""
-        seconds = Fraction(time - self.time, TICK_HZ << BITS)
-        speed = Fraction(root(self.square2), SPEED_UNITS << BITS)
-        return self.x0 + speed * seconds + Fraction(self.sign * self.accel, 256) * seconds**2
+        ticks, unit = time - self.time, (SPEED_UNITS * TICK_HZ * TICK_HZ) << 2 * BITS
+        way = ticks * (root(self.square2) * TICK_HZ + self.sign * self.accel * ticks)
+        x0 = self.x0
+        return Fraction(x0.numerator * unit + way * x0.denominator, x0.denominator * unit)
 
     @cached_property
     def end_time(self) -> int:

@@ -199,6 +199,8 @@ class Follower:
         """what it was before, and whether it left a stand there."""
         self.starts = False
         self.feed, self.mp = 0, 1
+        self.asked = 0
+        """When what is wanted was asked for."""
         self.faulty = self.blocked = False
 
     def follow(self) -> Found:
@@ -206,9 +208,14 @@ class Follower:
         places = list(self.made.places)
         events = self.case.events
         for event, until in zip(events, [*(e.tick for e in events[1:]), 2**62], strict=True):
+            before = (self.asked, self.order)
             changed = self._take(event)
             while places and places[0].seen < until:
-                self._move(event.tick, places.pop(0))
+                place = places.pop(0)
+                if places and self._stands_first(place, places[0]):
+                    self._hold(place, *before)
+                else:
+                    self._move(event.tick, place)
                 changed = False
             if changed:
                 self._see_nothing(event.tick, until)
@@ -230,6 +237,8 @@ class Follower:
             self.order = replace(before, accel=accel)
         wanted = self.mp and not self.faulty
         self.order = replace(self.order, speed=own.speed(self.feed) if wanted else 0)
+        if self.order != before:
+            self.asked = event.tick
         return self.order != before
 
     def _acts(self, tick: int) -> bool:
@@ -251,6 +260,19 @@ class Follower:
             self._start(tick, place)
         else:
             self._change(tick, place, self.curve)
+
+    @staticmethod
+    def _stands_first(place: Place, then: Place) -> bool:
+        """Whether it is planned for a stand, and in the same pass for a start from there."""
+        return then.seen == place.seen and then.x == place.x and then.tick > place.tick
+
+    def _hold(self, place: Place, asked: int, order: Order) -> None:
+        """A hold that is taken back only acts yet, as it stands before a pulse comes."""
+        wanted, self.order = self.order, order
+        if order.speed:
+            raise Mismatch(place.tick, "it stands, but was not held")
+        self._move(asked, place)
+        self.order = wanted
 
     @staticmethod
     def _stands(curve: Curve, place: Place) -> bool:

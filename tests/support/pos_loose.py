@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 
 from pos_curve import BITS, Curve
 from pos_family import SPREAD, Family, Observed, crossing, parted, rest_ticks
@@ -102,6 +103,10 @@ class Loose(Family):
         return make
 
 
+def _place(curve: Curve) -> Fraction:
+    return curve.legs[0].x0 if curve.legs else curve.rest
+
+
 def _begin(curve: Curve) -> float:
     return curve.legs[0].time / (1 << BITS)
 
@@ -118,8 +123,10 @@ def since(value: Callable[[int], float], low: int, high: int) -> int | None:
 def loose(
     shape: Callable[[int], Curve], places: tuple[int, int], ticks: tuple[int, int], skip: int = 0
 ) -> Loose:
-    """Curves from some places, at some ticks."""
+    """Curves from some places, which rise or fall with the number, at some ticks."""
     first, last = places
+    if _place(shape(first)) > _place(shape(last)):
+        return loose(lambda n: shape(first + last - n), places, ticks, skip)
     middle = shape((first + last) // 2)
     return Loose(
         lambda tick: middle.shifted(tick << BITS),

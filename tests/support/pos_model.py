@@ -30,7 +30,7 @@ from pos_read import check_sample, read
 from pos_session import Act, Edge, Event, Sample, Session, Setting
 from pos_target import Origin, Seat
 from pos_ways import Ways
-from pos_words import AXES, MOVES_ORIGIN, MS, REGISTER, US, Code, Error, Mismatch, Settings, Unsure
+from pos_words import AXES, MOVES_ORIGIN, MS, REGISTER, US, Code, Mismatch, Settings, Unsure
 
 NOTICED = 4
 """Ticks after a stand, by when its last pulse has come for sure."""
@@ -124,6 +124,10 @@ class Follower:
         axis, motion, bits = self.axis, self.axis.motion, self.axis.bits
         while bits.jede:
             first, last = motion.stand()
+            if axis.goes_on and first < last and first < tick:
+                # what comes after the first stand may be of the next motion, if it is that
+                motion.verify(math.floor(first) - NOTICED, goes_on=True)
+                first, last = motion.stand()
             stands = math.ceil(last + motion.blur_ticks) + NOTICED
             if first < tick and last - first > FAR_APART and axis.goes_on:
                 motion.rests_early(self.ways, FAR_APART)
@@ -163,10 +167,10 @@ class Follower:
             bits.armed, bits.captures = False, bits.captures + 1
         if axis.homing and axis.active("reference") != before["reference"]:
             axis.homing.edge(edge.tick, late)
-        if bits.jede and bits.disp and axis.blocked(axis.motion.sign) and not bits.fault:
+        if bits.jede and axis.blocked(axis.motion.sign) and not bits.fault:
             if axis.motion.may_wait(edge.tick) and axis.motion.waits(self.ways, edge.tick):
                 axis.stays()
-            axis.fault(Error.LIMIT, edge.tick, edge.tick)
+            axis.limit(edge.tick)
         axis.note(edge.tick, edge.tick + MS)
 
     def _set(self, event: Setting) -> None:
@@ -177,7 +181,8 @@ class Follower:
         if event.name in MOVES_ORIGIN:
             step = axis.seat.step
             backlash = axis.settings.backlash_steps
-            axis.seat = Seat(step, backlash, backlash)
+            if backlash != axis.seat.backlash:
+                axis.seat = Seat(step, backlash, backlash)
             axis.origin = Origin(step, 0, step, 0)
             axis.bits.referenced = False
         axis.note(event.tick, event.tick + MS)

@@ -19,8 +19,8 @@ from pos_loose import resting
 from pos_ways import Ways
 from pos_words import Mismatch, Unsure
 
-FAMILIES_MAX = 64
-WORK_MAX = 2500
+FAMILIES_MAX = 1500
+WORK_MAX = 40_000
 """Curves of an axis that are compared in a session, each as often as it is."""
 
 

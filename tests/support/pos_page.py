@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Self
 
 from playwright.sync_api import Browser, Locator, expect
 from service_page import DESK, NOT_KNOWN, PATIENCE_SECONDS
@@ -20,7 +21,7 @@ class PosService(UnitService):
 class PosPage(UnitPage):
     """One page in one browser. It fails at its end if a script of the page has failed."""
 
-    def ready(self) -> PosPage:
+    def ready(self) -> Self:
         """Wait until it shows a unit."""
         expect(self.at("state")).to_have_attribute("data-kind", "good")
         expect(self.at("position-1")).not_to_have_text(NOT_KNOWN)
@@ -35,7 +36,8 @@ class PosPage(UnitPage):
         return self.at(f"bits-{axis}").get_by_text(name, exact=True)
 
     def move(self, mm: str, feed: str = "600", axis: int = 1) -> None:
-        """Fill in a motion and begin it."""
+        """Fill in a motion and begin it, after the danger was confirmed."""
+        self.confirm_danger()
         self.at(f"way-{axis}").fill(mm)
         self.at(f"feed-value-{axis}").fill(feed)
         self.at(f"move-{axis}").click()

@@ -91,7 +91,7 @@ class Writer:
         if rng.random() < 0.3:
             self.setting("start_feed", self.feeds(5, 800))
         if rng.random() < 0.3:
-            self.setting("error_accel", 4 * self.slope())
+            self.setting("error_accel", min(65_535, 4 * self.slope()))
         if rng.random() < 0.3:
             self.setting("backlash", round(rng.choice((1, 3, 20)) / float(self.settings.ratio)))
         if rng.random() < 0.2:
@@ -252,7 +252,7 @@ def session(seed: object) -> Session:
         writer.write()
     end = max(writer.tick for writer in writers) + 200 * MS
     script = sorted((a for writer in writers for a in writer.script), key=lambda act: act.tick)
-    edges = spaced([edge for writer in writers for edge in writer.edges])
+    edges = spaced([edge for writer in writers for edge in writer.edges if edge.tick < end])
     reads = {(rng.randrange(1, end // MS) * MS, rng.choice(axes)) for _ in range(8)}
     reads |= {(end - MS, axis) for axis in axes}
     return Session(tuple(script), tuple(edges), end, tuple(sorted(reads)))

@@ -7,7 +7,8 @@
  *   in INPUT LEVEL  BI1 to BI8 has a level
  *   restart         power goes and comes; what was stored stays, and the axes stand where they are
  * Goes out for each `run`: where the axes are, in steps, how many pulses all of them have made, and the bytes that the
- * unit has sent in this time, in hexadecimal, or `-`. Exit status 2: the input is no such thing.
+ * unit has sent in this time, in hexadecimal, or `-`. Exit status 2: the input is no such thing. An argument names a
+ * file for the steps, as `--steps` of the simulator writes them.
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -31,6 +32,7 @@ struct probe {
     uint32_t heard_count;
     int64_t position[UNIT_MOTORS];
     uint64_t pulses;
+    FILE *steps; /* NULL: nobody wants them */
 };
 
 static struct probe probe;
@@ -44,9 +46,11 @@ static _Noreturn void complain(const char *what)
 static void on_step(void *context, uint64_t tick, unsigned motor, bool backward)
 {
     (void)context;
-    (void)tick;
     probe.position[motor] += backward ? -1 : 1;
     probe.pulses++;
+    if (probe.steps != NULL) {
+        (void)fprintf(probe.steps, "%" PRIu64 ",%u,%" PRId64 "\n", tick, motor + 1U, probe.position[motor]);
+    }
 }
 
 static void on_line(void *context, uint64_t tick, uint8_t value)
@@ -121,9 +125,21 @@ static void take(const char *line)
     }
 }
 
-int main(void)
+static void open_steps(const char *path)
+{
+    probe.steps = fopen(path, "w");
+    if (probe.steps == NULL) {
+        complain("the file of steps cannot be written");
+    }
+    (void)fprintf(probe.steps, "# tick_hz=%" PRIu64 "\ntick,motor,position\n", (uint64_t)TICKS_PER_US * 1000000U);
+}
+
+int main(int count, char **arguments)
 {
     char line[INPUT_LINE_MAX];
+    if (count > 1) {
+        open_steps(arguments[1]);
+    }
     host_machine_init(&probe.machine, 0);
     probe.machine.ahead_ticks = AHEAD_TICKS;
     probe.machine.listener = (struct host_listener){.step = on_step, .line = on_line};

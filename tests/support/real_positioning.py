@@ -25,12 +25,12 @@ Tell = Callable[[list[int] | None, list[list[int]] | None], None]
 
 
 class RealUnit:
-    """A unit of address 1 at 115 200 Bd; to be closed."""
+    """A unit of address 1 at 115 200 Bd; to be closed. `more`: arguments of the probe."""
 
-    def __init__(self) -> None:
+    def __init__(self, *more: str) -> None:
         build = Path(os.environ.get("RKM04_BUILD", ROOT / "build" / "host"))
         self.process = subprocess.Popen(
-            [str(build / "bin" / "positioning-probe")],
+            [str(build / "bin" / "positioning-probe"), *more],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1,
         )  # fmt: skip
         self.tell: Tell | None = None
@@ -70,7 +70,11 @@ class RealUnit:
     def send(self, request: ModbusPDU) -> None:
         request.dev_id = 1
         self.heard = b""
-        self.put(f"send {MASTER.buildFrame(request).hex()}")
+        self.put_frame(MASTER.buildFrame(request))
+
+    def put_frame(self, frame: bytes) -> None:
+        """A frame begins on the line."""
+        self.put(f"send {frame.hex()}")
 
     def write(self, register: int, value: int) -> None:
         """Writes one register, and waits until that has been answered."""

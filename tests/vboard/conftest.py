@@ -137,8 +137,8 @@ def unit(
 def make_acts(program: Path, tmp_path: Path) -> MakeActs:
     """Make a list of acts for the step driver of a board whose counter begins somewhere."""
 
-    def make(name: str = SHORT, start: int = 0) -> Acts:
-        return Acts(program, tmp_path, name, start)
+    def make(name: str = SHORT, start: int = 0, half_period: bool = False) -> Acts:
+        return Acts(program, tmp_path, name, start, half_period)
 
     return make
 

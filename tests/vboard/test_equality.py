@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from reference import TICK_HZ, Curve, single
+from rkm04_tools import board
 from virtual_board import (
     TICKS_PER_MS,
     Message,
@@ -84,6 +85,18 @@ def test_an_example_with_quiet_inputs_makes_the_same_pulses(unit, name, seconds)
     simulated, modelled = both(unit, {1: text}, seconds, [Message(1, text)])
 
     assert len(simulated.steps.tick) > 0
+    assert differences(simulated, modelled) == []
+
+
+@pytest.mark.parametrize(("name", "seconds"), [("2-back-and-forth", 8), ("9-compound", 30)])
+def test_pulses_of_half_a_period_are_at_the_same_ticks(unit, name, seconds):
+    half = VirtualBoard(
+        unit.program, board.build(board.DEFAULT_BOARD, half_period=True), unit.folder
+    )
+    text = example(name)
+
+    simulated, modelled = both(half, {1: text}, seconds, [Message(1, text)])
+
     assert differences(simulated, modelled) == []
 
 

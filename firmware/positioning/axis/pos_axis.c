@@ -178,10 +178,10 @@ enum pos_error pos_axis_order(struct pos_axis *axis, struct pos_control_record *
     }
     axis->control = control != NULL ? control : &axis->own;
     axis->state = (uint8_t)(pos_axis_is_busy(axis) ? POS_WAITING : POS_READY);
+    pos_axis_drop(axis);
     axis->order = *order;
     axis->waits = true;
-    axis->feed = 0;
-    pos_axis_mark(axis, POS_CNT_INIC, (unsigned)POS_CNT_RESET | (unsigned)POS_CNT_CONT);
+    pos_axis_mark(axis, POS_CNT_INIC, POS_CNT_RESET);
     return POS_OK;
 }
 

@@ -58,7 +58,8 @@ struct pos_allowed {
 
 enum pos_phase {
     POS_PHASE_NONE,
-    POS_PHASE_FIND,   /* homing: to the switch */
+    POS_PHASE_READY,  /* homing: not begun; what comes first is seen when it does */
+    POS_PHASE_FIND,   /* to the switch */
     POS_PHASE_LEAVE,  /* off it */
     POS_PHASE_RETURN, /* to where it ends */
 };

@@ -49,11 +49,20 @@ static void enter(struct pos_axis *axis, enum pos_phase phase, uint8_t inputs)
     }
 }
 
-void pos_home_begin(struct pos_axis *axis, uint8_t inputs)
+void pos_home_prepare(struct pos_axis *axis)
 {
     if (axis->order.method == (uint32_t)POS_METHOD_HERE) {
         refer(axis, axis->frame.step);
     } else {
+        axis->phase = (uint8_t)POS_PHASE_READY;
+        pos_axis_mark(axis, POS_CNT_CONT, 0);
+    }
+}
+
+void pos_home_start(struct pos_axis *axis, uint8_t inputs)
+{
+    axis->frame.referenced = false;
+    if (axis->phase == (uint8_t)POS_PHASE_READY) {
         bool active = pos_axis_is_active(axis, POS_AXIS_REFERENCE, inputs);
         enter(axis, active ? POS_PHASE_LEAVE : POS_PHASE_FIND, inputs);
     }

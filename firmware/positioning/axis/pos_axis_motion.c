@@ -138,13 +138,18 @@ static void clear_watch(struct pos_axis *axis)
     axis->found = false;
 }
 
-void pos_axis_give_up(struct pos_axis *axis, bool fault)
+void pos_axis_drop(struct pos_axis *axis)
 {
     axis->phase = (uint8_t)POS_PHASE_NONE;
     axis->waits = false;
     axis->feed = 0;
     pos_axis_mark(axis, 0, (unsigned)POS_CNT_INIC | (unsigned)POS_CNT_CONT);
     clear_watch(axis);
+}
+
+void pos_axis_give_up(struct pos_axis *axis, bool fault)
+{
+    pos_axis_drop(axis);
     if (!pos_axis_is_busy(axis)) {
         pos_frame_give_up(&axis->frame);
     } else if (fault) {
@@ -189,14 +194,14 @@ static void begin_measure(struct pos_axis *axis)
 }
 
 /* The initiator: the axis stands. What a measure before has left is dropped. */
-static void initiate(struct pos_axis *axis, uint8_t inputs)
+static void initiate(struct pos_axis *axis)
 {
     axis->waits = false;
     axis->state = (uint8_t)POS_READY;
     pos_axis_mark(axis, 0, POS_CNT_INIC);
     pos_frame_give_up(&axis->frame);
     if (axis->order.kind == (uint8_t)POS_KIND_HOME) {
-        pos_home_begin(axis, inputs);
+        pos_home_prepare(axis);
     } else {
         begin_measure(axis);
     }
@@ -290,7 +295,7 @@ uint64_t pos_axis_poll(struct pos_axis *axis, uint8_t inputs)
         pos_home_follow(axis, inputs); /* the switch has changed in a hold */
     }
     if (axis->waits && !pos_axis_is_busy(axis)) {
-        initiate(axis, inputs);
+        initiate(axis);
     }
     return wake;
 }
@@ -338,11 +343,13 @@ static void watch_limit(struct pos_axis *axis, int8_t input)
 void pos_axis_start(struct pos_axis *axis, uint64_t start_tick, uint8_t inputs)
 {
     if (axis->phase != (uint8_t)POS_PHASE_NONE) {
-        axis->frame.referenced = false;
+        pos_home_start(axis, inputs);
     }
     int8_t input = limit_input(axis);
     if (pos_watch_is_active(input, inputs)) {
         pos_axis_fault(axis, POS_ERROR_LIMIT);
+    }
+    if (axis->state == (uint8_t)POS_FAULT) {
         return;
     }
     if (axis->state != (uint8_t)POS_MOVING) {

@@ -32,14 +32,19 @@ bool pos_axis_aim(struct pos_axis *axis, int64_t step);
 /* The measure is over, at its target. */
 void pos_axis_reached(struct pos_axis *axis);
 
+/* Nothing is left of what was to be done, nor wanted. */
+void pos_axis_drop(struct pos_axis *axis);
+
 /* Whatever is done ends: the drive stops, nothing of a measure is left. */
 void pos_axis_give_up(struct pos_axis *axis, bool fault);
 
 /* Whether an input of the axis, a setting, is active. */
 bool pos_axis_is_active(const struct pos_axis *axis, enum pos_axis_register input, uint8_t inputs);
 
-/* Homing: begins; goes on where a part of it has ended; the speed that it allows. */
-void pos_home_begin(struct pos_axis *axis, uint8_t inputs);
+/* Homing: stands before its begin; leaves a stand, the first time with its first part; goes on where a part of it has
+ * ended; the speed that it allows. */
+void pos_home_prepare(struct pos_axis *axis);
+void pos_home_start(struct pos_axis *axis, uint8_t inputs);
 void pos_home_follow(struct pos_axis *axis, uint8_t inputs);
 uint32_t pos_home_feed(const struct pos_axis *axis);
 

@@ -94,6 +94,13 @@ uint64_t pos_drive_poll(struct pos_drive *drive);
 /* It has come to rest: standing from now on. False if it has not, or that has been told. */
 bool pos_drive_take_end(struct pos_drive *drive);
 
+/* The unit's time at which it comes to rest, when that has been planned; also once it counts as standing, as no pulse
+ * comes any more. 0 where it has not moved since the measure was aimed. */
+static inline uint64_t pos_drive_rest_tick(const struct pos_drive *drive)
+{
+    return group_end_tick(&drive->group);
+}
+
 /* The unit's time at which it came to rest, or of its last pulse, which may be a tick later. */
 uint64_t pos_drive_end_tick(const struct pos_drive *drive);
 

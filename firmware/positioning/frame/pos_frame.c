@@ -8,9 +8,12 @@ void pos_frame_init(struct pos_frame *frame, const struct pos_scale *scale, uint
 
 void pos_frame_reset(struct pos_frame *frame, const struct pos_scale *scale, uint32_t backlash_um, int64_t motor_steps)
 {
+    uint32_t backlash = (uint32_t)pos_measure_step(scale, backlash_um);
     frame->scale = *scale;
-    frame->backlash = (uint32_t)pos_measure_step(scale, backlash_um);
-    frame->motor_steps = motor_steps - frame->step - (int64_t)frame->backlash;
+    if (backlash != frame->backlash) {
+        frame->backlash = backlash;
+        frame->motor_steps = motor_steps - frame->step - (int64_t)backlash;
+    }
     frame->base_step = frame->step;
     frame->base_um = 0;
     frame->zero_step = frame->step;

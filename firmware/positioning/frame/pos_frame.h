@@ -44,8 +44,8 @@ struct pos_way {
 /* At step 0, where the motor's count is 0, too. */
 void pos_frame_init(struct pos_frame *frame, const struct pos_scale *scale, uint32_t backlash_um);
 
-/* Another scale or backlash, with all slack taken up; or the same once more. B and C are where the axis is, M and X 0;
- * it is not referenced. */
+/* Another scale or backlash, or the same once more. Where the backlash is another one in steps, all slack is taken up.
+ * B and C are where the axis is, M and X 0; it is not referenced. */
 void pos_frame_reset(struct pos_frame *frame, const struct pos_scale *scale, uint32_t backlash_um, int64_t motor_steps);
 
 /* The step of the axis when the motor is at one that it has come to since pos_frame_follow, one way only. */

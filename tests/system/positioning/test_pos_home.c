@@ -1,66 +1,13 @@
 /* Homing: to the switch, off it, and back to where it was left; by which measures then count. The switch is input 3. */
-#include "pos_rig.h"
-
-#define FEED(mm_per_min) ((uint32_t)(mm_per_min) << 16U)
-
-enum {
-    SWITCH = 3,
-    ACCEL = 500,
-};
-
-static int64_t switch_from; /* steps between which the switch is active; the motor is watched at its pins */
-static int64_t switch_to;
-
-static uint64_t poll(void *context)
-{
-    bool active = rig_position[0] >= switch_from && rig_position[0] <= switch_to;
-    host_machine_set_input(&machine, SWITCH, active);
-    return rig_poll(context);
-}
-
-/* The switch follows the motor within 50 us, before the next pulse. */
-static void run_ms(uint64_t ms)
-{
-    for (uint64_t i = 0; i < ms * 20U; i++) {
-        host_machine_run(&machine, machine.now + TICKS_PER_MS / 20U, poll, NULL, NULL);
-    }
-}
-
-static void set(uint32_t number, uint32_t value, bool wide)
-{
-    const uint16_t words[] = {(uint16_t)(value >> 16U), (uint16_t)value};
-    TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE,
-                          positioning_write(&unit, number, wide ? 2 : 1, wide ? words : &words[1]));
-}
+#include "pos_home_rig.h"
 
 void setUp(void)
 {
-    rig_set_up();
-    rig_run_ms(10);
-    set(148, SWITCH, false);
-    set(154, 20000, true);
-    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
-    switch_from = 300;
-    switch_to = 100000;
+    set_up_homing();
 }
 
 void tearDown(void)
 {
-}
-
-static void home(unsigned method, int32_t position_um)
-{
-    TEST_ASSERT_EQUAL_INT(POS_OK, pos_home(&unit, NULL, method, position_um, ACCEL, 1));
-    TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, FEED(1000), 1, 1));
-}
-
-static void assert_home(int32_t position_um)
-{
-    struct pos_values values = rig_values(1);
-    TEST_ASSERT_EQUAL_HEX(0x0803, rig_status(1) & 0xFDFFU);
-    TEST_ASSERT_EQUAL_INT32(position_um, values.position_um);
-    TEST_ASSERT_EQUAL_HEX(POS_FLAG_REFERENCED, values.flags & (POS_FLAG_REFERENCED | POS_FLAG_HOMING));
-    TEST_ASSERT_EQUAL_INT32(0, values.way_left_um);
 }
 
 void test_an_axis_stands_where_the_switch_was_left(void)
@@ -262,15 +209,6 @@ static void set_up_fast(void)
     TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
 }
 
-/* Runs until homing is in a part of it, and moves. */
-static void run_until(enum pos_phase phase)
-{
-    for (unsigned i = 0; i < 5000 && unit.axes[0].phase != (uint8_t)phase; i++) {
-        run_ms(1);
-    }
-    TEST_ASSERT_EQUAL_UINT8(phase, unit.axes[0].phase);
-}
-
 void test_an_axis_that_has_gone_past_the_edge_comes_back_to_it(void)
 {
     set_up_fast();
@@ -374,18 +312,6 @@ void test_a_limit_of_the_same_input_the_other_way_round_is_the_switch_too(void)
     home(19, 0);
     run_ms(3000);
     assert_home(0);
-}
-
-void test_a_way_of_homing_below_a_step_is_a_fault_at_once(void)
-{
-    TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));
-    rig_run_ms(2);
-    set(154, 4, true);
-    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
-    home(19, 0);
-    run_ms(10);
-    TEST_ASSERT_EQUAL_UINT16(POS_ERROR_HOME, rig_values(1).error);
-    TEST_ASSERT_EQUAL_UINT(0, rig_pulses[0]);
 }
 
 /* It has left the switch, comes back to it for a moment, and main is late. */

@@ -248,3 +248,23 @@ void test_a_change_of_the_axis_itself_makes_the_present_place_zero_and_the_same_
     }
     TEST_ASSERT_TRUE(machine.turned[0]);
 }
+
+/* 50 um are 5 steps. INVERT is another setting: the motor has them before it, as it went backward last. */
+void test_a_direction_that_is_turned_round_keeps_the_slack_that_there_is(void)
+{
+    static const uint16_t backlash_um = 50;
+    static const uint16_t inverted = 1;
+    static const int32_t ways_um[] = {-100, 100};
+    static const unsigned pulses[] = {15, 30};
+    TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, positioning_write(&unit, 141, 1, &backlash_um));
+    for (unsigned i = 0; i < 2; i++) {
+        TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 1, 0));
+        TEST_ASSERT_EQUAL_INT(POS_OK, pos_mode(&unit, NULL, ways_um[i], 500, 1));
+        TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, UINT32_C(1000) << 16U, 1, 1));
+        rig_run_ms(500);
+        TEST_ASSERT_EQUAL_UINT(pulses[i], rig_pulses[0]);
+        TEST_ASSERT_EQUAL_INT(POS_OK, pos_reset(&unit, 1));
+        rig_run_ms(2);
+        TEST_ASSERT_EQUAL_INT(MODBUS_EXCEPTION_NONE, positioning_write(&unit, 134, 1, &inverted));
+    }
+}

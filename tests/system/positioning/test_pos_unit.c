@@ -341,21 +341,28 @@ void test_more_bytes_than_a_pass_hears_are_heard_in_the_next_ones(void)
 
 /* ---- idle ------------------------------------------------------------------------------------------------------ */
 
-void test_the_unit_is_idle_when_nothing_moves_waits_or_is_sent(void)
+static void assert_idle_at_rest_only(unsigned axis)
 {
     TEST_ASSERT_TRUE(positioning_is_idle(&unit));
-    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 4, 0));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, axis, 0));
     TEST_ASSERT_TRUE(positioning_is_idle(&unit));
-    TEST_ASSERT_EQUAL_INT(POS_OK, pos_mode(&unit, NULL, 100, ACCEL, 4));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_mode(&unit, NULL, 100, ACCEL, axis));
     TEST_ASSERT_FALSE(positioning_is_idle(&unit));
     rig_run_ms(2);
     TEST_ASSERT_TRUE(positioning_is_idle(&unit));
-    TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, FEED(1000), 1, 4));
+    TEST_ASSERT_EQUAL_INT(POS_OK, pos_control(&unit, NULL, FEED(1000), 1, axis));
     TEST_ASSERT_FALSE(positioning_is_idle(&unit));
     rig_run_ms(5);
     TEST_ASSERT_FALSE(positioning_is_idle(&unit));
     rig_run_ms(1000);
     TEST_ASSERT_TRUE(positioning_is_idle(&unit));
+}
+
+void test_the_unit_is_idle_when_nothing_moves_waits_or_is_sent(void)
+{
+    for (unsigned axis = 1; axis <= (unsigned)POS_AXES; axis++) {
+        assert_idle_at_rest_only(axis);
+    }
 }
 
 void test_the_unit_is_not_idle_while_an_answer_is_sent(void)

@@ -281,6 +281,25 @@ void test_the_speed_is_that_of_the_start_from_the_start_on(void)
     TEST_ASSERT_EQUAL_UINT32(SPEED(50), pos_drive_speed(&drive));
 }
 
+/* Two changes between the first pulse and the second: the speed of the first has been noted. */
+void test_the_speed_is_not_that_of_a_motion_before(void)
+{
+    aim(3, false);
+    start(SPEED(10));
+    run_ms(150);
+    TEST_ASSERT_EQUAL_INT64(1, position);
+    pos_drive_change(&drive, SPEED(20));
+    pos_drive_change(&drive, SPEED(10));
+    TEST_ASSERT_EQUAL_UINT32(SPEED(10), pos_drive_speed(&drive));
+    run_ms(500);
+    TEST_ASSERT_TRUE(pos_drive_take_end(&drive));
+    aim(1000, false);
+    start(SPEED(100));
+    run_ms(15);
+    TEST_ASSERT_EQUAL_INT64(4, position);
+    TEST_ASSERT_EQUAL_UINT32(SPEED(100), pos_drive_speed(&drive));
+}
+
 void test_only_what_is_held_can_be_resumed(void)
 {
     aim(100000, false);
@@ -298,6 +317,40 @@ void test_only_what_is_held_can_be_resumed(void)
     run_ms(50);
     TEST_ASSERT_TRUE(pos_drive_take_end(&drive));
     TEST_ASSERT_FALSE(pos_drive_resume(&drive, SPEED(5000)));
+}
+
+/* On a ramp whose next pulse is seconds ahead neither a change nor a stop can be planned. */
+static void wait_for_a_far_pulse(void)
+{
+    pos_drive_aim(&drive, &(struct pos_measure){.pulses = 3, .accel = ACCEL / 10000});
+    start(SPEED(7));
+    run_ms(75);
+    pos_drive_change(&drive, SPEED(1) / 4U);
+    run_ms(30);
+    TEST_ASSERT_EQUAL_INT64(0, position);
+}
+
+void test_a_hold_that_is_taken_back_before_it_is_planned_keeps_the_change_that_waits(void)
+{
+    wait_for_a_far_pulse();
+    pos_drive_change(&drive, SPEED(7));
+    pos_drive_hold(&drive);
+    run_ms(2);
+    TEST_ASSERT_TRUE(pos_drive_resume(&drive, SPEED(7)));
+    run_ms(800);
+    TEST_ASSERT_EQUAL_INT64(3, position);
+    TEST_ASSERT_TRUE(pos_drive_take_end(&drive));
+}
+
+void test_a_hold_that_is_taken_back_before_it_is_planned_takes_the_speed_that_is_wanted_then(void)
+{
+    wait_for_a_far_pulse();
+    pos_drive_hold(&drive);
+    run_ms(2);
+    TEST_ASSERT_TRUE(pos_drive_resume(&drive, SPEED(7)));
+    run_ms(800);
+    TEST_ASSERT_EQUAL_INT64(3, position);
+    TEST_ASSERT_TRUE(pos_drive_take_end(&drive));
 }
 
 void test_a_fault_brakes_with_its_own_acceleration_also_while_it_is_held(void)

@@ -268,3 +268,14 @@ void test_another_backlash_takes_up_all_slack(void)
     assert_way(-12, -6, 1, false);
     assert_way(-12, -8, 4, true);
 }
+
+void test_the_same_backlash_in_steps_keeps_the_slack_that_there_is(void)
+{
+    static const struct pos_scale twice = {.steps = 2, .micrometres = 20};
+    pos_frame_init(&frame, &scale, 50);
+    follow(-12);
+    pos_frame_reset(&frame, &twice, 50, -12);
+    TEST_ASSERT_EQUAL_INT64(-7, frame.base_step);
+    assert_way(-12, -6, 6, false);
+    assert_way(-12, -8, 1, true);
+}

@@ -205,6 +205,13 @@ void test_the_upper_word_of_the_feed_alone_makes_the_lower_one_0(void)
     TEST_ASSERT_EQUAL_HEX32(0x01F40000, registers.axes[0][POS_AXIS_FEED]);
 }
 
+void test_the_word_after_those_of_a_request_is_none_of_a_value(void)
+{
+    const uint16_t words[] = {500, 7};
+    TEST_ASSERT_TRUE(take(106, 1, words));
+    assert_only(POS_USE_MOTION, 1, POS_AXIS_FEED, 0x01F40000);
+}
+
 void test_a_request_is_executed_parameters_first_then_instructions_then_control_and_feed(void)
 {
     static const uint16_t values[] = {0x0202, 0, 0, 0x2710, 0x01F4, 1, 0x03E8, 0};
