@@ -1,10 +1,14 @@
-"""Builds the programs for WebAssembly; several processes may ask for them at the same time."""
+"""Builds the programs for WebAssembly and runs them; several processes may ask at the same time."""
 
 from __future__ import annotations
 
 import fcntl
+import json
 import subprocess
+import sys
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "wasm"
@@ -20,3 +24,12 @@ def build_wasm() -> Path:
             done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
             assert done.returncode == 0, done.stdout + done.stderr
     return BUILD / "bin"
+
+
+def run_all(jobs: Sequence[dict[str, Any]]) -> list[int]:
+    """Run them in one process; their exit statuses."""
+    node = Path(sys.executable).with_name("node")
+    command: list[str | Path] = [node, "--no-warnings", ROOT / "tests/support/wasm_run.mjs"]
+    out = subprocess.check_output(command, input=json.dumps(jobs), text=True)
+    statuses: list[int] = json.loads(out)
+    return statuses

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from packing import wheels
 from packing.targets import TARGETS
-from rkm04_tools import board
+from rkm04_tools import board, static_pages
 from wasm_build import build_wasm
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -45,7 +45,7 @@ def installed(tmp_path_factory) -> Path:
     """The environment that the wheel was installed into; what it needs comes from our own one."""
     folder: Path = tmp_path_factory.mktemp("wheel")
     wasm = build_wasm()
-    files = [wasm / f"{name}.wasm" for name in ("rkm04-host", "rkm04-unit")]
+    files = [wasm / name for name in static_pages.PROGRAMS]
     wheel = wheels.build_wheel(TARGET, files, folder)
     own = folder / "venv"
     make: list[str | Path] = [sys.executable, "-m", "venv", "--without-pip", own]
@@ -107,13 +107,15 @@ def test_every_command_tells_the_version_that_its_unit_answers(run):
     assert board.version().startswith(f"{int(wheels.version().partition('.')[0]):02}.")
 
 
-def test_the_page_is_brought_with_its_unit_and_the_examples(run, tmp_path):
-    done = run("rkm04", "service", "--static", "page")
+def test_the_pages_are_brought_with_their_units_and_the_examples(run, tmp_path):
+    done = run("positioning", "service", "--static", "page")
 
-    page = (tmp_path / "page" / "index.html").read_text(encoding="utf-8")
     assert (done.returncode, done.stderr) == (0, "")
-    assert 'id="alone"' in page
-    assert "4-loop.rks" in page
+    assert done.stdout.startswith("page/positioning.html: open it in a browser")
+    for name, example in (("index", "4-loop.rks"), ("gve134", ".gve"), ("positioning", "hold.csv")):
+        page = (tmp_path / "page" / f"{name}.html").read_text(encoding="utf-8")
+        assert 'id="alone"' in page
+        assert example in page
 
 
 def test_the_pages_of_the_other_units_are_brought(installed):
@@ -131,6 +133,7 @@ def test_the_pages_of_the_other_units_are_brought(installed):
         ("rkm04", ["board", "build"], "building an image"),
         ("rkm04", ["sim", "a.rks", "--target", "stm32"], "--target stm32"),
         ("gve134", ["bench", "--target", "stm32"], "bench --target stm32"),
+        ("gve134", ["sim", "a.rks", "--target", "stm32"], "--target stm32"),
         ("positioning", ["board", "build"], "building an image"),
     ],
 )

@@ -1,30 +1,33 @@
 """The programs for WebAssembly do what those for this machine do, byte for byte.
 
-`tools/test --long` draws 1000 random programs; otherwise there are few, as drawing them takes long.
+Drawing random programs takes long: without `tools/test --long` few are drawn, and the others are
+these with smaller numbers.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import random
+import re
 import subprocess
-import sys
-from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import pytest
 from chance import SEED
 from hypothesis import HealthCheck, given, seed, settings
 from program_probe import Script
 from program_strategies import scripts
-from wasm_build import build_wasm
+from wasm_build import build_wasm, run_all
 
 ROOT = Path(__file__).resolve().parents[2]
 NATIVE = Path(os.environ.get("RKM04_BUILD", ROOT / "build" / "host")) / "bin"
 EXAMPLES = ROOT / "tools" / "examples"
-PROGRAMS = 1000 if "RKM04_LONG" in os.environ else 60
+PROGRAMS = 1000
+DRAWN = PROGRAMS if "RKM04_LONG" in os.environ else 60
 SECONDS = "60"
+HEADER_BYTES = 2
+"""Of a message: its number and its motor."""
 FILES = ("steps", "trace", "vcd", "curve")
 REAL_TIME = ("real_seconds", "ratio")
 
@@ -32,15 +35,6 @@ REAL_TIME = ("real_seconds", "ratio")
 @pytest.fixture(scope="module")
 def wasm() -> Path:
     return build_wasm()
-
-
-def run_all(jobs: Sequence[dict[str, Any]]) -> list[int]:
-    """Run them in one process; their exit statuses."""
-    node = Path(sys.executable).with_name("node")
-    command: list[str | Path] = [node, "--no-warnings", ROOT / "tests/support/wasm_run.mjs"]
-    out = subprocess.check_output(command, input=json.dumps(jobs), text=True)
-    statuses: list[int] = json.loads(out)
-    return statuses
 
 
 def arguments_of(example: Path, folder: str) -> list[str]:
@@ -89,7 +83,7 @@ def test_every_example_makes_the_same_pulses_traces_waves_and_curves(wasm, tmp_p
             assert made == (ours / f"{example.stem}.{name}").read_bytes(), (example, name)
 
 
-def drawn(count: int) -> str:
+def drawn(count: int) -> list[str]:
     """Scripts for the program probe."""
     found: list[str] = []
 
@@ -102,12 +96,35 @@ def drawn(count: int) -> str:
         found.append(script.lines)
 
     take()
-    return "".join(found)
+    return found
+
+
+def varied(script: str, chance: random.Random) -> str:
+    """The same script with smaller numbers, which begin with the same digit, in its programs."""
+
+    def other(digits: re.Match[str]) -> str:
+        lowest = int(digits[0][0]) * 10 ** (len(digits[0]) - 1)
+        return str(chance.randint(lowest, int(digits[0])))
+
+    def sent(line: re.Match[str]) -> str:
+        message = bytes.fromhex(line[2]).decode("latin-1")
+        text = message[:HEADER_BYTES] + re.sub(r"[1-9]\d+", other, message[HEADER_BYTES:])
+        return f"{line[1]}{text.encode('latin-1').hex()}"
+
+    return re.sub(r"^(send \d+ )([0-9a-f]+)$", sent, script, flags=re.MULTILINE)
+
+
+def programs(count: int) -> list[str]:
+    """So many, all different, as far as they have numbers."""
+    chance = random.Random(SEED)
+    found = drawn(min(count, DRAWN))
+    return found + [varied(chance.choice(found), chance) for _ in range(count - len(found))]
 
 
 def test_random_programs_do_the_same_to_the_tick(wasm, tmp_path):
     given_, told_ = tmp_path / "scripts", tmp_path / "told"
-    given_.write_text(drawn(PROGRAMS), encoding="ascii")
+    scripts_ = programs(PROGRAMS)
+    given_.write_text("".join(scripts_), encoding="ascii")
     job = {
         "wasm": str(wasm / "program-probe.wasm"),
         "arguments": [],
@@ -121,6 +138,7 @@ def test_random_programs_do_the_same_to_the_tick(wasm, tmp_path):
     with given_.open("rb") as stdin:
         expected = subprocess.check_output([NATIVE / "program-probe"], stdin=stdin)
     answers = told_.read_bytes()
+    assert len(set(scripts_)) > 0.7 * PROGRAMS
     assert answers.count(b"\nend ") >= PROGRAMS // 2
     assert answers == expected
 

@@ -30,10 +30,15 @@ void json_print_utf8(const char *string)
 {
     (void)putchar('"');
     for (; *string != '\0'; string++) {
-        if (*string == '"' || *string == '\\') {
+        unsigned char byte = (unsigned char)*string;
+        if (byte < 0x20 || byte == 0x7F) {
+            (void)printf("\\u%04x", (unsigned)byte);
+            continue;
+        }
+        if (byte == '"' || byte == '\\') {
             (void)putchar('\\');
         }
-        (void)putchar(*string);
+        (void)putchar(byte);
     }
     (void)putchar('"');
 }

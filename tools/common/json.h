@@ -11,7 +11,7 @@
 void json_print_text(const char *text, size_t length);
 void json_print_string(const char *string);
 
-/* Prints a quoted string that is UTF-8 and has no control characters. */
+/* Prints a quoted string that is UTF-8. */
 void json_print_utf8(const char *string);
 
 /* Prints value / 10^decimals with that many decimals. */

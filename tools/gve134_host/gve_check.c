@@ -54,7 +54,7 @@ __attribute__((format(printf, 5, 6))) static void tell(struct checker *checker, 
     }
     (void)printf("%s{\"line\":%" PRIu32 ",\"column\":%" PRIu32 ",\"code\":%u,\"message\":",
                  checker->errors == 1 ? "\n" : ",\n", line, column, code);
-    json_print_string(message);
+    json_print_utf8(message);
     (void)putchar('}');
 }
 
@@ -79,7 +79,20 @@ static int found_length(const struct gve_file_line *line, uint32_t place)
     while (place + length < line->length && line->text[place + length] != ',' && length < 20) {
         length++;
     }
+    while (length > 0 && place + length < line->length && (line->text[place + length] & 0xC0U) == 0x80U) {
+        length--; /* no part of a character */
+    }
     return (int)length;
+}
+
+static void tell_unknown(struct checker *checker, uint32_t column, unsigned code)
+{
+    const struct gve_file_line *line = &checker->line;
+    bool spindle = line->address == GVE_ADDRESS_SPINDLE;
+    bool bare = !spindle && line->length > 0 && line->text[0] == '7';
+    tell(checker, line->number, column, code, "%s has no command that begins like this%s%.*s",
+         spindle ? "the spindle" : "the interpolator", bare ? "; to the spindle write !" : "",
+         bare ? found_length(line, 0) : 0, (const char *)line->text);
 }
 
 static void tell_fault(struct checker *checker, const struct gve_reading *reading)
@@ -90,8 +103,7 @@ static void tell_fault(struct checker *checker, const struct gve_reading *readin
     uint32_t column = column_of(checker, line->place + place);
     unsigned code = gve_fault_code(reading->fault);
     if (reading->fault == GVE_FAULT_UNKNOWN) {
-        tell(checker, line->number, column, code, "%s has no command that begins like this",
-             line->address == GVE_ADDRESS_SPINDLE ? "the spindle" : "the interpolator");
+        tell_unknown(checker, column, code);
         return;
     }
     const struct gve_row *row = gve_row(reading->command.opcode);

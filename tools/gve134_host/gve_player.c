@@ -130,7 +130,7 @@ static void begin_probing(struct gve_player *player)
     }
     if (player->next.opcode == GVE_LINE && gve_script_probes_next(&player->script)) {
         player->approach = player->next;
-        gve_probing_approach(&player->probing);
+        gve_probing_approach(&player->probing, player->next.line.text, player->next.line.length);
         send_probing(player, player->next_tick - player->machine->now);
     }
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "gve_command.h"
 #include "line.h"
 
 enum {
@@ -34,8 +35,12 @@ static enum gve_probing_result fail(struct gve_probing *probing, const char *rea
     return end(probing, GVE_PROBING_FAILS);
 }
 
-void gve_probing_approach(struct gve_probing *probing)
+void gve_probing_approach(struct gve_probing *probing, const uint8_t *line, uint32_t length)
 {
+    struct gve_reading reading = gve_command_read(line, length, GVE_ADDRESS_INTERPOLATOR);
+    for (unsigned axis = 0; axis < (unsigned)GVE_PROBING_AXES; axis++) {
+        probing->moves[axis] = reading.command.numbers[axis] != 0;
+    }
     (void)ask(probing, GVE_PROBING_RESTS, "F");
 }
 
@@ -84,7 +89,7 @@ static enum gve_probing_result go_back(struct gve_probing *probing)
     probing->phase = GVE_PROBING_BACK;
     int64_t way[GVE_PROBING_AXES];
     for (unsigned axis = 0; axis < (unsigned)GVE_PROBING_AXES; axis++) {
-        way[axis] = probing->latched[axis] - probing->here[axis];
+        way[axis] = probing->moves[axis] ? probing->latched[axis] - probing->here[axis] : 0;
     }
     (void)snprintf(probing->text, sizeof probing->text, "L%" PRId64 ",%" PRId64 ",%" PRId64 ",%" PRId64, way[0], way[1],
                    way[2], way[3]);

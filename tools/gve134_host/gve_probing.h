@@ -2,13 +2,14 @@
  * Probing: what a host does where a vector file says ;@probe, after an L that the tool sensor is to end.
  *
  * Before that L it asks F until the axes stand, and P4: a sensor that is touched there has not been probed. After it
- * it asks F again. If the sensor has stopped the axes it is disabled, the rest of the vector is dropped and the axes go
- * back to where it was touched, PL less P4; else there is nothing to go on with. Comes in: answers. Goes out: the text
- * of one command after the other.
+ * it asks F again. If the sensor has stopped the axes it is disabled, the rest of the vector is dropped and the axes
+ * that it moves go back to where it was touched, PL less P4; else there is nothing to go on with. Comes in: answers.
+ * Goes out: the text of one command after the other.
  */
 #ifndef GVE_PROBING_H
 #define GVE_PROBING_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 enum {
@@ -40,6 +41,7 @@ enum gve_probing_result {
 
 struct gve_probing {
     enum gve_probing_phase phase;
+    bool moves[GVE_PROBING_AXES];    /* the axes of the L; a coupled A goes along by itself */
     int64_t begin[GVE_PROBING_AXES]; /* pulses */
     int64_t latched[GVE_PROBING_AXES];
     int64_t here[GVE_PROBING_AXES];
@@ -47,8 +49,8 @@ struct gve_probing {
     char text[GVE_PROBING_TEXT_BYTES]; /* with a 0 at its end */
 };
 
-/* Begins before and after the L: the first command is in `text`. */
-void gve_probing_approach(struct gve_probing *probing);
+/* Begins before the L, which has this text, and after it: the first command is in `text`. */
+void gve_probing_approach(struct gve_probing *probing, const uint8_t *line, uint32_t length);
 void gve_probing_begin(struct gve_probing *probing);
 
 /* Takes the answer to `text`, from its digit on, which says that it was done. What ends it sets the phase to NONE. */

@@ -36,7 +36,8 @@ static void print_axis(const struct run *run, unsigned motor)
                  "XYZA"[motor], motor + 1U, tally->pulses, run->kind->position_steps(run->unit, motor));
     json_print_fixed(units_milli_speed(tally->shortest_ticks), MILLI_DECIMALS);
     (void)printf(",\"seconds_moving\":");
-    json_print_fixed(units_ns_of_ticks(tally_moving_ticks(tally, run->machine.now)), NS_DECIMALS);
+    json_print_fixed(units_ns_of_ticks(tally_moving_ticks(tally, run->machine.now, run->kind->moves_together)),
+                     NS_DECIMALS);
     (void)putchar('}');
 }
 

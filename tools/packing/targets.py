@@ -62,10 +62,12 @@ def build_programs(target: Target) -> list[Path]:
 
 
 def build_wasm() -> list[Path]:
-    """What `service --static` puts into its page."""
+    """What `service --static` puts into its page; imported here, as help has nothing installed."""
+    from rkm04_tools import static_pages
+
     _call("cmake", "--preset", "wasm")
-    _call("cmake", "--build", "--preset", "wasm", "--target", "rkm04-host", "rkm04-unit")
-    return [BUILD / "wasm/bin" / f"{name}.wasm" for name in ("rkm04-host", "rkm04-unit")]
+    _call("cmake", "--build", "--preset", "wasm", "--target", "page-programs")
+    return [BUILD / "wasm/bin" / name for name in static_pages.PROGRAMS]
 
 
 def _call(*command: str | Path) -> None:

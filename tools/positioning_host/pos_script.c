@@ -128,7 +128,7 @@ static const char *read_values(struct pos_script_line *line, const struct field 
 {
     const struct row *row = &rows[line->kind];
     if (count < row->least || count > row->most) {
-        return "not so many values";
+        return count < row->least ? "too few values" : "too many values";
     }
     line->count = count;
     for (unsigned i = 0; i < count; i++) {

@@ -40,7 +40,8 @@ static void print_motor(const struct run *run, const struct rkm04 *unit, const s
                  tally->pulses, axis_position_steps(&unit->axis[motor]));
     json_print_fixed(units_milli_speed(tally->shortest_ticks), MILLI_DECIMALS);
     (void)putchar(',');
-    print_seconds("seconds_moving", units_ns_of_ticks(tally_moving_ticks(tally, run->machine.now)));
+    print_seconds("seconds_moving",
+                  units_ns_of_ticks(tally_moving_ticks(tally, run->machine.now, run->kind->moves_together)));
     (void)printf("\"state\":\"%s\",\"error\":", summary_state_text(interpreter->state));
     json_print_string(interpreter_error_text((enum interpreter_error)interpreter->error));
     (void)printf(",\"place\":%" PRIu32 ",\"held\":%s,\"overflow\":%s}", feed_place(feed, motor, interpreter->place),

@@ -31,8 +31,9 @@ void tally_end_move(struct tally *tally, uint64_t tick, bool together)
     tally->moving = false;
 }
 
-uint64_t tally_moving_ticks(const struct tally *tally, uint64_t now_ticks)
+uint64_t tally_moving_ticks(const struct tally *tally, uint64_t now_ticks, bool together)
 {
-    bool running = tally->moving && now_ticks > tally->move_tick;
+    bool counts = !together || tally->pulses != tally->move_pulses;
+    bool running = tally->moving && counts && now_ticks > tally->move_tick;
     return tally->moving_ticks + (running ? now_ticks - tally->move_tick : 0U);
 }

@@ -29,7 +29,7 @@ uint64_t tally_count_pulse(struct tally *tally, uint64_t tick, int64_t position)
 /* `together`: other motors have moved, and without pulses the move was none of this one. */
 void tally_end_move(struct tally *tally, uint64_t tick, bool together);
 
-/* Time spent in moves up to `now_ticks`. */
-uint64_t tally_moving_ticks(const struct tally *tally, uint64_t now_ticks);
+/* Time spent in moves up to `now_ticks`; one that goes on then counts as it would if it ended. */
+uint64_t tally_moving_ticks(const struct tally *tally, uint64_t now_ticks, bool together);
 
 #endif

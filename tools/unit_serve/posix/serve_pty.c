@@ -71,10 +71,11 @@ enum exit_status serve_pty_open(struct serve_pty *pty, const char *link, int *fd
         (void)unlink(link);
     }
     if (symlink(pty->device, link) != 0) {
-        const char *advice = errno == EEXIST ? "remove it if no other program uses it, or name another path"
-                                             : "name a path in a folder that exists and may be written";
+        bool taken = errno == EEXIST; /* as a TCP port can be; else the path is no place for any file */
+        const char *advice = taken ? "remove it if no other program uses it, or name another path"
+                                   : "name a path in a folder that exists and may be written";
         complain("--pty %s: the link cannot be made (%s); %s", link, strerror(errno), advice);
-        return EXIT_CONNECTION;
+        return taken ? EXIT_CONNECTION : EXIT_USAGE;
     }
     pty->link = link;
     return EXIT_DONE;
