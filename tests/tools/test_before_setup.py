@@ -13,11 +13,12 @@ from rkm04_tools.cli import make_parser
 from rkm04_tools.completion import commands_of
 
 ROOT = Path(__file__).resolve().parents[2]
-NEEDED = ("tools/rkm04_tools", "tools/checks", "hal/stm32/boards")
+NEEDED = ("tools/rkm04_tools", "tools/checks", "tools/packing", "hal/stm32/boards")
 FILES = (
     "tools/rkm04",
     "tools/test",
     "tools/setup",
+    "tools/wheels",
     "tools/requirements.txt",
     "firmware/rkm04/rkm04.h",
     "firmware/rkm04/image/image.h",
@@ -65,7 +66,10 @@ def test_help_version_and_completion_need_no_setup(clone):
         done = run(clone, "tools/rkm04", *arguments)
         assert (done.returncode, done.stderr) == (0, ""), arguments
         assert done.stdout.startswith(begin)
-    assert run(clone, "tools/test", "--help").stdout.startswith("usage: tools/test ")
+    for tool in ("tools/test", "tools/wheels"):
+        done = run(clone, tool, "--help")
+        assert (done.returncode, done.stderr) == (0, ""), tool
+        assert done.stdout.startswith(f"usage: {tool} ")
     assert is_untouched(clone)
 
 

@@ -73,3 +73,29 @@ def test_the_table_has_a_row_for_each_figure_and_the_reasons_below(tool, scripts
     assert lines[1].split("  ")[0] == ACCURACY
     assert lines[1].split()[-6:] == ["0.75", "at", "most", "1", "ticks", "yes"]
     assert lines[-1] == f"not measured: {INSTRUCTIONS}: {scripts}/arm_count.py is not there"
+
+
+def page_figures(tool):
+    result = tool("bench", "--target", "page", "--json")
+    assert result.status == 0
+    return {row["figure"]: row for row in result.json["figures"]}
+
+
+def test_the_figures_of_the_pages_come_from_one_script_and_what_is_missing_is_told(tool, scripts):
+    (scripts / "page_figures.py").write_text('print(\'{"check_ms": 21.5, "late_steps": 1}\')')
+
+    rows = page_figures(tool)
+
+    check = rows["check of 700 commands while typing"]
+    assert (check["measured"], check["goal"], check["met"]) == (21.5, 50, True)
+    assert rows["... late steps"]["met"] is False
+    assert rows["from opening to the first curve"]["note"] == "page_figures.py gave none"
+    assert rows["the largest wheel of build/wheels"]["note"] == "tools/wheels builds it"
+
+
+def test_pages_that_cannot_be_measured_are_told_with_the_reason(tool, scripts):
+    assert {row["note"] for row in page_figures(tool).values()} == {
+        f"{scripts}/page_figures.py is not there"
+    }
+    (scripts / "page_figures.py").write_text("import sys; sys.exit('needs Chromium')")
+    assert {row["note"] for row in page_figures(tool).values()} == {"needs Chromium"}

@@ -12,6 +12,7 @@ from rkm04_tools import (
     bench_target,
     board,
     profile,
+    step_time,
     target_figures,
     target_paths,
     target_reactions,
@@ -44,12 +45,20 @@ def rig(tmp_path: Path) -> Rig:
         (target_figures.step_cycles, "together_step", "together_step_cycles"),
         (target_figures.load_language, "load_16000", "load_16000_percent"),
         (target_paths.borders, "load_path_alike", "load_paths_percent"),
+        (step_time.figures, "longest_ramps", "load_longest_percent"),
     ],
 )
 def test_the_image_keeps_its_budget_of_cycles(rig, figures, key, budget):
     measured = figures(rig)[key]
 
     assert measured <= target_rows.budgets()[budget]
+
+
+@on_target
+def test_four_motors_due_at_once_have_their_turns_in_time(rig):
+    figures = step_time.figures(rig)
+
+    assert figures["longest_due"] <= step_time.left_us()
 
 
 @on_target
@@ -165,6 +174,26 @@ def test_a_guard_begins_the_ramp_after_its_edge(rig, monkeypatch):
 
 
 @on_target
+def test_an_input_stops_moves_at_200_000_steps_s(rig, monkeypatch):
+    monkeypatch.setattr(target_reactions, "FAST_RUNS", 2)
+
+    figures = target_reactions.fast_stops(rig)
+
+    assert 0 < figures["stop_fast_1"] < 100
+    assert figures["stop_fast_1"] < figures["stop_fast_4"] < 1000
+
+
+@on_target
+def test_wide_pulses_of_four_motors_with_many_borders_are_whole_and_none_is_late(rig):
+    figures = target_paths.wide(rig)
+
+    for name in ("alike", "passing"):
+        assert figures[f"late_wide_{name}"] == 0
+        assert figures[f"load_wide_{name}"] <= 50
+    assert figures["width_wide"] == pytest.approx(2.5, abs=0.01)
+
+
+@on_target
 def test_a_stored_program_makes_its_first_pulse_a_step_after_it_was_started(rig):
     milliseconds, stack = target_figures.first_pulse(rig, {1: target_figures.STARTED}, "flash")
 
@@ -239,6 +268,36 @@ def test_a_ramp_that_began_before_the_edge_took_no_time():
 def test_an_edge_that_changes_nothing_is_an_error():
     with pytest.raises(ValueError, match="no pulse has changed"):
         target_reactions.braking(CRUISE, 0, 5250)
+
+
+def stopped(cruise: int, ramp: int) -> np.ndarray:
+    """Pulses of a cruise at 200 000 steps/s, and of a ramp down from the last of them."""
+    move = target_reactions.FAST_MOVE
+    root = np.sqrt(move.speed**2 - 2 * move.accel * np.arange(1.0, ramp + 1))
+    down = (move.speed - root) / move.accel * target_reactions.TICK_HZ
+    return np.append(np.arange(cruise) * 420, (cruise - 1) * 420 + np.rint(down).astype(np.int64))
+
+
+@pytest.mark.parametrize(("edge", "begins"), [(99 * 420 - 840, 10), (99 * 420 + 84, 0)])
+def test_where_a_flat_ramp_begins_is_told_by_the_number_of_its_pulses(edge, begins):
+    ticks = stopped(100, 4999)
+
+    assert target_reactions.begin_us(ticks, edge, late=0) == pytest.approx(begins, abs=0.01)
+
+
+def test_a_late_pulse_does_not_hide_where_a_ramp_begins():
+    ticks = stopped(100, 4999)
+    ticks[99] += 300
+
+    assert target_reactions.begin_us(ticks, 98 * 420, late=1) == pytest.approx(5, abs=0.01)
+    with pytest.raises(ValueError, match="not those of a stop"):
+        target_reactions.begin_us(ticks, 98 * 420, late=0)
+
+
+@pytest.mark.parametrize(("cruise", "ramp"), [(100, 4998), (100, 5000), (1, 4998)])
+def test_a_ramp_of_another_length_is_no_stop(cruise, ramp):
+    with pytest.raises(ValueError, match=r"of a stop|for a stop"):
+        target_reactions.begin_us(stopped(cruise, ramp), 0, late=3)
 
 
 @pytest.mark.parametrize(("edge", "after"), [(5250, 0.0), (5249, 1 / 84), (0, 62.5)])

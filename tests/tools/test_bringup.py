@@ -224,6 +224,41 @@ def test_nothing_is_even_opened_before_the_motors_are_said_to_be_unpowered(
         listener.accept()
 
 
+def test_a_report_that_is_there_is_kept_and_told_before_anything_is_asked(
+    tool, typed, listener, write
+):
+    kept = write("what was seen of another board\n", "board.txt")
+    typed("y\n\nq\n")
+
+    result = tool("bringup", "--port", port_of(listener), "--report", kept)
+
+    assert result.status == 2
+    assert f"{kept}: is there already, and a report replaces none" in result.complaint
+    assert kept.read_text() == "what was seen of another board\n"
+
+
+def test_a_report_that_cannot_be_written_is_told_before_anything_is_asked(
+    tool, typed, listener, tmp_path
+):
+    typed("y\n\nq\n")
+
+    for place in (tmp_path / "none" / "board.txt", tmp_path):
+        result = tool("bringup", "--port", port_of(listener), "--report", place)
+
+        assert result.status == 2
+        assert f"{place}: cannot be written" in result.complaint
+
+
+def test_a_walk_that_has_done_nothing_makes_no_report(tool, typed, listener, tmp_path):
+    typed("n\n")
+
+    result = tool("bringup", "--port", port_of(listener), "--report", tmp_path / "board.txt")
+
+    assert result.status == 1
+    assert "board.txt: not written, as nothing was done" in result.out
+    assert list(tmp_path.iterdir()) == []
+
+
 class FakeLine:
     """A line that answers each command with the next of some texts, in pieces."""
 
@@ -340,9 +375,10 @@ def test_option_bytes_are_held_against_what_board_options_wants(control, verdict
 
 def test_an_image_is_flashed_by_its_name(tool, monkeypatch):
     def built(
-        name: str, target: str = "all", what: str = board.UNIT, baud: int | None = None
-    ) -> board.Image:
-        return board.image_of(name, what, baud)
+        name: str, target: str = "all", what: str = board.UNIT, baud: int | None = None,
+        half_period: bool = False,
+    ) -> board.Image:  # fmt: skip
+        return board.image_of(name, what, baud, half_period)
 
     monkeypatch.setattr(board, "build", built)
 

@@ -47,6 +47,24 @@ def test_wrong_usage_is_one_line_and_status_2(tool, arguments):
     assert "--help shows how it is used" in result.complaint
 
 
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--foo"], "unrecognized arguments: --foo; rkm04 --help"),
+        (["--verion"], "unrecognized arguments: --verion; did you mean --version?; rkm04 --help"),
+        (["board", "--foo=1"], "unrecognized arguments: --foo=1; rkm04 board --help"),
+        (["--foo", "check", "a.rks"], "unrecognized arguments: --foo; rkm04 --help"),
+    ],
+)
+def test_an_unknown_option_is_told_where_the_command_is_missing_too(tool, arguments, words):
+    assert words in tool(*arguments).complaint
+
+
+def test_commands_of_several_actions_have_examples_in_their_help_too(tool):
+    assert "example:\n  rkm04 board build --board" in tool("board", "--help").out
+    assert "example:\n  rkm04 machine check" in tool("machine", "--help").out
+
+
 def test_ctrl_c_ends_a_command_without_a_traceback_or_half_a_file(start, write, tmp_path):
     steps = tmp_path / "steps.csv"
     program = write("S2000 V16000 A60000 G+")

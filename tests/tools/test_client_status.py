@@ -183,6 +183,16 @@ def test_the_answer_has_the_length_of_the_documents():
     )
 
 
+def test_status_says_how_exact_steps_are_that_an_interrupt_makes(tool, unit):
+    timed = tool("status").out
+    unit.status = bytes([*AT_WORK.whole[:5], AT_WORK.whole[5] | 1 << 5, *AT_WORK.whole[6:]])
+
+    assert "class 2" not in timed
+    assert tool("status").out.splitlines()[-1] == (
+        "steps:        by an interrupt (class 2): less than 4 us late, or counted as late"
+    )
+
+
 def test_a_script_gets_the_status(unit):
     with open_line(os.environ["RKM04_PORT"]) as line:
         status = line.unit(NODE).status()

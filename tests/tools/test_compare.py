@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 
@@ -201,6 +202,74 @@ def test_a_clock_that_jumps_more_than_crystals_do_is_not_the_same(compared):
     result = compared(edges(1, train, ANALYSER, Distortion(moved_seconds=late)), motors={1: train})
 
     assert result.status == 1
+
+
+@pytest.mark.parametrize(
+    ("rest_seconds", "late_seconds"), [(0.2, 12e-6), (1.0, 12e-6), (0.2, 0.5e-6), (1.0, -1e-6)]
+)
+def test_a_jump_within_a_pause_is_told_however_small_against_the_capture(
+    compared, rest_seconds, late_seconds
+):
+    move = [Move(300, 300, 1500, 20_000, rest_seconds), Move(-300, 300, 1500, 20_000, rest_seconds)]
+    train = pulses(move * 6)
+    late = dict.fromkeys(range(1801, 3601), late_seconds)
+    found = edges(1, train, ANALYSER, Distortion(moved_seconds=late))
+
+    words = compared(found, motors={1: train})
+    told = compared(found, "--json", motors={1: train}).json
+
+    assert (words.status, told["same"]) == (1, False)
+    assert told["jump"]["pulse"] == 1801
+    assert told["jump"]["seconds"] == pytest.approx(late_seconds, abs=1.5 / 24e6)
+    assert re.search(
+        rf"^from pulse 1801 of motor 1 on \(\S+ s\), after .* without a pulse, all come .* "
+        rf"{'later' if late_seconds > 0 else 'earlier'}: no clock jumps so; or the analyser",
+        words.out, re.MULTILINE,
+    )  # fmt: skip
+
+
+def test_pulses_that_come_at_another_rate_from_some_time_on_are_not_the_same(compared):
+    train = pulses([Move(500, 300, 1500, 20_000, 0.1), Move(-500, 300, 1500, 20_000, 0.1)] * 10)
+    changed = train[5000][0] / 84e6
+    late = {n: 2e-6 * (train[n - 1][0] / 84e6 - changed) for n in range(5001, 10_001)}
+    analyser = Analyser(0.02, 40)
+
+    result = compared(edges(1, train, analyser, Distortion(moved_seconds=late)), motors={1: train})
+
+    assert result.status == 1
+    assert re.search(
+        r"^the rate of the clocks changes by [12]\.\d\d ppm in a second, more than the 0\.1 ppm "
+        r"that crystals may", result.out, re.MULTILINE,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(("sample_hz", "seconds_of_warmth"), [(24e6, 30), (8e6, 12), (100e6, 20)])
+def test_crystals_that_warm_up_are_the_same(compared, sample_hz, seconds_of_warmth):
+    """0.05 ppm a second at first, as a board does after power-on."""
+    train = pulses([Move(1000, 300, 1500, 20_000, 0.2), Move(-1000, 300, 1500, 20_000, 3)] * 5)
+
+    class Warming(Analyser):
+        def sees(self, seconds: float) -> float:
+            warmth = math.exp(-seconds / seconds_of_warmth)
+            return super().sees(seconds + 0.05e-6 * seconds_of_warmth**2 * warmth)
+
+    analyser = Warming(0.02, 40, sample_hz)
+    told = compared(
+        edges(1, train, analyser, Distortion()), "--json", motors={1: train}, analyser=analyser
+    ).json
+
+    assert told["same"], told
+    assert 0.02 < told["rate_change_ppm_per_second"] < 0.1
+    assert told["jump"] is None
+
+
+def test_a_wire_that_is_said_to_be_inverted_and_is_not_is_told(compared):
+    result = compared(
+        edges(1, TRAIN, ANALYSER, Distortion()), "--channels", "STEP1=!STEP1,DIR1=DIR1"
+    )
+
+    assert result.status == 1
+    assert "STEP of motor 1 is high between the pulses: turned round, the pulse is" in result.out
 
 
 def test_a_glitch_is_surplus_and_its_width_is_no_pulses(compared):

@@ -49,6 +49,17 @@ def test_a_good_file_is_counted(check: Check) -> None:
     )
 
 
+def test_gcode_is_sent_to_where_it_becomes_vectors(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    path = tmp_path / "a.NC"
+    path.write_text("G0 X1\n")
+
+    for command in ("check", "sim"):
+        assert run_tool(make_parser(), [command, str(path)]) == 2
+        assert f"{path}: is G-code; gve134 gcode {path} -o OUT.gve" in capsys.readouterr().err
+
+
 def test_an_error_shows_its_place_its_line_and_a_caret(check: Check) -> None:
     status, out, err = check("; č\nT5\n  V9 ; too slow\n")
 
@@ -59,6 +70,30 @@ def test_an_error_shows_its_place_its_line_and_a_caret(check: Check) -> None:
         "   ^",
         "a.gve: 1 error",
     ]
+
+
+def test_what_is_found_is_shown_in_its_letters_and_in_whole_ones(check: Check) -> None:
+    _, out, _ = check("V1000 ä\nV" + "1" * 19 + "žž\nT\x01\nA👍\n")
+
+    takes = "error: V takes a number from 10 to 200000 as parameter 1, found"
+    assert f"a.gve:1:2: {takes} 1000 ä\n" in out
+    assert f"a.gve:2:2: {takes} {'1' * 19}\n" in out
+    assert "found 👍\n" in out
+
+
+@pytest.mark.parametrize(
+    ("single", "is_taken"),
+    [("5", 1), ("-1.5", 1), ("1E-6", 1), ("1.5E+6", 1), ("5.", 0), (".5", 0), ("5.E1", 0)],
+)
+def test_a_single_has_digits_on_both_sides_of_its_point(single: str, is_taken: bool) -> None:
+    assert (not host.check(f"EFW10,{single}").errors) == bool(is_taken)
+
+
+def test_a_spindle_speed_without_its_sign_is_told_how_to_be_written(check: Check) -> None:
+    _, out, _ = check("7V5\n!0\n!7Z\n")
+
+    assert "no command that begins like this; to the spindle write !7V5\n" in out
+    assert out.count("to the spindle") == 1
 
 
 def test_the_answer_for_scripts_is_one_object(check: Check) -> None:

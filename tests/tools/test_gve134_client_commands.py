@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import pty
 import re
@@ -258,7 +259,9 @@ def test_watch_refuses_what_is_no_time(gve: Tool, unit: FakeGve, wrong: list[str
 # ---- acting ----
 
 
-def test_halt_tells_where_the_axes_stand(gve: Tool, unit: FakeGve) -> None:
+def test_halt_tells_where_the_axes_stand_and_that_the_spindle_may_turn(
+    gve: Tool, unit: FakeGve
+) -> None:
     unit.vector_s = 1000.0
     unit.take(b"!0L1000\r")
 
@@ -266,6 +269,7 @@ def test_halt_tells_where_the_axes_stand(gve: Tool, unit: FakeGve) -> None:
 
     assert result.status == 0
     assert result.out.startswith("the axes stand at X 0  Y 0  Z 0  A 0; stopped, the rest")
+    assert "whether the spindle turns is NOT KNOWN" in result.out
     assert unit.inta
 
 
@@ -307,6 +311,21 @@ def test_go_and_delete(gve: Tool, unit: FakeGve) -> None:
     assert "nothing waits to go on" in gve("go").complaint
 
 
+def test_going_on_tells_where_the_axes_stood_and_not_how_far_they_are(
+    gve: Tool, unit: FakeGve
+) -> None:
+    unit.vector_s = 0.02
+    unit.take(b"!0L2\r!0L5\r!0L90\r!0H\r")
+    time.sleep(0.05)
+    stood = unit.positions[0]
+
+    went_on = gve("go", "--json")
+
+    told = json.loads(went_on.out)
+    assert told["from"] == {"X": stood, "Y": 0, "Z": 0, "A": 0}
+    assert told["positions"]["X"] > stood
+
+
 def test_home_stands_where_the_switch_lets_go(gve: Tool, unit: FakeGve) -> None:
     assert gve("home", "y", "-20000", "1000", "20", "500").status == 0
     assert "WY-20000,1000,20,500" in unit.done
@@ -317,8 +336,24 @@ def test_a_switch_that_is_not_found_is_status_1(gve: Tool, unit: FakeGve) -> Non
 
     result = gve("home", "X", "100", "1000", "20", "500")
 
+    told = result.err.splitlines()
+    assert (result.status, result.out, len(told)) == (1, "", 2)
+    assert told[0] == (
+        "gve134: X goes up to 100 pulses to its switch at 1000 pulses/s, then up to -20 off it at "
+        "500; Ctrl-C halts"
+    )
+    assert "its switch was not found" in told[1]
+
+
+def test_home_after_a_stop_tells_what_comes_first(gve: Tool, unit: FakeGve) -> None:
+    unit.take(b"!0H\r")
+    time.sleep(0.05)
+
+    result = gve("home", "X", "100", "1000", "20", "500")
+
     assert result.status == 1
-    assert "its switch was not found" in result.complaint
+    assert "X was not homed: not after a stop or a fault: D comes first" in result.complaint
+    assert "gve134 delete clears it" in result.complaint
 
 
 def test_home_while_something_moves_is_refused(gve: Tool, unit: FakeGve) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import sys
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 import pytest
 from fake_gve134 import FakeGve
 from gve134_ports import FakeGveLine
+from rkm04_tools.gve134 import client_send
 
 Tool = Any
 Result = Any
@@ -55,6 +57,19 @@ def test_the_console_shows_answers_with_words(
     assert unit.ports["spindle"] == 300
 
 
+def test_the_console_answers_scripts_in_objects(
+    gve: Tool, unit: FakeGve, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _, lines = console(gve, monkeypatch, "p4\nH\nV9\n", "--json")
+
+    assert [json.loads(line) for line in lines] == [
+        {"command": "P4", "code": 0, "inta": False, "values": "0,0,0,0", "words": "done"},
+        {"command": "H", "code": 0, "inta": True, "values": "", "words": "done, INTA is set"},
+        {"command": "V9", "code": 5, "inta": True, "values": "",
+         "words": "a parameter is out of bounds, INTA is set"},
+    ]  # fmt: skip
+
+
 def test_a_script_in_which_all_was_done_is_status_0(
     gve: Tool, unit: FakeGve, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -79,6 +94,37 @@ def test_what_would_harm_the_line_is_not_sent(
     assert "not sent" in result.err
     assert lines == ["0  done"]
     assert unit.done[-1] == "V500"
+
+
+def test_what_is_not_sent_is_shown_without_what_a_terminal_cannot_show(
+    gve: Tool, unit: FakeGve, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    odd = io.TextIOWrapper(io.BytesIO(b"\xff\xfe\n"), "utf-8", "surrogateescape")
+    monkeypatch.setattr(sys, "stdin", odd)
+
+    result = gve("console")
+
+    assert "\N{REPLACEMENT CHARACTER}" * 2 + ": not sent" in result.err
+
+
+def test_a_console_without_checksums_tells_no_one_to_begin_one(
+    gve: Tool, unit: FakeGve, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    result, _ = console(gve, monkeypatch, "%+\n", "--no-sums")
+
+    assert "checksums are the line's; this console began without them" in result.err
+
+
+def test_a_console_tells_of_a_reference_run_without_its_switch(
+    gve: Tool, unit: FakeGve, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    unit.home_answer = 5
+
+    _, lines = console(gve, monkeypatch, "WX-100,100,10,100\n")
+
+    assert lines == [
+        "D  its switch was not found, or not let go, within the ways that were given, INTA is set"
+    ]
 
 
 def test_a_console_goes_along_with_a_reset(
@@ -197,8 +243,38 @@ def test_send_turns_g_code(gve: Tool, unit: FakeGve, tmp_path: Path) -> None:
     assert "position 0 of the program is where the axes stand, X 0  Y 0  Z 0  A 0" in result.err
     open_end = write(tmp_path, "G21 G90\nM3 S1000\nG1 X1 F300\n", "c.nc")
     assert "warning: the program ends without M2" in gve("send", open_end, "--machine", mill).err
-    wrong = write(tmp_path, "G99\n", "b.nc")
-    assert "b.nc:1:1: error: G99 is not known" in gve("send", wrong, "--machine", mill).err
+    taken = list(unit.taken)
+    wrong = write(tmp_path, "G21 G91\nG1 X1 F300\nG99\n", "b.nc")
+    result = gve("send", wrong, "--machine", mill)
+    assert (result.status, unit.taken) == (1, taken)
+    assert "b.nc:3:1: error: G99 is not known" in result.err
+    assert result.err.endswith("b.nc: nothing was sent\n")
+
+
+def test_no_origin_is_told_while_the_axes_move(gve: Tool, unit: FakeGve, tmp_path: Path) -> None:
+    unit.vector_s = 1000.0
+    unit.take(b"!0C3000\r")
+    mill = Path(__file__).resolve().parents[2] / "tools/examples/gve/mill.rkm"
+
+    result = gve("send", write(tmp_path, "G91 F300\nG1 X1\nM2\n", "a.nc"), "--machine", mill)
+
+    assert result.status == 1
+    assert "where the axes stand" not in result.err
+    assert "the unit is moving; nothing was sent" in result.complaint
+    assert unit.taken == [(3000, 0, 0, 0)]
+
+
+def test_g_code_that_becomes_too_many_vectors_is_not_sent(
+    gve: Tool, unit: FakeGve, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(client_send, "FILE_BYTES_MAX", 20_000)
+    mill = Path(__file__).resolve().parents[2] / "tools/examples/gve/mill.rkm"
+    path = write(tmp_path, "G91 F300\n" + "G1 X1\n" * 2000, "a.nc")
+
+    result = gve("send", path, "--machine", mill)
+
+    assert (result.status, unit.done) == (2, [])
+    assert "a.nc: more than 20000 bytes of vectors, cut it into several" in result.complaint
 
 
 def test_an_interrupt_is_status_1(gve: Tool, gve_line: FakeGveLine, tmp_path: Path) -> None:

@@ -137,6 +137,23 @@ def test_a_halt_interrupts_a_reference_run(link: Link, unit: FakeGve) -> None:
     assert link.ask("P4").code == 0
 
 
+def test_the_rest_of_a_late_answer_neither_confirms_a_halt_nor_holds_it_up(
+    link: Link, unit: FakeGve, port: Ends
+) -> None:
+    for rest in (b"8\r", b"4\r"):
+        link.ask("D")
+        link.ask("L1000,0,0,0")
+        sent = len(port.written)
+        port.say(b"0,10,20,0,0,")
+        port.say(rest, after_s=0.001)
+
+        link.halt()
+
+        assert [each for each in port.written[sent:] if b"H" in each] == [encoded("H", sums=True)]
+        assert unit.inta
+        assert not link.restarted
+
+
 def test_a_long_ramp_is_waited_for_and_told(link: Link, unit: FakeGve, port: Ends) -> None:
     unit.vector_s, unit.brake_s = 100.0, 12.0
     link.ask("L1000,0,0,0")

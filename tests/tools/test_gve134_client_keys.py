@@ -211,7 +211,7 @@ def test_a_stop_by_key_that_nobody_confirms_is_shouted(
         time.sleep(2 * TWICE_SECONDS)
         job.process.send_signal(signal.SIGINT)
 
-    assert job.end() == 130
+    assert job.end() == 3
     assert "STOP NOT CONFIRMED: the tool was ended before" in job.shown
     assert "# " in job.shown
     assert "whether the spindle turns is NOT KNOWN" in job.shown

@@ -129,6 +129,39 @@ def test_what_another_program_has_left_half_sent_is_overcome(
     assert unit.taken == []
 
 
+@pytest.mark.parametrize(
+    ("before", "after"), [(b"8,6", b"4\r"), (b"0,5", b"C\r"), (b"", b"4\r"), (b"8,64", b"\r")]
+)
+def test_the_rest_of_a_late_answer_is_no_restart(
+    link: Link, unit: FakeGve, port: Ends, before: bytes, after: bytes
+) -> None:
+    port.say(before)
+    port.say(after, after_s=0.001)
+
+    link.connect()
+
+    assert not link.restarted
+    assert unit.receiver.sums
+    assert link.ask("P4").numbers == (0, 0, 0, 0)
+
+
+def test_an_answer_counts_that_comes_after_one_that_was_cut_off(link: Link, port: Ends) -> None:
+    port.say(b"0,1,2")
+    sent = len(port.written)
+
+    assert link.ask("P4").numbers == (0, 0, 0, 0)
+    assert len(port.written) == sent + 1
+
+
+def test_a_restart_is_noticed_when_connecting_again(link: Link, unit: FakeGve) -> None:
+    unit.restart()
+
+    link.connect()
+
+    assert link.restarted
+    assert unit.receiver.sums
+
+
 def test_a_silent_port_is_noanswer_of(unit: FakeGve, port: Ends) -> None:
     unit.mute = True
 

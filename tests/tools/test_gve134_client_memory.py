@@ -52,6 +52,8 @@ def test_what_is_written_while_the_axes_move_is_refused(gve: Tool, unit: FakeGve
 
     assert result.status == 1
     assert "not while a vector runs" in result.complaint
+    assert "after a fault" not in result.complaint
+    assert gve("memory", "get", "0", "--count", "0").complaint.endswith(": write 1 or more")
 
 
 def test_a_backup_comes_back_and_only_what_differs_is_written(

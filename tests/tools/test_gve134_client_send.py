@@ -9,6 +9,7 @@ import pytest
 from fake_gve134 import FakeGve
 from gve134_ports import VirtualPort
 from rkm04_tools.failure import Failure
+from rkm04_tools.gve134.answers import encoded
 from rkm04_tools.gve134.job import Job, job_of
 from rkm04_tools.gve134.link import Link
 from rkm04_tools.gve134.link_errors import LineError, Refused, Restarted
@@ -209,6 +210,15 @@ def test_an_interrupt_ends_the_job_and_is_told_with_its_cause(
     assert unit.taken == vectors(len(unit.taken))
 
 
+def test_a_halt_by_another_one_is_told_without_positions_of_an_interrupt() -> None:
+    unit = FakeGve(vector_s=0.01)
+    sending = sender(unit, chain(500))
+    sending.tell = lambda sent: unit.take(encoded("H", sums=True)) if sent > 200 else None
+
+    with pytest.raises(Interrupted, match="INTERRUPTED by H; the axes stand at"):
+        sending.send()
+
+
 def test_an_interrupt_after_the_last_command_is_told() -> None:
     unit = FakeGve(vector_s=0.01)
     sending = sender(unit, chain(50))
@@ -235,6 +245,32 @@ def test_nothing_is_added_to_what_was_interrupted() -> None:
     with pytest.raises(Failure, match=r"the unit is stopped, nothing waits.*nothing was sent"):
         send(unit, "V500\nC1\n")
     assert orders(unit) == []
+
+
+@pytest.mark.parametrize("text", ["C1\n", "V500\nL1\n", "D\nC1\n", "NX0\n", "G\n"])
+def test_nothing_joins_the_vectors_that_a_unit_still_makes(text: str) -> None:
+    unit = FakeGve(vector_s=100.0)
+    unit.take(b"!0C7\r!0C8\r")
+    before = list(unit.taken)
+
+    with pytest.raises(
+        Failure, match=r"the unit is moving; nothing was sent; .*gve134 halt"
+    ) as end:
+        send(unit, text)
+
+    assert end.value.status == 1
+    assert unit.taken == before
+    assert orders(unit) == ["C7", "C8"]
+
+
+@pytest.mark.parametrize("first", ["H", "J"])
+def test_a_file_that_begins_with_the_end_of_a_motion_is_for_a_unit_that_moves(first: str) -> None:
+    unit = FakeGve(vector_s=100.0)
+    unit.take(b"!0C7\r!0C8\r")
+
+    send(unit, f"{first}\nV500\n")
+
+    assert orders(unit) == ["C7", "C8", first, "V500"]
 
 
 @pytest.mark.parametrize("first", ["D", "G", "J", "H"])
@@ -332,6 +368,23 @@ def test_a_probe_goes_back_to_where_it_was_touched() -> None:
 
     assert unit.taken == [(0, 0, -500, 0), (0, 0, 4, 0), (1, 0, 0, 0)]
     assert orders(unit) == ["SW1,80", "L0,0,-500,0", "SW1,00", "D", "L0,0,4,0", "C1,0,0,0"]
+
+
+def test_a_probe_goes_back_without_an_axis_that_only_went_along() -> None:
+    """A coupled A shows the positions of its axis, and takes no part of a vector."""
+    unit = FakeGve(vector_s=0.5)
+    sending = sender(unit, "SW1,80\nL0,0,-500\n;@probe\n")
+
+    def touch(sent: int) -> None:
+        if sent == 1 and unit.run and not unit.inta:
+            unit.positions = [0, 0, -30, -30]
+            unit.interrupt(0, 0x80)
+            unit.positions = [0, 0, -34, -34]
+
+    sending.tell = touch
+    sending.send()
+
+    assert unit.taken == [(0, 0, -500, 0), (0, 0, 4, 0)]
 
 
 def test_a_probe_that_touches_nothing_ends_the_job() -> None:

@@ -147,7 +147,7 @@ def test_an_interrupt_is_told_with_its_cause_and_the_rest_goes_on(
     assert gve("go").complaint.startswith("gve134: it goes on, and is interrupted at once by RefY")
     served.order("2=1")
     assert gve("go").status == 0
-    gve("send", file_of(tmp_path, "L0,0,0,0\n"))
+    served.until_quiet()
     assert gve("position", "--json").json["Y"] == 2050
 
 
@@ -172,7 +172,11 @@ def test_a_reference_run_finds_its_switch(gve: Tool, start_gve: Start, served: S
     served.order("1=1")
     out, told = process.communicate(timeout=PATIENCE_S)
 
-    assert (process.returncode, told) == (0, "")
+    assert process.returncode == 0
+    assert told == (
+        "gve134: X goes up to -100000 pulses to its switch at 1000 pulses/s, then up to 100000 "
+        "off it at 500; Ctrl-C halts\n"
+    )
     assert out.startswith("X stands where its switch lets go, at ")
     assert served.order("?")["idle"]
 

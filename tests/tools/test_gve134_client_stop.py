@@ -80,7 +80,7 @@ def test_a_stop_that_nobody_confirms_is_shouted_at_the_second_ctrl_c(
 
     status, told = end(process, signal.SIGINT, signal.SIGINT)
 
-    assert status == 130
+    assert status == 3
     assert "STOP NOT CONFIRMED: the tool was ended before the unit had confirmed the stop" in told
     assert "USE THE EMERGENCY STOP" in told
     assert "Traceback" not in told
@@ -184,7 +184,7 @@ def test_a_halt_that_is_ended_before_it_is_confirmed_is_shouted(
 
     status, told = end(process, signal.SIGINT)
 
-    assert status == 130
+    assert status == 3
     assert "STOP NOT CONFIRMED: the tool was ended before" in told
 
 
@@ -308,6 +308,7 @@ class Typist:
         self.shown = self.shown.partition(text)[2]
 
     def close(self) -> int:
+        self.until("> ")  # what is typed before is not for the line editor
         self.type("\x04")
         status = self.process.wait(PATIENCE_S)
         os.close(self._master)
@@ -330,6 +331,23 @@ def test_ctrl_c_in_a_console_halts_and_the_console_goes_on(
 
     assert console.close() == 0
     assert not unit.queue
+
+
+def test_tab_completes_the_commands_of_the_unit_in_a_console(
+    gve_line: FakeGveLine, tmp_path: Path
+) -> None:
+    console = Typist(tmp_path)
+    console.until("Tab completes")
+    console.until("> ")
+
+    console.type("x\t")
+    console.until("XA  XD  XM  XU")
+    console.type("m\t200\n")
+    console.until("0  done")
+    console.type("!7v300\n")
+    console.until("0  done")
+
+    assert console.close() == 0
 
 
 def test_a_request_to_end_halts_and_ends_a_console(

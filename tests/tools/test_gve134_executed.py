@@ -186,7 +186,7 @@ def test_of_a_unit_that_has_other_vectors_the_number_is_not_known(before: str) -
     unit = FakeGve(vector_s=0.5)
     for line in before.splitlines():
         unit.take(f"!0{line}\r".encode())
-    sending = sender(unit, "G\nC1\n" if "H" in before else "C1\n")
+    sending = sender(unit, "G\nC1\n" if "H" in before else "H\nG\nC1\n")
     sending.send()
     sending.finish()
 

@@ -47,6 +47,7 @@ def test_a_file_begins_with_what_holds_for_all_of_it() -> None:
         ("S12000 M3\nS24000\nM5", ["!7V500", ";@wait 2", "!7V1000", "!7V0"]),
         ("S1 M3 M8\nM7\nM9\nM2", ["!7V1", ";@wait 2", "O0,FA", "O0,F2", "O0,FE", "!7V0"]),
         ("M8 M7", ["O0,F3"]),
+        ("M8 M7\nS600 M3\nM30", ["O0,F3", "!7V25", ";@wait 2", "!7V0", "O0,FF"]),
         ("G0 X1 M0 (turn it)", ["V200000", "A160", "C320,0,0,0 ; line 1", "L0,0,0,0",
                                 ";@pause line 1: turn it"]),
         ("M1", [";@pause line 1: M1"]),
@@ -218,6 +219,11 @@ BAD = [
     ("T1.5", 1, 1, "T takes the number of a tool, a whole one"),
     ("M8 M9", 1, 4, "M9 stands beside M7 or M8; keep one of them"),
     ("G0 N5", 1, 4, "a line's number stands at its beginning"),
+    ("N-1 G0 X1", 1, 1, "N-1: a line's number has no sign"),
+    ("F300\nG20\nG21\nG1 X1", 4, 1, "the motion has no feed since G21, with which that from before "
+                                    "does not hold; write F"),
+    ("G93\nG1 X1 F2\nG94\nX2", 4, -1, "the motion has no feed since G94, with which that from "
+                                     "before does not hold; write F"),
     ("G0 X1 ž", 1, 7, "no word of G-code: ž"),
     ("G0 X1 % 5", 1, 7, "% stands alone in its line"),
 ]  # fmt: skip

@@ -299,6 +299,11 @@ def test_a_hundred_megabytes_need_no_more_memory(tmp_path: Path) -> None:
     assert not (tmp_path / "a.gve").exists()
 
 
+def test_a_program_without_motion_has_no_peak_of_an_axis(gcode: Gcode) -> None:
+    status, out, _ = gcode("")
+    assert (status, out.splitlines()[-2:]) == (0, ["peak       0 mm/min", "a.nc: no errors"])
+
+
 def test_a_file_of_errors_alone_keeps_so_many_of_them(gcode: Gcode) -> None:
     status, out, _ = gcode("G7\n" * 5000)
     assert status == 1

@@ -6,6 +6,7 @@ import json
 import re
 import subprocess
 from dataclasses import dataclass
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -45,25 +46,27 @@ def preview(lines: list[str]) -> Previewed:
 
 @dataclass(frozen=True)
 class Golden:
-    """What an example makes: pulses and positions of the axes, and how long it takes.
+    """What an example makes: pulses and positions of the axes, how long it takes, and a digest of
+    the ticks of all pulses.
 
-    When each pulse is due is shown by the tests of paths.
+    When each pulse is due is shown by the tests of paths; here none moves unseen.
     """
 
     pulses: tuple[int, ...]
     positions: tuple[int, ...]
     seconds: float
+    pulses_digest: str
 
 
 GOLDEN = {
-    "circle": Golden((28800, 35200, 3200, 0), (3200, 9600, 800, 0), 8.11),
-    "pocket": Golden((65914, 46396, 7600, 0), (6400, 4160, 2000, 0), 24.60),
-    "engraving": Golden((112000, 27200, 21426, 0), (9600, 1600, 800, 0), 32.09),
-    "probe": Golden((12800, 0, 14156, 0), (12800, 0, -5748, 0), 6.71),
-    "home": Golden((24827, 15230, 8145, 0), (12800, 3200, 0, 0), 8.62),
-    "rotary": Golden((11200, 0, 6400, 480000), (11200, 0, 400, 480000), 32.90),
-    "packet": Golden((6128, 2858, 0, 0), (6128, 2858, 0, 0), 1.34),
-    "stop": Golden((8000, 8000, 2000, 0), (0, 0, 0, 0), 24.33),
+    "circle": Golden((28800, 35200, 3200, 0), (3200, 9600, 800, 0), 8.11, "c0baaed39b14527b"),
+    "pocket": Golden((65914, 46396, 7600, 0), (6400, 4160, 2000, 0), 24.60, "ee0265ca5d89c81f"),
+    "engraving": Golden((112000, 27200, 21426, 0), (9600, 1600, 800, 0), 32.09, "dbdee3c7af30cc26"),
+    "probe": Golden((12800, 0, 14156, 0), (12800, 0, -5748, 0), 6.71, "ba47f2cde4562ccd"),
+    "home": Golden((24827, 15230, 8145, 0), (12800, 3200, 0, 0), 8.62, "2c16334e14845845"),
+    "rotary": Golden((11200, 0, 6400, 480000), (11200, 0, 400, 480000), 32.90, "7fb612dd304698b6"),
+    "packet": Golden((6128, 2858, 0, 0), (6128, 2858, 0, 0), 1.34, "465aca0d0d3cee41"),
+    "stop": Golden((8000, 8000, 2000, 0), (0, 0, 0, 0), 24.33, "8c94516bd013b3c6"),
 }
 
 
@@ -82,18 +85,21 @@ def inputs_of(name: str) -> list[str | Path]:
 
 @pytest.mark.parametrize("name", sorted(GOLDEN))
 def test_each_example_makes_its_pulses_in_its_time(name: str, tmp_path: Path) -> None:
-    told = simulate(lines_of_example(name), tmp_path, *inputs_of(name))
+    steps = tmp_path / "steps.csv"
+    told = simulate(lines_of_example(name), tmp_path, *inputs_of(name), "--steps", steps)
 
     assert (told["ended"], told["refused"], told["late_steps"]) == ("idle", 0, 0)
     golden = GOLDEN[name]
     assert tuple(axis["pulses"] for axis in told["axes"]) == golden.pulses
     assert tuple(axis["position"] for axis in told["axes"]) == golden.positions
     assert told["seconds"] == pytest.approx(golden.seconds, abs=0.05)
+    assert sha256(steps.read_bytes()).hexdigest()[:16] == golden.pulses_digest
 
 
-def test_each_example_is_there() -> None:
-    names = {path.stem for path in EXAMPLES.iterdir() if path.suffix in (".nc", ".gve")}
-    assert names == set(GOLDEN)
+def test_each_example_is_there_with_its_picture() -> None:
+    for suffixes in ((".nc", ".gve"), (".svg",)):
+        names = {path.stem for path in EXAMPLES.iterdir() if path.suffix in suffixes}
+        assert names == set(GOLDEN)
 
 
 def test_the_course_is_the_way_of_x_and_y_in_its_time(tmp_path: Path) -> None:
@@ -151,6 +157,19 @@ def test_a_probe_goes_back_to_where_it_was_touched(
     assert at == pytest.approx(touched_at, abs=5)
     assert told["axes"][2]["position"] == at + 10
     assert told["axes"][2]["pulses"] > -at + 10
+
+
+def test_a_probe_goes_back_with_an_axis_that_a_is_coupled_with(tmp_path: Path) -> None:
+    inputs = tmp_path / "inputs.csv"
+    inputs.write_text("1000,8,0\n", encoding="utf-8")
+
+    told = simulate(["EW0C,03", *PROBING], tmp_path, "--inputs", inputs)
+
+    (answer,) = told["answers"]
+    z, a = (int(each) for each in answer["answer"].split(",")[3:])
+    assert told["refused"] == 0
+    assert z == a == pytest.approx(-792, abs=5)
+    assert [axis["position"] for axis in told["axes"]] == [0, 0, z + 10, z + 10]
 
 
 def test_a_probe_that_touches_nothing_ends_the_file(tmp_path: Path) -> None:

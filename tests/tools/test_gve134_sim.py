@@ -44,6 +44,24 @@ def play(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Play:
 # ---- what is told -------------------------------------------------------------------------------
 
 
+def test_an_axis_without_a_pulse_has_not_moved_where_the_time_ends_first(play: Play) -> None:
+    x, y, *_ = play("L2147483647\n", "--for", "1", "--json").json["axes"]
+
+    assert x["seconds_moving"] > 0.9
+    assert y["seconds_moving"] == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "refusal"),
+    [
+        ("V10\nL100\nK\n", "K was answered by 7: not while a vector runs"),
+        ("H\nEW10,01\nWX9,10,1,10\n", "was answered by F: not after a stop or a fault: D comes"),
+    ],
+)
+def test_a_refusal_by_state_tells_which_state_it_was(play: Play, text: str, refusal: str) -> None:
+    assert refusal in play(text).err + play(text).out
+
+
 def test_the_summary_is_a_table_of_the_axes_with_the_times(play: Play) -> None:
     played = play("V1000\nL100,-50\n")
 
@@ -96,8 +114,26 @@ def test_a_switch_that_is_not_found_is_told(play: Play) -> None:
     played = play("WX-100,1000,10,100\n")
     assert played.status == 1
     assert played.err == (
-        "a.gve:1: error: WX-100,1000,10,100 was answered by D: the reference switch was not found\n"
+        "a.gve:1: error: WX-100,1000,10,100 was answered by D: "
+        "the reference switch was not found, or not let go\n"
     )
+
+
+@pytest.mark.parametrize(("levels", "goes_to"), [("0,1,0\n400,1,1\n", 40), ("0,1,0\n", 100)])
+def test_a_reference_run_that_begins_at_its_switch_goes_off_it(
+    play: Play, tmp_path: Path, levels: str, goes_to: int
+) -> None:
+    inputs = tmp_path / "inputs.csv"
+    inputs.write_text(levels)
+
+    played = play("A2000\nWX-1000,1000,100,100\nP\n", "--inputs", inputs)
+
+    found = goes_to < 100
+    assert played.status == (0 if found else 1)
+    assert ("not found, or not let go" in played.err) is not found
+    code, x, y = played.lines[0].rpartition(" ")[2].split(",")
+    assert (code, y) == ("0" if found else "8", "0")
+    assert int(x) == pytest.approx(goes_to, abs=1)
 
 
 def test_standard_input_is_a_file_too(tmp_path: Path) -> None:

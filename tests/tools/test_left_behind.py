@@ -18,6 +18,7 @@ from rkm04_tools.service.virtual import VirtualLine
 
 MOMENTS = 25
 PATIENCE_SECONDS = 10.0
+AGAIN_SECONDS = 2.0
 ENDLESS = "S2000 V16000 A60000 G+"
 
 
@@ -63,13 +64,16 @@ def forked(work: Callable[[], object]) -> int:
 
 
 def end(tool: int, number: int) -> None:
-    """Send a signal and wait for the end."""
-    os.kill(tool, number)
+    """Send a signal and wait for the end; one that is passed by (see `forked`) is sent again."""
     until = time.monotonic() + PATIENCE_SECONDS
+    again = 0.0
     while os.waitpid(tool, os.WNOHANG) == (0, 0):
-        if time.monotonic() > until:
+        if (moment := time.monotonic()) > until:
             os.kill(tool, signal.SIGKILL)
             raise AssertionError("the tool itself does not end")
+        if moment > again:
+            os.kill(tool, number)
+            again = moment + AGAIN_SECONDS
         time.sleep(0.001)
 
 

@@ -196,6 +196,17 @@ def test_a_machine_is_made_of_files_and_taken_apart_into_the_same_again(tool, wr
     assert len(list(folder.iterdir())) == 2
 
 
+def test_a_program_with_an_error_makes_no_machine(tool, write, tmp_path):
+    file = tmp_path / "Feeder.rkm"
+
+    result = tool("machine", "new", file, "--motor", f"2={write('V0', 'bad.rks')}")
+
+    assert result.status == 1
+    assert "motor 2:1:1: error" in result.err
+    assert f"{file}: Feeder: errors in the program of motor 2; nothing was written" in result.err
+    assert not file.exists()
+
+
 def test_nothing_that_is_there_is_overwritten(tool, put, tmp_path):
     file = put(content())
     before = file.read_bytes()
@@ -256,6 +267,35 @@ def test_a_machine_is_sent_compared_and_stored(tool, put, serve):
     assert tool("machine", "diff", file, *unit).status == 0
     stored = tool("machine", "store", file, *unit, "--json")
     assert [each["motor"] for each in stored.json["motors"]] == [1, 2]
+
+
+def test_motors_without_a_program_in_the_file_are_compared_too(tool, put, write, serve):
+    served = serve()
+    unit = ("--port", served.place)
+    file = put(content())
+    tool("machine", "send", file, *unit, "--together")
+    assert tool("machine", "diff", file, *unit).status == 0
+    tool("send", write("\\ @1 W1 J1", "other.rks"), "--motor", "3", *unit)
+
+    result = tool("machine", "diff", file, *unit)
+
+    assert result.status == 1
+    assert result.out.splitlines()[:2] == [f"--- {file}: motor 3", "+++ unit 1, motor 3"]
+    assert "+@1" in result.out.splitlines()
+
+
+def test_a_machine_that_starts_together_changes_no_program_of_other_motors(tool, put, write, serve):
+    served = serve()
+    unit = ("--port", served.place)
+    full = write("\\ @1 S1000 V1000 F10 " + "R " * 695 + "J1", "full.rks")
+    tool("send", full, "--motor", "4", *unit)
+
+    result = tool("machine", "send", put(content()), "--together", *unit)
+
+    assert result.status == 1
+    assert "motor 4 holds another program" in result.complaint
+    assert tool("diff", full, "--motor", "4", *unit).status == 0
+    assert not any(m["failed"] for m in tool("status", "--json", *unit).json["motors"])
 
 
 def test_of_a_machine_with_one_wrong_program_none_is_sent(tool, put, serve):

@@ -49,6 +49,32 @@ def test_a_move_that_is_not_done_keeps_its_speed():
     assert speed.tolist() == [0, 10, 10, 10, 10]
 
 
+@pytest.mark.parametrize(
+    ("start", "end", "at_last"), [(100, 255, -100), (0, 255, -100), (100, 600, 0)]
+)
+def test_an_axis_that_rests_in_a_path_has_no_speed(start: int, end: int, at_last: int) -> None:
+    own = pulses([110, 120, 130, 230, 240, 250], [1, 2, 3, 2, 1, 0])
+    signs = np.array([1, 1, 1, -1, -1, -1])
+
+    time, speed = speed_line(own, [Move(start, end, 1, done=True)], hz=1000, signs=signs)
+
+    def at(ms: float) -> float:
+        return float(np.interp(ms / 1000, time, speed))
+
+    assert np.all(np.diff(time) >= 0)
+    assert [at(50), at(118), at(131), at(180), at(229), at(242)] == [0, 100, 0, 0, 0, -100]
+    assert at(end - 1) == at_last
+
+
+def test_a_ramp_from_standstill_is_no_rest() -> None:
+    ticks = [round(1000 * np.sqrt(k)) for k in range(1, 200)]
+    own = pulses(ticks, list(range(1, 200)))
+
+    _, speed = speed_line(own, [Move(0, ticks[-1], 1, done=True)], 1000, np.ones(199, np.int64))
+
+    assert np.all(speed[1:-1] > 0)
+
+
 def test_the_position_starts_before_the_first_pulse_and_lasts_to_the_end():
     time, position = position_line(pulses([100, 200], [-1, 0]), 0, end=0.5, hz=1000)
 

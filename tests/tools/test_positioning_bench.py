@@ -57,6 +57,33 @@ def test_a_request_changes_a_slow_cruise_between_two_pulses(rig, monkeypatch):
     assert 0 < figures["begins_slow"] < 20
 
 
+@on_target
+def test_a_request_at_the_delivered_rate_changes_pulses_after_it_has_come(rig, monkeypatch):
+    monkeypatch.setattr(reactions, "DELIVERED_ROUNDS", 2)
+
+    figures = reactions.delivered(rig)
+
+    assert figures["late_delivered"] == 0
+    assert 100 < figures["begins_delivered"] < figures["changes_delivered"] < 5000
+
+
+@on_target
+def test_a_limit_input_changes_pulses_after_its_edge(rig, monkeypatch):
+    monkeypatch.setattr(reactions, "LIMIT_ROUNDS", 2)
+
+    figures = reactions.limit(rig)
+
+    assert figures["late_limit"] == 0
+    assert 0 < figures["begins_limit"] < figures["changes_limit"] < 5000
+
+
+def test_a_request_has_come_when_the_silence_of_its_rate_is_over():
+    text = line.read(0, 1)
+
+    assert Asked(10.0, text).come_ms == pytest.approx(10 + 8 * 11 / 115.2 + 1.75)
+    assert Asked(10.0, text, 19_200).come_ms == pytest.approx(10 + (8 + 3.5) * 11 / 19.2)
+
+
 @pytest.mark.parametrize("part", [0.01, 0.3, 0.6, 0.97])
 def test_the_end_of_a_slow_cruise_is_found_from_the_pulses(part):
     last, slow = 10.0, reactions.SLOW_STEPS_PER_S

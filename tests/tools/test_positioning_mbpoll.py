@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from rkm04_tools.positioning.listing import Place, places
+from rkm04_tools.positioning.listing import places
 from rkm04_tools.positioning.table import Register
 from served import Served
 
@@ -57,13 +57,8 @@ def own(row: Register) -> int:
     return row.most if row.form != "ANY" else row.all_values[-1]
 
 
-def all_places() -> list[Place]:
-    """Those of the unit, of axis 1 and of axis 4: between them nothing differs but the number."""
-    return [place for place in places() if place.axis in (0, 1, 4)]
-
-
 def test_every_register_is_read(ask: Ask):
-    for place in all_places():
+    for place in places():
         row = place.register
         found = words(ask("-t", "4:hex", "-r", place.number, "-c", row.words))
         assert len(found) == row.words
@@ -72,7 +67,7 @@ def test_every_register_is_read(ask: Ask):
 
 
 def test_every_register_that_is_only_read_is_an_input_register(ask: Ask):
-    for place in all_places():
+    for place in places():
         row = place.register
         answer = ask("-t", "3:hex", "-r", place.number, "-c", row.words)
         if row.access == "r":
@@ -82,7 +77,7 @@ def test_every_register_that_is_only_read_is_an_input_register(ask: Ask):
 
 
 def test_every_register_is_written_that_can_be(ask: Ask):
-    for place in all_places():
+    for place in places():
         row = place.register
         if row.name == "STORE":
             continue
@@ -95,6 +90,18 @@ def test_every_register_is_written_that_can_be(ask: Ask):
         # POS_CONTROL takes nothing of an axis that is free
         taken = own(row) if row.use != "MOTION" else 0
         assert row.of_words(found) == taken, place
+
+
+def test_the_images_are_read_and_written(ask: Ask):
+    full = [word for axis in range(4) for word in (0x0101, 0, 0, 1000 + axis, 500, 1, 0, 0)]
+
+    assert ask("-t", 4, "-r", 600, values=full).returncode == 0
+    assert words(ask("-t", "4:hex", "-r", 600, "-c", 32)) == full
+    assert words(ask("-t", "3:hex", "-r", 640, "-c", 32)) == [1, 0, 0x0101, 0, 0, 0, 0, 0] * 4
+    assert words(ask("-t", "4:hex", "-r", 500, "-c", 12)) == [1, 0, 0] * 4
+    assert ask("-t", 4, "-r", 500, values=[0] * 12).returncode == 0
+    assert words(ask("-t", "4:hex", "-r", 500, "-c", 12)) == [0] * 12
+    assert words(ask("-t", "3:hex", "-r", 520, "-c", 16)) == [1, 0, 0, 0] * 4
 
 
 def test_half_a_value_and_what_is_not_there_are_refused(ask: Ask):

@@ -6,6 +6,7 @@ import os
 import select
 import signal
 import socket
+import sys
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -318,3 +319,14 @@ def test_a_port_that_is_taken_is_told():
 
     assert status == Failure("").status
     assert "name another port" in complaint
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks for the unit in /proc")
+def test_a_unit_that_ends_by_itself_is_told(tmp_path: Path):
+    gateway = Served("--modbus-tcp", "0", cwd=tmp_path, command=POSITIONING_COMMAND).process
+    children = Path(f"/proc/{gateway.pid}/task/{gateway.pid}/children").read_text()
+    os.kill(int(children.split()[0]), signal.SIGKILL)
+
+    _, complaint = gateway.communicate(timeout=15)
+    assert gateway.returncode == 1
+    assert "the virtual unit has ended by itself" in complaint

@@ -80,7 +80,8 @@ def test_a_fault_at_the_end_ends_with_1(positioning: Tool, write: Write):
     [
         ("1,1,POS_FOO", "no such instruction"),
         ("1,5,POS_INIT", "the axis must be 1 to 4"),
-        ("1,1,POS_MODE,5", "not so many values"),
+        ("1,1,POS_MODE,5", "too few values"),
+        ("1,1,POS_RESET,5", "too many values"),
         ("1,1,POS_MODE,5,70000", "the acceleration must be 0 to 65535 mm/s2"),
         ("1,1,POS_CONTROL,70000mm/min", "the feed must be"),
         ("-1,1,POS_INIT", "the time must be milliseconds"),

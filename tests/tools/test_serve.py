@@ -231,7 +231,8 @@ def test_a_path_that_is_in_use_is_left_alone(serve, tmp_path):
 
     results = [refusal("--pty", path) for path in (file, link, tmp_path / "no" / "line")]
 
-    assert [status for status, _ in results] == [3, 3, 3]
+    assert [status for status, _ in results] == [3, 3, 2]
+    assert refusal("--flash", tmp_path / "no" / "flash")[0] == 2
     assert "remove it" in results[0][1]
     assert "a folder that exists" in results[2][1]
     assert file.read_text() == "mine"

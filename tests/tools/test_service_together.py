@@ -109,6 +109,40 @@ def test_a_motor_that_waits_in_another_program_is_not_started_with_the_others(br
     until_at(browser, 1, 0, 0, 2)
 
 
+def test_a_program_of_another_motor_is_not_changed_by_the_start_of_others(browser):
+    """`]` to all motors would be stored in it, in a full memory in place of its label."""
+    full = "\\ @1 " + "W1 " * 698 + "J1"
+    browser.request("send", 2, text=full)
+    held = programs(browser)[1]
+
+    told = send_all(browser, True, m1=RUN, m3=RUN)
+
+    assert "motor 2 holds another program" in told["error"]["cause"]
+    assert "nothing was sent to any motor" in told["error"]["next"]
+    assert programs(browser) == ["", held, "", ""]
+
+
+def test_one_program_alone_touches_no_other_motor(browser):
+    browser.request("send", 4, text="\\ C100 [ F9 R")
+
+    told = send_all(browser, True, m1="\\ C100 F1 R")
+
+    assert (told["error"], told["request_message"]) == (None, "02 31 5D")
+    until_at(browser, 1, 0, 0, 0)
+    assert programs(browser) == ["[C100F1R]", "", "", "C100[F9R"]
+
+
+def test_programs_that_start_together_do_not_overwrite_what_has_not_run(browser):
+    browser.request("send", 2, text="\\ @1 " + "W1 " * 650 + "J1")
+    held = programs(browser)[1]
+
+    told = send_all(browser, True, m1=RUN, m2="W1 " * 100)
+
+    assert told["error"]["cause"].startswith("motor 2: ")
+    assert "has room for 44 more" in told["error"]["cause"]
+    assert programs(browser) == ["", held, "", ""]
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [

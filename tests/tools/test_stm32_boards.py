@@ -96,6 +96,22 @@ def test_a_board_is_there_when_its_folder_is(
     )
 
 
+@pytest.mark.parametrize(
+    ("options", "why"),
+    [
+        (["--board", "skr-pro-1.2"], "an interrupt makes the steps of skr-pro-1.2"),
+        (["--image", "bringup"], "what a new board is tried with has pulses of one width"),
+    ],
+)
+def test_pulses_of_half_a_period_are_refused_where_they_cannot_be(
+    tool: Callable[..., Any], options: list[str], why: str
+) -> None:
+    result = tool("board", "build", "--half-period", *options)
+
+    assert result.status == 2
+    assert f"--half-period: {why}" in result.complaint
+
+
 @pytest.mark.skipif(not shutil.which(board.COMPILER), reason=f"{board.COMPILER} is not installed")
 def test_a_build_for_an_unknown_board_is_told_which_there_are(tmp_path: Path) -> None:
     done = subprocess.run(

@@ -2,15 +2,15 @@
 
 import sys
 
+from rkm04_tools.starting import hold_interrupts
+
 
 def run() -> int:
-    """Run the command line; an interruption while it is being loaded ends it quietly too."""
-    try:
-        from rkm04_tools.cli import main
+    """Run the command line."""
+    hold_interrupts()
+    from rkm04_tools.cli import main
 
-        return main(sys.argv[1:])
-    except KeyboardInterrupt:
-        return 130
+    return main(sys.argv[1:])
 
 
 if __name__ == "__main__":

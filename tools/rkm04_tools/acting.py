@@ -10,10 +10,11 @@ import time
 from dataclasses import dataclass
 from typing import Any
 
+from rkm04_tools.doubt import Doubt
 from rkm04_tools.failure import Failure
 from rkm04_tools.frame import BROADCAST
 from rkm04_tools.line import Unit
-from rkm04_tools.line_errors import LineError, UnknownMessage
+from rkm04_tools.line_errors import UnknownMessage
 from rkm04_tools.messages import ALL_MOTORS, MOTORS
 from rkm04_tools.status import MotorStatus
 
@@ -24,6 +25,8 @@ LOOK_SECONDS = 1.0
 QUIET_SECONDS = 0.5
 """Without a change so long a motor is told to stand, where only positions are known."""
 POLL_SECONDS = 0.05
+EMERGENCY = "use the emergency stop"
+MAY_MOVE = "it may move: rkm04 status tells what it does, rkm04 stop stops it"
 BROADCAST_NOTE = "NOT CONFIRMED: no unit answers a broadcast; look at each motor, or ask each unit"
 
 
@@ -45,40 +48,43 @@ def numbers_of(number: int) -> list[int]:
     return list(MOTORS) if number == ALL_MOTORS else [number]
 
 
-def stop(unit: Unit, number: int) -> list[Told]:
+def stop(unit: Unit, number: int, doubt: Doubt) -> list[Told]:
     """Send K, and tell what each motor does then; nothing of a broadcast."""
-    try:
-        unit.motor(number).stop()
-    except LineError as error:
-        raise _unconfirmed("K", error) from None
+    doubt.what, doubt.advice = "K", EMERGENCY
+    unit.motor(number).stop()
     if unit.node == BROADCAST:
         return []
-    try:
-        return _behind_stop(unit, number)
-    except LineError as error:
-        raise _unconfirmed("K was taken, but whether the motors stand", error) from None
+    doubt.what = "K was taken, but whether the motors stand"
+    return _after_stop(unit, number)
 
 
-def resume(unit: Unit, number: int) -> list[Told]:
+def resume(unit: Unit, number: int, doubt: Doubt) -> list[Told]:
     """Send C75, and tell which motors go on; nothing of a broadcast."""
     before = states(unit, number)
+    doubt.about("whether C75 was taken", MAY_MOVE)
     unit.motor(number).resume()
     if unit.node == BROADCAST:
         return []
+    doubt.what = "C75 was taken, but whether the motor goes on"
     after = states(unit, number)
     if before is None or after is None:
         return [Told(each, "was told to go on", None) for each in numbers_of(number)]
     return [_resumed(*both) for both in zip(before, after, strict=True)]
 
 
-def reset(unit: Unit, number: int) -> list[Told]:
+def reset(unit: Unit, number: int, doubt: Doubt) -> list[Told]:
     """Send \\, and tell what each motor does then; nothing of a broadcast."""
+    doubt.about("whether \\ was taken, and the motor stands", MAY_MOVE)
     unit.motor(number).reset()
-    return [] if unit.node == BROADCAST else _behind_stop(unit, number)
+    doubt.what = "\\ was taken, but whether the motor stands"
+    return [] if unit.node == BROADCAST else _after_stop(unit, number)
 
 
-def change_speed(unit: Unit, number: int, steps_per_s: int) -> list[Told]:
+def change_speed(
+    unit: Unit, number: int, steps_per_s: int, doubt: Doubt | None = None
+) -> list[Told]:
     """Send V to those motors that move: to others it would be a command of their program."""
+    doubt = doubt or Doubt()
     if unit.node == BROADCAST:
         raise Failure(
             "node 0 means all units, and none can say which of its motors move; name one, 1 to 16"
@@ -87,6 +93,7 @@ def change_speed(unit: Unit, number: int, steps_per_s: int) -> list[Told]:
     told = []
     for each in numbers_of(number):
         if each in moving:
+            doubt.about(f"whether V{steps_per_s} was taken by motor {each}", MAY_MOVE)
             unit.motor(each).set_speed(steps_per_s)
             told.append(_sped(unit, each, steps_per_s))
         else:
@@ -113,19 +120,19 @@ def states(unit: Unit, number: int) -> list[MotorStatus] | None:
     return [motors[each - 1] for each in numbers_of(number)]
 
 
-def _behind_stop(unit: Unit, number: int) -> list[Told]:
+def _after_stop(unit: Unit, number: int) -> list[Told]:
     """Wait a while for the motors to stand."""
     end = time.monotonic() + STAND_SECONDS
     while True:
         found = states(unit, number)
         if found is None:
-            return _behind_stop_by_positions(unit, number)
+            return _after_stop_by_positions(unit, number)
         if not any(each.moving for each in found) or time.monotonic() > end:
             return [_stopped(each) for each in found]
         time.sleep(POLL_SECONDS)
 
 
-def _behind_stop_by_positions(unit: Unit, number: int) -> list[Told]:
+def _after_stop_by_positions(unit: Unit, number: int) -> list[Told]:
     end = time.monotonic() + STAND_SECONDS
     while (moved := _moved(unit, number, QUIET_SECONDS)) and time.monotonic() < end:
         pass
@@ -191,7 +198,3 @@ def _moved(unit: Unit, number: int, seconds: float = LOOK_SECONDS) -> set[int]:
         now = unit.positions()
         moved |= {each for each in wanted if now[each - 1] != first[each - 1]}
     return moved
-
-
-def _unconfirmed(what: str, error: Failure) -> Failure:
-    return Failure(f"NOT CONFIRMED: {what}: {error}; use the emergency stop", error.status)

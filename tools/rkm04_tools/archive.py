@@ -74,30 +74,59 @@ def backup(line: Line, folder: Path, tell: Tell = silent) -> list[Saved]:
 
 
 def read_folder(folder: Path) -> list[Program]:
-    """Read and check all programs of a folder; the first error is raised."""
+    """Read and check all programs of a folder; the first error is raised.
+
+    So is a name that looks like one of backup and is none: its motor would be left out unseen.
+    """
     try:
-        paths = sorted(path for path in folder.iterdir() if NAME.fullmatch(path.name))
+        found = sorted(folder.iterdir())
     except OSError as error:
         raise Failure(
             f"{folder}: {(error.strerror or str(error)).lower()}; name a folder"
         ) from None
+    paths = [path for path in found if NAME.fullmatch(path.name)]
+    for path in found:
+        if path not in paths and path.name.lower().startswith("unit-"):
+            raise Failure(
+                f"{path}: is named like no motor of a unit (unit-03-motor-2.rks: unit 01 to 16, "
+                "motor 1 to 4); nothing was restored; rename it or take it away"
+            )
     if not paths:
         raise Failure(f"{folder}: has no file like unit-03-motor-2.rks, as backup writes them")
     return [_read(path) for path in paths]
 
 
-def restore(line: Line, programs: Sequence[Program], tell: Tell = silent) -> None:
-    """Load and store programs, and read each of them back. All units are looked for first."""
+def restore(line: Line, programs: Sequence[Program], tell: Tell = silent) -> list[Program]:
+    """Load and store programs, and read each of them back; return those whose motors moved.
+
+    All units are looked for first.
+    """
     for node in sorted({program.node for program in programs}):
         line.unit(node).version()
+    moved = []
     for done, program in enumerate(programs):
-        tell(done, len(programs))
         motor = line.unit(program.node).motor(program.motor)
+        moved += [program] if motor.table() else []
+        tell(done, len(programs))
         load_program(motor, program.checked)
         motor.store()
         if not plan_program(program.checked).is_held(held_commands(motor)):
             raise Failure(f"{program.path}: the unit holds another program; restore again", NOT_SO)
     tell(len(programs), len(programs))
+    return moved
+
+
+def names_of(programs: Sequence[Saved]) -> str:
+    """The motors of programs, in words."""
+    return ", ".join(f"unit {each.node} motor {each.motor}" for each in programs) or "none"
+
+
+def motors_without(programs: Sequence[Saved]) -> list[Saved]:
+    """The motors of the same units that have no program among these."""
+    there = {(each.node, each.motor) for each in programs}
+    nodes = sorted({node for node, _ in there})
+    missing = [(node, motor) for node in nodes for motor in MOTORS if (node, motor) not in there]
+    return [Saved(node, motor, Path(), 0) for node, motor in missing]
 
 
 def _save(line: Line, node: int, motor: int, folder: Path) -> Saved | None:

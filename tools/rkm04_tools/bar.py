@@ -38,12 +38,19 @@ class Bar:
         """Say how many of how many parts are done, and what else there is to say."""
         if total < 2 or not sys.stderr.isatty():
             return
-        self._shown = True
         words = f"] {done}/{total}, {100 * done // total} %{more}"
         columns = _columns()
         width = max(0, min(WIDTH, columns - len(self.what) - len(words) - 3))
         filled = ("#" * (width * done // total)).ljust(width, ".")
-        text = f"{self.what} [{filled}{words}"[: columns - 1]
+        self._put(f"{self.what} [{filled}{words}"[: columns - 1])
+
+    def say(self, text: str) -> None:
+        """Say how it stands where the end is not known."""
+        if sys.stderr.isatty():
+            self._put(text[: _columns() - 1])
+
+    def _put(self, text: str) -> None:
+        self._shown = True
         print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
 
 

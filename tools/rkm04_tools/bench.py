@@ -8,6 +8,7 @@ import sys
 from argparse import Namespace
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from rkm04_tools import child, host
@@ -52,6 +53,8 @@ def run(options: Namespace) -> int:
     """Measure everything and print it."""
     rows: list[Row] = []
     parts: list[Callable[[], list[Row]]] = [_accuracy, _generator_and_simulation, _instructions]
+    if options.target == "page":
+        parts = [_page]
     with Bar("measuring") as bar:
         for done, measured in enumerate(parts):
             bar.show(done, len(parts))
@@ -88,20 +91,60 @@ def _instructions() -> list[Row]:
     return [_from_script(row, "arm_count.py", lambda told: told["generator_worst_mean"])]
 
 
-def _from_script(row: Row, name: str, figure: Callable[[dict[str, Any]], float]) -> Row:
-    """Fill in a row by a script of tests/support, which may lack what it needs."""
-    script = SCRIPTS / name
+PAGE = {
+    "gzipped_kb": Row("the largest page, gzipped", "kB", 400, at_most=True),
+    "first_curve_seconds": Row("from opening to the first curve", "s", 1.5, at_most=True),
+    "check_ms": Row("check of 700 commands while typing", "ms", 50, at_most=True),
+    "simulation_ms": Row("4 motors x 60 s at 16 000 steps/s, curves", "ms", 300, at_most=True),
+    "real_time": Row(
+        "unit in the page, 4 x 16 000 steps/s", "times real time", 0.99, at_most=False
+    ),
+    "late_steps": Row("... late steps", "steps", 0, at_most=True),
+    "load_percent": Row("... load of a core", "%", 50, at_most=True),
+    "wheel_mb": Row("the largest wheel of build/wheels", "MB", 15, at_most=True),
+}
+
+
+def _page() -> list[Row]:
+    """The pages that need no service, all by one script; without wheels one figure is missing."""
+    script = SCRIPTS / "page_figures.py"
     if not script.is_file():
-        return replace(row, note=f"{script} is not there")
+        return [replace(row, note=f"{script} is not there") for row in PAGE.values()]
+    told, note = _told(script)
+    rows = []
+    for name, row in PAGE.items():
+        if isinstance(told, dict) and isinstance(told.get(name), int | float):
+            rows.append(replace(row, measured=float(told[name])))
+        else:
+            missing = "tools/wheels builds it" if name == "wheel_mb" else f"{script.name} gave none"
+            rows.append(replace(row, note=note or missing))
+    return rows
+
+
+def _told(script: Path) -> tuple[Any, str]:
+    """What a script has measured, or why it has not."""
     command = [sys.executable, str(script), "--json"]
     done = subprocess.run(
         command, stdin=subprocess.DEVNULL, capture_output=True, text=True,
         preexec_fn=child.binder(),
     )  # fmt: skip
+    if done.returncode != 0:
+        return None, done.stderr.strip().rpartition("\n")[2] or f"{script.name} failed"
     try:
-        if done.returncode == 0:
-            return replace(row, measured=float(figure(json.loads(done.stdout))))
-        note = done.stderr.strip().rpartition("\n")[2] or f"{name} failed"
+        return json.loads(done.stdout), ""
+    except ValueError:
+        return None, f"{script.name} gave no figure"
+
+
+def _from_script(row: Row, name: str, figure: Callable[[dict[str, Any]], float]) -> Row:
+    """Fill in a row by a script of tests/support, which may lack what it needs."""
+    script = SCRIPTS / name
+    if not script.is_file():
+        return replace(row, note=f"{script} is not there")
+    told, note = _told(script)
+    if note:
+        return replace(row, note=note)
+    try:
+        return replace(row, measured=float(figure(told)))
     except (ValueError, KeyError, TypeError):
-        note = f"{name} gave no figure"
-    return replace(row, note=note)
+        return replace(row, note=f"{name} gave no figure")

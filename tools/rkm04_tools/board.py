@@ -142,34 +142,58 @@ def refusal(unit: str, board: str) -> str:
     return ""
 
 
-def image_of(board: str, what: str = UNIT, baud: int | None = None) -> Image:
+def half_refusal(board: str, what: str) -> str:
+    """Why an image cannot have pulses of half a period, or empty."""
+    if what == BRINGUP:
+        return "what a new board is tried with has pulses of one width"
+    values = read_board((BOARDS / board / "board.h").read_text()).values
+    if values.get("BOARD_STEP_CLASS", "1") != "1":
+        return f"an interrupt makes the steps of {board}, each before it knows the next one"
+    return ""
+
+
+def image_of(
+    board: str, what: str = UNIT, baud: int | None = None, half_period: bool = False
+) -> Image:
     """Where a board's image is built: the default one where the preset builds it."""
     image = Image(board, ROOT / "build", what)
     if not (BOARDS / board / "board.h").exists():
         raise Failure(f"{board}: no such board; there are {', '.join(names(image.unit))}")
     if why := refusal(image.unit, board):
         raise Failure(f"{board} cannot be a unit {image.unit}: {why}")
+    if half_period and (why := half_refusal(board, what)):
+        raise Failure(f"--half-period: {why}")
     parts = ["stm32"]
     parts += [image.unit] if image.unit != UNIT else []
     parts += [board] if board != DEFAULT_BOARD else []
     parts += [str(baud)] if baud not in (None, line_bd(image.unit)) else []
+    parts += ["half"] if half_period else []
     return Image(board, image.folder / "-".join(parts), what)
 
 
-def build(board: str, target: str = "all", what: str = UNIT, baud: int | None = None) -> Image:
+def build(
+    board: str, target: str = "all", what: str = UNIT, baud: int | None = None,
+    half_period: bool = False,
+) -> Image:  # fmt: skip
     """Build the image of a board, with the compiler installed if need be, or another target."""
-    image = image_of(board, what, baud)
+    image = image_of(board, what, baud, half_period)
     require_checkout("building an image")
     if not shutil.which(COMPILER):
         _call([str(ROOT / "tools" / "setup"), "board"], "the compiler cannot be installed")
     configure = ["cmake", "--preset", "stm32", "-B", str(image.folder), f"-DFIRMWARE_BOARD={board}"]
     configure += [f"-DFIRMWARE_UNIT={image.unit}", f"-DFIRMWARE_LINE_BD={baud or ''}"]
+    configure += [f"-DFIRMWARE_STEP_HALF={'ON' if half_period else 'OFF'}"]
     with _alone_in(image.folder) as lock:
         if not _is_set_up(image.folder):
             _call(configure, "the build cannot be set up", lock)
         building = ["cmake", "--build", str(image.folder), "--target", target]
         _call(building, "the image does not build", lock)
     return image
+
+
+def _build_asked(options: Namespace) -> Image:
+    return build(options.board, what=options.image, baud=options.baud,
+                 half_period=options.half_period)  # fmt: skip
 
 
 def _is_set_up(folder: Path) -> bool:
@@ -201,7 +225,7 @@ def _call(command: list[str], complaint: str, *kept: int) -> None:
 
 def run_build(options: Namespace) -> int:
     """`board build`: say where the files are."""
-    image = build(options.board, what=options.image, baud=options.baud)
+    image = _build_asked(options)
     files = [str(image.file(kind).relative_to(ROOT)) for kind in ("elf", "hex", "bin")]
     if options.json:
         told = {"board": image.board, "version": version(image.unit), "files": files}
@@ -264,7 +288,7 @@ def run_flash(options: Namespace) -> int:
     """`board flash`: write the image into the board, or show how."""
     if options.tool == "stm32flash" and not options.port:
         raise Failure("stm32flash needs --port, the serial device that the board is connected to")
-    image = build(options.board, what=options.image, baud=options.baud)
+    image = _build_asked(options)
     command = flash_command(options.tool, image, options.probe, options.port or "")
     if options.dry_run:
         print(json.dumps({"command": command}) if options.json else shlex.join(command))

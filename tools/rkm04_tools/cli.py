@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from difflib import get_close_matches
@@ -14,13 +13,16 @@ from rkm04_tools import bench, board, board_options, board_wiring, check, comple
 from rkm04_tools.bringup import options as bringup_options
 from rkm04_tools.client_options import NODE_HELP, PORT_HELP, add_client_commands
 from rkm04_tools.compare import options as compare_options
-from rkm04_tools.failure import DONE, INTERRUPTED, NOT_SO, Failure
+from rkm04_tools.failure import DONE, INTERRUPTED, Failure
 from rkm04_tools.machine import options as machine_options
+from rkm04_tools.output import with_streams
 from rkm04_tools.source import named
+from rkm04_tools.starting import take_interrupts
 from rkm04_tools.tree import require_checkout
 
 SIM_NOTES = """\
-INPUTS has lines ms,input,level such as 350.5,3,1: BI3 becomes 1 at 350.5 ms.
+INPUTS has lines ms,input,level such as 350.5,3,1: BI3 becomes 1 at 350.5 ms. The lines may come
+in any order; of two at the same time the later one acts last.
 The simulation ends when all programs have come to rest, or at the limit of time.
 
 --target stm32 runs the image of the reference board on the virtual board (modelled, not measured)
@@ -32,6 +34,7 @@ BENCH_NOTES = """\
 of the language, on the virtual board (modelled, not measured): cycles of a step, highest rates,
 load, late steps, reaction to inputs, start-up, stack, flash and RAM, each with two cycle models.
 hal/stm32/bench/README.md tells what each figure means. About two minutes.
+--target page opens the pages of service --static in Debian's headless Chromium (tools/setup test).
 """
 SERVICE_NOTES = """\
 Without --port and RKM04_PORT it connects to a virtual unit of its own. Nothing moves on connecting.
@@ -40,7 +43,8 @@ others. Ctrl-C ends it, and the virtual unit with it; a unit on a line is left a
 """
 STATUSES = """\
 exit status: 0 done; 1 what was asked about is not so (a program has errors, a unit refuses);
-  2 wrong usage; 3 no connection
+  2 wrong usage, or a file or standard output that cannot be read or written; 3 no connection;
+  130 ended before it was done, by Ctrl-C or a signal handled like it; 143 by SIGTERM otherwise
 """
 
 Run = Callable[[argparse.Namespace], int]
@@ -48,6 +52,15 @@ Run = Callable[[argparse.Namespace], int]
 
 class Parser(argparse.ArgumentParser):
     """A parser whose errors are one line, as all errors of the tools."""
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Tell of an option that there is not where a command is missing, too."""
+        first = next(iter(args or ()), "")
+        known = self._option_string_actions
+        if self._subparsers and first.startswith("-") and first.partition("=")[0] not in known:
+            meant = _meant(first.partition("=")[0], known)
+            self.error(f"unrecognized arguments: {first}{meant}")
+        return super().parse_known_args(args, namespace)
 
     def error(self, message: str) -> NoReturn:
         """End the command."""
@@ -65,6 +78,7 @@ class Parser(argparse.ArgumentParser):
 
 def read(parser: Parser, arguments: Sequence[str]) -> argparse.Namespace:
     """Read a command line; of options that there are not, say which may have been meant."""
+    options: argparse.Namespace
     options, unknown = parser.parse_known_args(arguments)
     if unknown:
         command = next((c for c in _named(parser, arguments)), parser)
@@ -99,27 +113,26 @@ def main(arguments: Sequence[str]) -> int:
 
 def run_tool(parser: Parser, arguments: Sequence[str]) -> int:
     """Run a command of one of the tools and return its exit status."""
+    return with_streams(parser.prog, partial(_run, parser, arguments))
+
+
+def _run(parser: Parser, arguments: Sequence[str]) -> int:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
     try:
+        take_interrupts()
         if list(arguments[:2]) == ["completion", completion.WORDS]:
             print("\n".join(completion.offered(parser, arguments[2:])))
             return DONE
         options = read(parser, arguments)
         run: Run = options.run
-        status = run(options)
-        sys.stdout.flush()
-        return status
+        return run(options)
     except Failure as failure:
         print(f"{parser.prog}: {failure}", file=sys.stderr)
         return failure.status
     except KeyboardInterrupt:
         return INTERRUPTED
-    except BrokenPipeError:
-        # Nobody reads any more; nothing is left to be written when Python ends.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return NOT_SO
 
 
 def _sim(options: argparse.Namespace) -> int:
@@ -132,7 +145,7 @@ def _sim(options: argparse.Namespace) -> int:
 def _bench(options: argparse.Namespace) -> int:
     """Import what measures the image only when it is asked for."""
     require_checkout("bench")
-    if options.target == "host":
+    if options.target != "stm32":
         if options.profile:
             raise Failure("--profile needs --target stm32")
         return bench.run(options)
@@ -157,13 +170,23 @@ def _compare(options: argparse.Namespace) -> int:
 
 def _service(options: argparse.Namespace) -> int:
     """Import the server only when it is needed: others have not even installed it."""
-    from rkm04_tools.service import command, static
+    if options.static is not None:
+        return write_static(options, options.port, options.node)
+    from rkm04_tools.service import command
 
-    if options.static is None:
-        return command.run(options)
-    if (options.port, options.node, options.listen) != (None, None, None):
-        raise Failure("--static writes a page without a service; leave out the other options")
-    return static.write(named(options.static))
+    return command.run(options)
+
+
+def write_static(options: argparse.Namespace, *others: object, shown: str = "index.html") -> int:
+    """Write the pages that need no service; `others` are options of one that is served.
+
+    `shown` is the page that is to be opened.
+    """
+    if any(each is not None for each in (options.listen, *others)):
+        raise Failure("--static writes pages without a service; leave out the other options")
+    from rkm04_tools import static_pages
+
+    return static_pages.write(named(options.static), shown)
 
 
 def make_parser() -> Parser:
@@ -290,10 +313,15 @@ def _add_service(commands: Commands) -> None:
     command.add_argument("--port", metavar="PORT", help=f"connect there first; {PORT_HELP}")
     command.add_argument("--node", metavar="N", help=NODE_HELP)
     add_page_options(command, 8404)
+    add_static_option(command)
+
+
+def add_static_option(command: argparse.ArgumentParser) -> None:
+    """The option of a service that writes pages instead."""
     command.add_argument(
         "--static", metavar="DIR",
-        help="write the page into a folder instead, as one file that checks and simulates programs "
-        "by itself and has a virtual unit, but no line to real ones",
+        help="write the pages of all units into a folder instead, each as one file that needs no "
+        "service: it checks, has a virtual unit, and reaches real ones where the browser can",
     )  # fmt: skip
 
 
@@ -314,9 +342,10 @@ def _add_bench(commands: Commands) -> None:
     command = _add(commands, "bench", _bench, title, f"{example}\n\n{BENCH_NOTES.rstrip()}")
     command.add_argument(
         "--target",
-        choices=["host", "stm32"],
+        choices=["host", "page", "stm32"],
         default="host",
-        help="what is measured: the host build, or the image of a board (default: host)",
+        help="what is measured: the host build, the pages that need no service, or the image of a "
+        "board (default: host)",
     )
     command.add_argument(
         "--profile",
@@ -336,10 +365,16 @@ stm32flash does not tell it."""
 def add_board(commands: Commands, unit: str = board.UNIT) -> None:
     """`board` of the tools of a unit."""
     title = "build, measure and flash the firmware of a board"
-    command = commands.add_parser("board", help=title, description=title, allow_abbrev=False)
+    other = board.names(unit)[-1]
+    command = commands.add_parser(
+        "board", help=title, description=f"{title[0].upper()}{title[1:]}.",
+        epilog=f"example:\n  {unit} board build --board {other}\n"
+        f"  {unit} board flash --dry-run\n\n"
+        f"{unit} board ACTION --help shows an example of each action.",
+        formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False,
+    )  # fmt: skip
     actions = command.add_subparsers(metavar="ACTION", required=True)
     build = "build the image: .elf, .hex and .bin"
-    other = board.names(unit)[-1]
     parts = [
         _add(actions, "build", board.run_build, build, f"{unit} board build --board {other}"),
         _add(actions, "size", board.run_size, "flash, RAM and stack beside their budgets",
@@ -357,6 +392,9 @@ def add_board(commands: Commands, unit: str = board.UNIT) -> None:
                           help=f"one of {', '.join(board.names(unit))}")  # fmt: skip
         part.set_defaults(image=unit, baud=None)
     for part in (parts[0], parts[2]):
+        part.add_argument("--half-period", action="store_true",
+                          help="STEP pulses of half a period, at most 10 us, where the next one is "
+                               "known in time")  # fmt: skip
         if unit == board.UNIT:
             part.add_argument("--image", choices=board.IMAGES, default=board.UNIT,
                               help="that of the unit, or the one a new board is tried with "

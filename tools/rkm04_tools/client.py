@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from difflib import unified_diff
 from typing import Any
 
@@ -20,6 +20,7 @@ from rkm04_tools.client_base import (
     tell,
     who,
 )
+from rkm04_tools.doubt import Doubt, in_doubt
 from rkm04_tools.failure import DONE, NO_CONNECTION, NOT_SO, Failure
 from rkm04_tools.frame import BROADCAST
 from rkm04_tools.line import Motor, Unit, open_line
@@ -108,11 +109,12 @@ def run_store(options: Namespace) -> int:
         if not checked.is_good:
             return NOT_SO
         plan = plan_program(checked)
-    with open_line(port) as line:
+    with in_doubt(Doubt()) as doubt, open_line(port) as line:
         motor = line.unit(node).motor(options.motor)
         before = _programs(motor)
         for each, commands in before.items():
             _require_same(plan, commands, each)
+        doubt.about(f"whether {name_of(motor)} has stored", "store again")
         motor.store()
         for each, commands in _programs(motor).items():
             if commands != before[each]:
@@ -191,17 +193,44 @@ def run_restore(options: Namespace) -> int:
     """Load and store the programs of a folder."""
     port = port_of(options)
     programs = archive.read_folder(named(options.folder))
-    with open_line(port) as line, Bar("restoring") as bar:
-        archive.restore(line, programs, bar.show)
-    status = _tell_archive(options, programs, "restored from")
+    doubt = Doubt(advice="restore again")
+
+    def show(done: int, total: int) -> None:
+        doubt.done = f"restored: {archive.names_of(programs[:done])}"
+        if done < total:
+            doubt.what = (
+                f"{archive.names_of([programs[done]])}: its memory may hold a part of the program, "
+                "and what is stored is the old program or the new one"
+            )
+            doubt.done += f"; not begun: {archive.names_of(programs[done + 1 :])}"
+        bar.show(done, total)
+
+    with in_doubt(doubt), open_line(port) as line, Bar("restoring") as bar:
+        moved = archive.restore(line, programs, show)
+    left = archive.motors_without(programs)
+    more = {"moved": _motors(moved), "left": _motors(left)}
+    status = _tell_archive(options, programs, "restored from", more)
     if not options.json:
+        if moved:
+            print(f"moved, and were stopped: {archive.names_of(moved)}")
+        if left:
+            print(f"left as they are, without a file: {archive.names_of(left)}")
         print(
             "nothing runs: rkm04 resume starts a motor, and so does switching its unit off and on"
         )
     return status
 
 
-def _tell_archive(options: Namespace, saved: Sequence[archive.Saved], what: str) -> int:
+def _motors(found: Sequence[archive.Saved]) -> list[dict[str, int]]:
+    return [{"node": each.node, "motor": each.motor} for each in found]
+
+
+def _tell_archive(
+    options: Namespace,
+    saved: Sequence[archive.Saved],
+    what: str,
+    more: Mapping[str, Any] | None = None,
+) -> int:
     rows = [
         {"node": each.node, "motor": each.motor, "file": str(each.path), "commands": each.commands}
         for each in saved
@@ -211,7 +240,8 @@ def _tell_archive(options: Namespace, saved: Sequence[archive.Saved], what: str)
         f"{count_of(each.commands, 'command')} {what} {each.path}"
         for each in saved
     ]
-    return tell(options, {"programs": rows}, "\n".join(lines) or "no unit has a program")
+    answer = {"programs": rows, **(more or {})}
+    return tell(options, answer, "\n".join(lines) or "no unit has a program")
 
 
 def run_watching(options: Namespace) -> int:

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import signal
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from rkm04_tools import acting
@@ -22,19 +20,21 @@ from rkm04_tools.client_base import (
     tell,
     who,
 )
+from rkm04_tools.doubt import Doubt, in_doubt, undisturbed
 from rkm04_tools.failure import DONE, INTERRUPTED, NOT_SO, Failure
 from rkm04_tools.frame import BROADCAST
 from rkm04_tools.host import opcode_rows
 from rkm04_tools.line import Motor, Unit, open_line
-from rkm04_tools.sending import Sent, plan_program, send_program
-from rkm04_tools.streaming import stream_program
+from rkm04_tools.sending import COMMANDS_MAX, Plan, Sent, plan_program, send_program
+from rkm04_tools.streaming import PART_COMMANDS_MAX, stream_program
 
-Act = Callable[[Unit, int], list[Told]]
+Act = Callable[[Unit, int, Doubt], list[Told]]
 
 
 def run_stop(options: Namespace) -> int:
     """Stop motors, and tell which stand; one that goes on is status 1."""
-    return _act(options, acting.stop, "K was sent", enough=all)
+    doubt = Doubt("K", acting.EMERGENCY)
+    return _act(options, acting.stop, "K was sent", enough=all, doubt=doubt)
 
 
 def run_resume(options: Namespace) -> int:
@@ -53,8 +53,8 @@ def run_speed(options: Namespace) -> int:
     if not row.min <= options.speed <= row.max:
         raise Failure(f"speed {options.speed}: write steps/s, {row.min} to {row.max}")
 
-    def act(unit: Unit, number: int) -> list[Told]:
-        return acting.change_speed(unit, number, options.speed)
+    def act(unit: Unit, number: int, doubt: Doubt) -> list[Told]:
+        return acting.change_speed(unit, number, options.speed, doubt)
 
     return _act(options, act, "", enough=any)
 
@@ -70,58 +70,65 @@ def run_send(options: Namespace) -> int:
     plan = plan_program(checked)
     for note in plan.notes:
         _warn(options, note)
-    with open_line(port) as line, Bar("sending") as bar:
+    act = {"K": acting.stop, "C75": acting.resume}.get("".join(plan.texts))
+    with in_doubt(Doubt()) as doubt, open_line(port) as line, Bar("sending") as bar:
         motor = line.unit(node).motor(options.motor)
-        if act := {"K": acting.stop, "C75": acting.resume}.get("".join(plan.texts)):
-            return _tell_act(options, motor, act(motor.unit, motor.number), "sent", all)
-        sent = send_program(motor, checked, bar.show)
+        if act:
+            return _tell_act(options, motor, act(motor.unit, motor.number, doubt), "sent", all)
+
+        def show(done: int, total: int) -> None:
+            _note_sending(doubt, plan, done, total)
+            bar.show(done, total)
+
+        sent = send_program(motor, checked, show)
         return _tell_sent(options, motor, sent)
+
+
+def _note_sending(doubt: Doubt, plan: Plan, done: int, total: int) -> None:
+    """Note what is not known of a program while its next message is under way."""
+    name, has_more = plan.checked.source.name, total > 1
+    counts = f"{done} of {count_of(total, 'message')} taken" if has_more else ""
+    if done == total:
+        doubt.about(f"{name} was taken, but what the motor does", acting.MAY_MOVE)
+    elif done == total - 1:
+        what = f"whether {name} was taken{' whole' if has_more else ''}, and runs"
+        doubt.about(what, acting.MAY_MOVE, counts)
+    else:
+        gone = "; what was in the memory before is gone" if plan.resets else ""
+        what = f"how much of {name} was taken: what there is of it waits for the rest"
+        doubt.about(what, "rkm04 reset forgets it, or send it again", f"{counts}{gone}")
 
 
 def _stream(options: Namespace, node: int, port: str, checked: Checked) -> int:
     """Feed a program; an interruption stops the motor, and tells what it does then."""
-    total = fed = 0
+    doubt = Doubt(advice=f"{acting.MAY_MOVE}; if it must stand, use the emergency stop")
 
-    def show(done: int, of: int) -> None:
-        nonlocal total, fed
-        fed, total = done, of
-        bar.show(done, of)
+    counts = ""
 
-    with open_line(port) as line, Bar("feeding") as bar:
+    def show(done: int, total: int) -> None:
+        nonlocal counts
+        counts = f"{done} of {total} commands"
+        doubt.done = f"{counts} were sent"
+        held = min(done + PART_COMMANDS_MAX, total, COMMANDS_MAX)
+        doubt.what = (
+            f"what the motor does: without more it runs on with up to {count_of(held, 'command')}"
+        )
+        bar.show(done, total)
+
+    with in_doubt(doubt), open_line(port) as line, Bar("feeding") as bar:
         motor = line.unit(node).motor(options.motor)
         try:
-            with _interrupted_by_any_signal():
-                sent = stream_program(motor, checked, show, lambda text: _warn(options, text))
+            sent = stream_program(motor, checked, show, lambda text: _warn(options, text))
             return _tell_sent(options, motor, sent)
         except KeyboardInterrupt:
-            with _undisturbed():
-                found = acting.stop(motor.unit, motor.number)
+            if not doubt.what:
+                raise
+            with undisturbed():
+                doubt.done = f"interrupted after {counts}"
+                found = acting.stop(motor.unit, motor.number, doubt)
             for each in found:
-                text = f"interrupted after {fed} of {total} commands; {_line(motor, each)}"
-                print(f"rkm04: {text}", file=sys.stderr)
+                print(f"rkm04: {doubt.done}; {_line(motor, each)}", file=sys.stderr)
             return INTERRUPTED
-
-
-@contextmanager
-def _interrupted_by_any_signal() -> Iterator[None]:
-    """Make the ends that a process is asked for be as Ctrl-C."""
-    numbers = [signal.SIGTERM, signal.SIGHUP] if hasattr(signal, "SIGHUP") else [signal.SIGTERM]
-    before = [signal.signal(number, signal.default_int_handler) for number in numbers]
-    try:
-        yield
-    finally:
-        for number, handler in zip(numbers, before, strict=True):
-            signal.signal(number, handler)
-
-
-@contextmanager
-def _undisturbed() -> Iterator[None]:
-    """Let nobody interrupt the stop, which takes a few seconds at the most."""
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def _tell_sent(options: Namespace, motor: Motor, sent: Sent) -> int:
@@ -157,12 +164,18 @@ def _tell_sent(options: Namespace, motor: Motor, sent: Sent) -> int:
     return NOT_SO if dead else DONE
 
 
-def _act(options: Namespace, act: Act, sent: str, enough: Callable[[list[bool]], bool]) -> int:
+def _act(
+    options: Namespace,
+    act: Act,
+    sent: str,
+    enough: Callable[[list[bool]], bool],
+    doubt: Doubt | None = None,
+) -> int:
     """Do something to one motor or all, and say what has become of it."""
     node = node_of(options)
-    with open_line(port_of(options)) as line:
+    with in_doubt(doubt or Doubt()) as doubt, open_line(port_of(options)) as line:
         motor = line.unit(node).motor(options.motor)
-        told = act(motor.unit, motor.number)
+        told = act(motor.unit, motor.number, doubt)
     return _tell_act(options, motor, told, sent, enough)
 
 

@@ -18,9 +18,20 @@ from rkm04_tools.source import read_source
 PORT_VARIABLE, NODE_VARIABLE = "RKM04_PORT", "RKM04_NODE"
 
 
+def named_port(options: Namespace, variable: str) -> str | None:
+    """The port that is named by option or environment, if there is one.
+
+    An option that is empty, as of a variable that is not set, must not mean another unit.
+    """
+    if options.port == "":
+        raise Failure("--port is empty; name a port, or leave the option out")
+    port: str | None = options.port
+    return port or os.environ.get(variable)
+
+
 def port_of(options: Namespace, variable: str = PORT_VARIABLE) -> str:
     """The port that is named by option or environment."""
-    port: str | None = options.port or os.environ.get(variable)
+    port = named_port(options, variable)
     if not port:
         raise Failure(
             "no port; name it with --port (COM5, /dev/ttyUSB0, socket://127.0.0.1:5000) "

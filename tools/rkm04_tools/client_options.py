@@ -61,7 +61,7 @@ COMMANDS = (
                "rkm04 diff tools/examples/4-loop.rks --port COM5 --motor 2", READS, 1),
     CommandRow("backup", "write the programs of all units of a line to a folder",
                "rkm04 backup programs --port COM5", LINE, None),
-    CommandRow("restore", "load and store the programs of a folder that backup has written",
+    CommandRow("restore", "load and store the programs that backup has written; their motors stop",
                "rkm04 restore programs --port COM5", LINE, None),
     CommandRow("watch", "show positions, programs, inputs and outputs until Ctrl-C",
                "rkm04 watch --port COM5 --interval 0.5", READS, 0),
@@ -93,7 +93,8 @@ def _add_own(name: str, command: argparse.ArgumentParser) -> None:
     if name == "send":
         command.add_argument(
             "--stream", action="store_true",
-            help="feed a program of any length as memory gets free; Ctrl-C stops the motor",
+            help="feed a program of any length, which begins with \\, as memory gets free; Ctrl-C "
+            "stops the motor",
         )  # fmt: skip
     elif name == "store":
         command.add_argument(

@@ -155,10 +155,11 @@ def held_commands(motor: Motor) -> list[str]:
 def send_program(motor: Motor, checked: Checked, tell: Tell = silent) -> Sent:
     """Send a program without errors, which runs when all of it has arrived."""
     plan = plan_program(checked)
-    _require_room(motor, plan)
+    require_room(motor, plan)
     if plan.hold is not Hold.STOP:
-        return _send_texts(motor, plan, tell)
-    sent = _send_texts(motor, plan, tell, _halt(motor, plan))
+        return send_texts(motor, plan, tell)
+    tell(0, len(plan.texts))
+    sent = send_texts(motor, plan, tell, _halt(motor, plan))
     motor.resume()
     return sent
 
@@ -170,14 +171,14 @@ def load_program(motor: Motor, checked: Checked) -> Sent:
     """
     plan = plan_program(checked)
     plan = replace(plan, hold=Hold.STOP, texts=pack(["]", *plan.plain]))
-    return _send_texts(motor, plan, silent, _halt(motor, plan))
+    return send_texts(motor, plan, silent, _halt(motor, plan))
 
 
 def _session(motor: Motor) -> int:
     return motor.unit.line.sessions[motor.unit.node]
 
 
-def _send_texts(motor: Motor, plan: Plan, tell: Tell, session: int | None = None) -> Sent:
+def send_texts(motor: Motor, plan: Plan, tell: Tell, session: int | None = None) -> Sent:
     """Send all texts in one session, which may have begun before."""
     overflow, is_stopped = False, session is not None
     for done, text in enumerate(plan.texts):
@@ -282,7 +283,7 @@ def is_locked(unit: Unit) -> bool:
         return False
 
 
-def _require_room(motor: Motor, plan: Plan) -> None:
+def require_room(motor: Motor, plan: Plan) -> None:
     """Refuse to overwrite what is in the memory and may not have run."""
     if motor.unit.node == BROADCAST or not plan.commands or plan.resets:
         return
@@ -293,7 +294,7 @@ def _require_room(motor: Motor, plan: Plan) -> None:
         if _has_run_all(each):
             continue
         room = COMMANDS_MAX - len(held_commands(each))
-        if len(plan.texts) > 1:
+        if plan.hold is Hold.BRACKETS:
             room -= len(BRACKETS)
         if len(plan.commands) > room:
             raise Failure(

@@ -161,16 +161,23 @@ def summary(answer: Mapping[str, Any], runs: Sequence[Run]) -> str:
         motor = board_motors[run.told["motor"]]
         counts = (motor["pulses"], run.told["pulses"], motor["position"])
         rows.append((str(motor["motor"]), run.checked.source.name, *map(thousands, counts)))
-    cycles = step_interrupt(answer)
-    late = answer["watch"][LATE]
     return "\n".join(
         [
             table([HEAD, *rows], "rlrrr"),
             "",
             f"the programs had come {answer['began_ms']:.3f} ms after power-on",
-            f"load {rounded(100 * answer['load'])} %, late steps: {thousands(late)}",
-            f"step interrupt: {thousands(cycles['count'])} times, cycles {cycles['min']} at least, "
-            f"median {cycles['median']}, {cycles['max']} at most",
-            virtual_board.MODEL,
+            *cost(answer),
         ]
     )
+
+
+def cost(answer: Mapping[str, Any]) -> list[str]:
+    """What the board had to do for it."""
+    cycles = step_interrupt(answer)
+    late = answer["watch"][LATE]
+    return [
+        f"load {rounded(100 * answer['load'])} %, late steps: {thousands(late)}",
+        f"step interrupt: {thousands(cycles['count'])} times, cycles {cycles['min']} at least, "
+        f"median {cycles['median']}, {cycles['max']} at most",
+        virtual_board.MODEL,
+    ]

@@ -47,6 +47,8 @@ LINE_COUNTS = {
     "unsent": "answers not begun, as the line was not silent",
 }
 """What the link of a unit counts, in the order of the answer, with what it means."""
+UNTIMED = "by an interrupt (class 2): less than 4 us late, or counted as late"
+"""What the steps of a board are that no timer makes."""
 
 # Number, layout; inputs, outputs, cause, switches; states; errors; positions; late steps; counts.
 LAYOUT = struct.Struct(f"<BB4B4B4B4qI{len(LINE_COUNTS)}I")
@@ -214,7 +216,7 @@ def status_text(status: Status) -> str:
     facts |= {"memory": "refuses commands when full (T40)"} if status.memory_locked else {}
     facts |= {"crystal": "missing: no motion"} if status.no_crystal else {}
     facts |= {"stored": "no programs, the part is too small"} if status.no_store else {}
-    facts |= {"steps": "by an interrupt: class 2"} if status.untimed else {}
+    facts |= {"steps": UNTIMED} if status.untimed else {}
     lines = [f"{name + ':':<13} {text}" for name, text in facts.items()]
     return "\n".join([table(rows, "rrl"), "", *lines])
 

@@ -24,6 +24,8 @@ from rkm04_tools.status import MotorStatus
 
 PART_BYTES_MAX = 200
 """A tenth of a second on the line: a K need not wait for longer."""
+PART_COMMANDS_MAX = PART_BYTES_MAX
+"""Of a letter each."""
 SPAN_MAX = 600
 """Commands from the beginning to the end of a loop: the rest of the memory feeds on."""
 POLL_SECONDS = 0.05
@@ -155,11 +157,7 @@ class Feeder:
         except UnknownMessage:
             return None
         if state.failed or state.ended:
-            total = len(self._plan.commands)
-            raise Failure(
-                f"motor {state.motor} {state.text}; {self.sent} of {total} commands were sent",
-                NOT_SO,
-            )
+            raise Failure(f"motor {state.motor} {state.text}", NOT_SO)
         if state.stopped and not self._stopped:
             self._say(f"motor {state.motor} is stopped by K and goes on at rkm04 resume")
         self._stopped = state.stopped

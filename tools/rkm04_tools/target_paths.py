@@ -6,6 +6,7 @@ is room for them. As all else of the bench: modelled.
 
 from __future__ import annotations
 
+import math
 import struct
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -25,7 +26,9 @@ SYMBOLS = ("path_bench_table", "path_bench_report", "path_bench_done")
 KINDS = 2
 BEGIN_MS = 45.0
 """The image is up by then, its first vectors are there, and nothing has moved."""
-SECONDS_MAX = 20.0
+SECONDS_MAX = 2.0
+"""No path takes one; at too high a rate the image resets itself again and again."""
+
 CYCLES_PER_TICK = 2
 TICKS_PER_US = TICKS_PER_MS / 1000
 
@@ -33,6 +36,10 @@ BORDER_STEPS = 100
 ALIKE = (BORDER_STEPS,) * 4
 APART = (100, -99, 57, 33)
 """Shares that are fractions, so that the axes' accelerations are rounded."""
+PASSING = (100, -99, 98, -97)
+"""Rates so near to each other that pulses of all axes pass those of the others, in every order."""
+WIDE_BOARD = "weact-f405"
+"""Its pulses are 2.5 us wide, those of the reference board 0.5 us."""
 FAST, FAST_VECTORS, FAST_ACCEL = 200_000, 600, 3_000_000
 SLOW, SLOW_VECTORS, SLOW_ACCEL = 50_000, 200, 1_000_000
 RARE = 20
@@ -190,6 +197,18 @@ def borders(rig: Rig) -> Figures:
         figures["stack_used"] = max(figures["stack_used"], many.stack_used, few.stack_used)
     calm, told = whole(rig, "4 x 50 000 steps/s", slow(APART))
     return figures | {"load_path_slow": calm.load, "late_path_slow": told.late}
+
+
+def wide(rig: Rig) -> Figures:
+    """Borders on all axes 2000 times a second at 200 000 steps/s, with pulses of 2.5 us."""
+    wide_rig = rig.of(WIDE_BOARD)
+    figures: Figures = {"width_wide": math.inf, "stack_used": 0}
+    for name, steps in (("alike", ALIKE), ("passing", PASSING)):
+        ran, told = whole(wide_rig, f"4 x 200 000 steps/s, wide pulses, {name}", fast(steps))
+        figures |= {f"load_wide_{name}": ran.load, f"late_wide_{name}": told.late}
+        figures["width_wide"] = min(figures["width_wide"], ran.shortest_us)
+        figures["stack_used"] = max(figures["stack_used"], ran.stack_used)
+    return figures
 
 
 def changes(rig: Rig) -> Figures:

@@ -15,8 +15,21 @@ from statistics import median
 
 import numpy as np
 
+from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.table import thousands
-from rkm04_tools.target_run import MOTORS, TICKS_PER_MS, Line, Rig, programs
+from rkm04_tools.target_figures import Figures, flood
+from rkm04_tools.target_run import (
+    MOTORS,
+    MOVES_BEGIN_MS,
+    TICKS_PER_MS,
+    Line,
+    Move,
+    Ran,
+    Rig,
+    Stop,
+    ended_stopped,
+    programs,
+)
 
 SEED = 20261121
 TICK_HZ = 1000 * TICKS_PER_MS
@@ -40,6 +53,14 @@ LIMIT_RUN = b"S%d @1 )03 W%d J1"
 BUSY = b"S2000 V16000 A60000 @1 F2 Y F3 Y F4 Y F5 Y R J1"
 """Plans all the time."""
 INPUT = 3
+
+FAST_MOVE = Move(80_000, START_SPEED, 200_000, 4_000_000)
+"""Faster than the language allows: of the bench image."""
+FAST_RUNS = 24
+FAST_MS = 80.0
+"""From MOVES_BEGIN_MS to the first moment at which an edge may come: it is in the cruise."""
+OFF_TICKS = 1
+"""A pulse is at most so far from where it belongs."""
 
 GOAL_FAST_US, GOAL_US, FAST = 100, 1000, 10_000
 """The most that the first time may be, at rates above FAST and below."""
@@ -190,3 +211,46 @@ def limit_run(rig: Rig, motors: int) -> Reaction:
         until = edge + round(PAUSE_MS / 2 * TICKS_PER_MS)
         reaction.begins.append(halting(ticks, edge, until))
     return reaction
+
+
+def fast_stops(rig: Rig) -> Figures:
+    """Moves at 200 000 steps/s that an input stops, with the line flooded."""
+    figures: Figures = {"late_stops": 0, "stack_used": 0}
+    for motors in (1, len(MOTORS)):
+        begins = []
+        for i in range(FAST_RUNS):
+            (edge,) = _edges(MOVES_BEGIN_MS + FAST_MS, 0, 1, SEED + motors + i)
+            ran = stopped(rig, motors, edge)
+            at = round(edge * TICKS_PER_MS)
+            begins += [begin_us(ticks, at, ran.late) for ticks in ran.ticks().values()]
+            figures["late_stops"] += ran.late
+            figures["stack_used"] = max(figures["stack_used"], ran.stack_used)
+        figures[f"stop_fast_{motors}"] = max(begins)
+    return figures
+
+
+def stopped(rig: Rig, motors: int, edge: float) -> Ran:
+    """Fast moves of the bench image that an edge stops in their cruise."""
+    line = flood(MOVES_BEGIN_MS, edge + CRUISE_MS)
+    ran = rig.run_moves([FAST_MOVE] * motors, line=line, stop=Stop(INPUT, edge))
+    if not ended_stopped(ran, motors):
+        raise Failure("4 x 200 000 steps/s: the stop did not end well", NOT_SO)
+    return ran
+
+
+def begin_us(ticks: np.ndarray, edge: int, late: int) -> float:
+    """How long after an edge the ramp of a stopped FAST_MOVE begins; 0 if that was before it.
+
+    The ramp is so flat at first that its pulses stand where they would have without it. Their
+    number tells where it begins, and the times of all but late ones that this is so.
+    """
+    square, steep = FAST_MOVE.speed**2, 2 * FAST_MOVE.accel
+    steps = np.arange((square - FAST_MOVE.start_speed**2) // steep + 1.0)
+    ramp = (FAST_MOVE.speed - np.sqrt(square - steep * steps)) / FAST_MOVE.accel * TICK_HZ
+    if len(ticks) < len(ramp):
+        raise ValueError("the pulses are too few for a stop")
+    off = ticks[-len(ramp) :] - ramp
+    begin = np.median(off)
+    if np.count_nonzero(np.abs(off - begin) > OFF_TICKS) > late:
+        raise ValueError("the pulses are not those of a stop")
+    return max(float(begin) - edge, 0) / TICKS_PER_US

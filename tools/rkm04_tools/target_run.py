@@ -31,7 +31,8 @@ TABLE, REPORT, DONE = "bench_table", "bench_report", "bench_done"
 
 MOVES_BEGIN_MS = 3.0
 """The bench image is up by then, and no move of it has begun."""
-BENCH_SECONDS_MAX = 20.0
+BENCH_SECONDS_MAX = 2.0
+"""No moves take one; at too high a rate the image resets itself again and again."""
 
 
 @dataclass(frozen=True)
@@ -95,6 +96,24 @@ class Move:
 
 
 @dataclass(frozen=True)
+class Stop:
+    """An edge at an input that stops the moves of the bench image; the pulses are kept."""
+
+    number: int
+    ms: float
+
+    @property
+    def guards(self) -> int:
+        """As in struct bench_table."""
+        return 1 << self.number - 1
+
+    @property
+    def inputs(self) -> str:
+        """The script of the inputs."""
+        return f"{self.ms:.6f},{self.number},1\n"
+
+
+@dataclass(frozen=True)
 class Ran:
     """What a run told."""
 
@@ -136,6 +155,11 @@ class Ran:
         """How often it ran, its cycles (all, min, median, max), and how long it had to wait."""
         nothing = dict.fromkeys(("count", "cycles", "min", "median", "max", "latency_max"), 0)
         return next((v for v in self.summary["vectors"] if v["name"] == STEP_VECTOR), nothing)
+
+    @property
+    def shortest_us(self) -> float:
+        """Of all pulses at STEP."""
+        return min(float(motor["width_min"]) for motor in self.summary["motors"])
 
     @property
     def profile_file(self) -> Path:
@@ -181,6 +205,10 @@ class Rig:
         folder.mkdir()
         return replace(self, folder=folder, model=model)
 
+    def of(self, name: str) -> Rig:
+        """The same with the images of another board, built if need be."""
+        return replace(self, image=board.build(name, what=self.image.unit))
+
     def run(
         self, seconds: float, line: str = "", inputs: str = "", *options: str,
         steps: bool = False, profile: bool = False, flash: Path | None = None,
@@ -192,14 +220,16 @@ class Rig:
         return self._run(self.elf, seconds, arguments)
 
     def run_moves(
-        self, moves: Sequence[Move], *options: str, line: str = "", stop_at_late: bool = False
-    ) -> Ran:
+        self, moves: Sequence[Move], *options: str, line: str = "", stop_at_late: bool = False,
+        stop: Stop | None = None,
+    ) -> Ran:  # fmt: skip
         """Run the bench image to the end of its moves; those of motors 1, 2 and so on."""
         none = Move(0, 0, 0, 0)
         table = b"".join(move.packed for move in [*moves, *[none] * (len(MOTORS) - len(moves))])
-        put = (table + struct.pack("<I", stop_at_late)).hex()
+        put = (table + struct.pack("<2I", stop_at_late, stop.guards if stop else 0)).hex()
         arguments = ["--set", f"{TABLE}={put}", "--end-at", DONE, "--watch", REPORT]
-        arguments += [*self._files({"line-script": line}), *options]
+        files = {"line-script": line, "inputs": stop.inputs if stop else ""}
+        arguments += [*self._files(files, steps=stop is not None), *options]
         return self._run(self.bench_elf, BENCH_SECONDS_MAX, arguments)
 
     def run_other(self, elf: Path, seconds: float, arguments: Sequence[str], line: str) -> Ran:
@@ -245,6 +275,12 @@ def ended_well(ran: Ran, moves: Sequence[Move]) -> bool:
     wanted = [move.steps for move in moves] + [0] * (len(MOTORS) - len(moves))
     _, *places, ended = ran.summary["watch"][REPORT]
     return ended == len(moves) and places == wanted and ran.positions == wanted
+
+
+def ended_stopped(ran: Ran, motors: int) -> bool:
+    """Whether moves of a bench image that were stopped came to an end: unit and drivers agree."""
+    _, *places, ended = ran.summary["watch"][REPORT]
+    return bool(ended == motors and places == ran.positions)
 
 
 def rig(

@@ -29,7 +29,7 @@ SLICE_SECONDS = 0.005
 """How long one call of pyserial waits for a byte."""
 CHUNK_BYTES = 4096
 
-ADDRESS = re.compile(r"socket://(\[[^\]]+\]|[^:/\[\]]+):(\d{1,5})/?")
+ADDRESS = re.compile(r"(\[[^\]]+\]|[^:/\[\]]+):(\d{1,5})/?")
 
 
 def seconds_on_line(count: int, baud: int = BAUD) -> float:
@@ -59,15 +59,17 @@ class Port(Transport, Protocol):
         """Close the port, and let nothing of what was sent go out any more that still waits."""
 
 
-def open_transport(name: str, baud: int = BAUD, form: str = "8N1") -> Port:
+def open_transport(
+    name: str, baud: int = BAUD, form: str = "8N1", scheme: str = "socket://"
+) -> Port:
     """Open a port by its name: a device, a pty or socket://HOST:PORT.
 
-    `form`: the bits, parity and stop bits of a serial device.
+    `form`: the bits, parity and stop bits of a serial device. `scheme`: what addresses begin with.
     """
-    if name.startswith("socket://"):
-        match = ADDRESS.fullmatch(name)
+    if name.startswith(scheme):
+        match = ADDRESS.fullmatch(name.removeprefix(scheme))
         if not match or not 0 < int(match[2]) < 65_536:
-            raise Failure(f"{name}: write socket://HOST:PORT, as in socket://127.0.0.1:5000")
+            raise Failure(f"{name}: write {scheme}HOST:PORT, as in {scheme}127.0.0.1:5000")
         return SocketTransport(name, match[1].strip("[]"), int(match[2]))
     return SerialTransport(name, baud, form)
 

@@ -1,4 +1,7 @@
-"""Moves axis 1 by 10 mm and back. `tools/positioning serve` is a unit without hardware."""
+"""Moves axis 1 by 10 mm and back. `tools/positioning serve` is a unit without hardware.
+
+PYTHONPATH=tools build/venv/bin/python tools/examples/positioning/first_move.py
+"""
 
 import os
 

@@ -53,6 +53,8 @@ def run(options: Namespace) -> int:
     """Ask whether it is safe before anything is sent; report whatever ends the walk."""
     name = board.image_of(options.board).board
     header = read_board((board.BOARDS / name / "board.h").read_text())
+    if options.report:
+        _require_place(Path(options.report))
     report = Report(name, port_of(options), [Part(step.name) for step in STEPS])
     person = Person(sys.stderr if options.json else sys.stdout)
     status, ending = DONE, ""
@@ -68,6 +70,15 @@ def run(options: Namespace) -> int:
     except Failure as failure:
         status, ending = failure.status, str(failure)
     return _tell(options, person, report, ending, status)
+
+
+def _require_place(path: Path) -> None:
+    """Make sure, before the walk, that its report can be written and costs no other one."""
+    if path.is_file():
+        raise Failure(f"{path}: is there already, and a report replaces none; choose another name")
+    _write(path, "")
+    if path.is_file():
+        path.unlink()
 
 
 def _make_sure(person: Person, name: str) -> None:
@@ -129,8 +140,10 @@ def _tell(options: Namespace, person: Person, report: Report, ending: str, statu
         person.tell(f"\n{ending}")
     text = json.dumps(report.as_object(), indent=2) if options.json else report.as_text()
     print(text if options.json else f"\n{text}")
-    if options.report:
+    if options.report and report.begun:
         _write(Path(options.report), report.as_text())
+    elif options.report:
+        person.tell(f"{options.report}: not written, as nothing was done")
     return status
 
 

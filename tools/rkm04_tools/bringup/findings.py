@@ -49,6 +49,10 @@ class Report:
     parts: list[Part]
 
     @property
+    def begun(self) -> bool:
+        return any(part.seen or part.state != NOT_DONE for part in self.parts)
+
+    @property
     def complete(self) -> bool:
         return all(part.state == DONE for part in self.parts)
 

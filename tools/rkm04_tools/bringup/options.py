@@ -14,8 +14,8 @@ The board has the bring-up image: rkm04 board flash --board NAME --image bringup
 wanted, from each STEP pin to CAPTURE (rkm04 board pins), to measure pulses. Nothing is sent
 before you have said that the motors are unpowered, nothing is switched before you have confirmed
 its step. What was left out, or not come to, stands in the report as such. The report is printed at
-the end; with --json as one JSON object, and the walk goes to standard error. Status 0: all was done
-and is good."""
+the end; with --json as one JSON object, and the walk goes to standard error. The file of --report
+must not be there yet, and is not made if nothing was done. Status 0: all was done and is good."""
 PATIENCE_SECONDS = 20.0
 
 
@@ -23,7 +23,7 @@ def add_arguments(command: ArgumentParser) -> None:
     command.add_argument("--board", metavar="NAME", default=board.DEFAULT_BOARD,
                          help=f"one of {', '.join(board.names())}")  # fmt: skip
     command.add_argument("--port", metavar="PORT", help=PORT_HELP)
-    command.add_argument("--report", metavar="FILE", help="write the report there as well")
+    command.add_argument("--report", metavar="FILE", help="write the report to a new file as well")
     command.add_argument("--patience", metavar="SECONDS", type=_seconds, default=PATIENCE_SECONDS,
                          help="how long to wait for your hands at the inputs, with nothing new "
                               "(default: 20)")  # fmt: skip

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rkm04_tools.compare.clock import RATE_MAX, Clock, Line, fit
+from rkm04_tools.compare.follow import follow
 from rkm04_tools.compare.recording import Floats, Ints
 
 SECTION_SECONDS = 2.0
@@ -72,6 +73,8 @@ class _Trains:
     all_simulated: Floats
     """The pulses of all motors, ascending."""
     resolution: float
+    noise: float
+    """How far a pulse may be off that is where it should be."""
     rate_max: float
 
 
@@ -86,9 +89,12 @@ class _Place:
 
 
 def align(
-    simulated: Trains, captured: Trains, resolution: float, with_rate: bool
+    simulated: Trains, captured: Trains, resolution: float, noise: float, with_rate: bool
 ) -> Alignment | None:
-    """Align the pulses of the motors that are in both; None if nothing fits."""
+    """Align the pulses of the motors that are in both; None if nothing fits.
+
+    `noise` is how far a pulse may be off that is where it should be.
+    """
     motors = [m for m in simulated if len(simulated[m]) and len(captured.get(m, ()))]
     if not motors:
         return None
@@ -98,6 +104,7 @@ def align(
         {m: _gaps(simulated[m]) for m in motors},
         np.sort(np.concatenate([simulated[m] for m in motors])),
         resolution,
+        noise,
         RATE_MAX if with_rate else 0.0,
     )
     perfect = min(sum(map(len, each.values())) for each in (trains.simulated, trains.captured))
@@ -322,7 +329,7 @@ def _nearest(expected: Floats, captured: Floats, reach: Floats) -> tuple[Ints, I
 
 
 def _finish(trains: _Trains, clock: Clock) -> Alignment:
-    """Pair everything by a clock that is fitted to each section alone."""
+    """Pair everything by a clock that is fitted to each section alone; then one for the whole."""
     pairs = pair(trains, clock, -np.inf, np.inf)
     has_rate = trains.rate_max > 0 and _count(pairs) >= RATE_PULSES_MIN
     if not _count(pairs):
@@ -333,7 +340,15 @@ def _finish(trains: _Trains, clock: Clock) -> Alignment:
             pairs = pair(trains, clock, -np.inf, np.inf)
     x, y = _points(trains, pairs)
     overall = fit(x, y, trains.resolution, trains.rate_max if has_rate else 0.0)
+    if has_rate:
+        clock = _whole(trains, x, y, clock, overall)
     return Alignment(clock, overall, has_rate, pairs)
+
+
+def _whole(trains: _Trains, x: Floats, y: Floats, sections: Clock, overall: Line) -> Clock:
+    """The clock of all pairs but the faulty ones."""
+    good = np.abs(y - sections.capture(x)) <= trains.noise
+    return follow(x[good], y[good], overall, trains.noise)
 
 
 def _sections(trains: _Trains, x: Floats, y: Floats) -> Clock:

@@ -16,7 +16,14 @@ import numpy as np
 from rkm04_tools.compare.align import Alignment, Trains, align
 from rkm04_tools.compare.channels import wire
 from rkm04_tools.compare.clock import RATE_MAX
-from rkm04_tools.compare.findings import Allowed, Wires, compare, find_shift, wander
+from rkm04_tools.compare.findings import (
+    Allowed,
+    Wires,
+    compare,
+    find_jump,
+    find_shift,
+    wander,
+)
 from rkm04_tools.compare.options import LIMIT_NS_MAX
 from rkm04_tools.compare.recording import Reader, Recording, hertz
 from rkm04_tools.compare.report import Result, as_json, text
@@ -140,15 +147,17 @@ def _compare(
             f"--limit {options.limit}: the capture resolves {finest * 1e9:.1f} ns, so that nothing "
             "below can be asked; sample faster"
         )
-    alignment = align(trains, rises, finest, options.rate)
-    limit = limit or finest + 1 / simulated.tick_hz + _unknown_rate(alignment, trains, options.rate)
+    noise = limit or finest + 1 / simulated.tick_hz
+    alignment = align(trains, rises, finest, noise, options.rate)
+    limit = limit or noise + _unknown_rate(alignment, trains, options.rate)
     recording = captured.recording
     allowed = Allowed(limit, options.part, recording.begin, recording.end)
     return Result(
         str(captured.path), captured.kind, str(steps), simulated.kind, simulated.tick_hz, found,
         allowed, alignment,
         wander(alignment, trains) if alignment else 0.0,
-        find_shift(alignment, trains, rises, finest) if alignment else None,
+        find_shift(alignment, trains, rises, finest, noise) if alignment else None,
+        find_jump(alignment, trains, rises, limit) if alignment else None,
         [compare(m, pulses[m], w, alignment, allowed) for m, w in captured.wires.items()],
         [m for m in simulated.motors if m not in captured.wires],
         [m for m, w in captured.wires.items() if w.direction is None],

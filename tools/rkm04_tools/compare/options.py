@@ -12,8 +12,9 @@ EXAMPLE = (
 NOTES = """\
 CAPTURE is a session of sigrok or PulseView (.sr), a VCD, or raw data of Saleae Logic 2 as CSV;
 STEPS is what sim writes by --steps or by --vcd. The two are aligned by the pulses themselves: an
-offset, and a rate, since no two crystals agree; a rate that changes slowly is followed in sections
-of two seconds. A pulse is off by what is left then, and nothing below a sample can be told.
+offset, and a rate, since no two crystals agree; the rate may change by 0.1 ppm in a second, as of
+crystals that warm up: more is not the same. A pulse is off by what is left then, and nothing below
+a sample can be told.
 
 Channels are found by their names (STEP1, DIR_2, m3_step, X STEP); --channels says it otherwise. A !
 before a name is for a wire that an inverter follows. DIR is high for backward.

@@ -10,7 +10,8 @@ import numpy as np
 
 from rkm04_tools.compare.align import Alignment
 from rkm04_tools.compare.clock import RATE_MAX
-from rkm04_tools.compare.findings import Allowed, Motor, Places, Shift, wander_max
+from rkm04_tools.compare.findings import Allowed, Jump, Motor, Places, Shift, wander_max
+from rkm04_tools.compare.follow import BEND_MAX, bend
 from rkm04_tools.compare.sampling import DIGITS, GIVEN, SEEN, Resolution
 from rkm04_tools.table import table, thousands
 
@@ -37,6 +38,7 @@ class Result:
     alignment: Alignment | None
     wander: float
     shift: Shift | None
+    jump: Jump | None
     motors: Sequence[Motor]
     not_captured: Sequence[int]
     """Motors that move in the simulation, and whose STEP was not captured."""
@@ -45,8 +47,23 @@ class Result:
     @property
     def is_same(self) -> bool:
         """Whether the capture is what was simulated."""
-        steady = self.wander <= wander_max(self.allowed)
-        return steady and all(motor.is_same for motor in self.motors)
+        return self.is_steady and all(motor.is_same for motor in self.motors)
+
+    @property
+    def told_jump(self) -> Jump | None:
+        """The jump, unless what it may be is the slow drift of clocks in a long pause."""
+        is_far = any(len(motor.too_far) for motor in self.motors)
+        return self.jump if is_far or not self.is_steady else None
+
+    @property
+    def bend(self) -> float:
+        """By how much the rate of the clocks changes in a second, at most."""
+        return bend(self.alignment.clock) if self.alignment else 0.0
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether crystals do what the clocks do."""
+        return self.bend <= BEND_MAX and self.wander <= wander_max(self.allowed)
 
     def ticks(self, seconds: float) -> float:
         """A time in ticks."""
@@ -197,7 +214,31 @@ def _notes(result: Result) -> Iterator[str]:
         yield "pulses are hardly longer than a sample: some may have been missed; sample faster"
     if any(len(m.wrong_direction) == len(m.both) > 0 for m in result.motors):
         yield "DIR is the other way round everywhere: --channels DIR1=!NAME if a wire is inverted"
-    if result.wander > wander_max(result.allowed):
+    turned = [m.motor for m in result.motors if m.upside_down]
+    if turned:
+        yield (
+            f"STEP of {_motors(turned)} is high between the pulses: turned round, the pulse is "
+            "elsewhere; --channels with a ! before the name if the wire is inverted, else without"
+        )
+    yield from _unsteady(result)
+
+
+def _unsteady(result: Result) -> Iterator[str]:
+    """What no crystal does."""
+    if (jump := result.told_jump) is not None:
+        when = "later" if jump.seconds > 0 else "earlier"
+        yield (
+            f"from pulse {jump.pulse} of motor {jump.motor} on ({jump.captured_seconds:.6f} s), "
+            f"after {_time(jump.pause)} without a pulse, all come {_time(abs(jump.seconds))} "
+            f"{when}: no clock jumps so; or the analyser has lost samples"
+        )
+    elif result.bend > BEND_MAX:
+        yield (
+            f"the rate of the clocks changes by {result.bend * 1e6:.2f} ppm in a second, more than "
+            f"the {BEND_MAX * 1e6:g} ppm that crystals may: pulses come later, or earlier, from "
+            "some time on, or the analyser has lost samples"
+        )
+    elif result.wander > wander_max(result.allowed):
         yield (
             f"the clocks wander by {_time(result.wander)}, more than crystals do: pulses come "
             "later, or earlier, from some time on, or the analyser has lost samples"
@@ -275,7 +316,9 @@ def as_json(result: Result) -> dict[str, Any]:
         "offset_seconds": float(line.capture(np.zeros(1))[0]) if line else None,
         "rate_ppm": line.rate * 1e6 if line and alignment and alignment.has_rate else None,
         "wander_ns": result.wander * 1e9,
+        "rate_change_ppm_per_second": result.bend * 1e6,
         "shift": None if result.shift is None else asdict(result.shift),
+        "jump": None if result.told_jump is None else asdict(result.told_jump),
         "fits_elsewhere": bool(alignment and alignment.elsewhere),
         "not_captured": list(result.not_captured),
         "motors": [_motor_as_json(result, motor) for motor in result.motors],
@@ -291,6 +334,7 @@ def _motor_as_json(result: Result, motor: Motor) -> dict[str, Any]:
         "simulated": motor.simulated,
         "both": len(motor.both),
         "outside": motor.outside,
+        "step_upside_down": motor.upside_down,
         "missing": _as_list(motor.missing),
         "surplus": _as_list(motor.surplus),
         "wrong_dir": None if motor.motor in result.without_dir else _as_list(motor.wrong_direction),

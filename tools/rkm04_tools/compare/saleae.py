@@ -158,9 +158,9 @@ class _Rows:
         return Failure(f"{self._path}: cannot be read: {why.partition(';')[0]}")
 
     def _require_order(self, seconds: Floats) -> None:
-        back = np.flatnonzero(np.diff(seconds, prepend=self._time) < 0)
-        if len(back) or not np.isfinite(seconds).all():
-            line = self._line + (int(back[0]) if len(back) else 0)
+        is_wrong = ~(np.diff(seconds, prepend=self._time) >= 0) | ~np.isfinite(seconds)
+        if is_wrong.any():
+            line = self._line + int(np.argmax(is_wrong))
             raise Failure(f"{self._path}:{line}: the time is not after the one before it")
         if seconds[0] == seconds[-1] and len(seconds) > 1000:
             raise Failure(f"{self._path}:{self._line}: time stands still; export it once more")

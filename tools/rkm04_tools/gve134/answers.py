@@ -15,8 +15,12 @@ CODE_WORDS = (
     "wrong syntax",
     "a parameter is out of bounds",
     "nothing to go on with",
-    "not while a vector runs, and no motion after a fault",
+    "not while a vector runs",
 )
+NOT_AFTER_STOP = "not after a stop or a fault: D comes first"
+"""What the code NOT_WHILE_MOVING says with INTA."""
+SWITCH_NOT_FOUND = "its switch was not found, or not let go, within the ways that were given"
+"""What BOUNDS with INTA says of W, whose parameters have been checked."""
 TEXT_CHARACTERS_MAX = 80
 """Between ! and CR."""
 INTERPOLATOR, SPINDLE = "0", "7"
@@ -67,7 +71,9 @@ class Answer:
     @property
     def words(self) -> str:
         """What the digit says."""
-        return f"{CODE_WORDS[self.code]}{', INTA is set' if self.inta else ''}"
+        is_stopped = self.inta and self.code == NOT_WHILE_MOVING
+        words = NOT_AFTER_STOP if is_stopped else CODE_WORDS[self.code]
+        return f"{words}{', INTA is set' if self.inta else ''}"
 
     @property
     def numbers(self) -> tuple[int, ...]:

@@ -5,8 +5,16 @@ from __future__ import annotations
 import argparse
 import re
 
-from rkm04_tools import completion
-from rkm04_tools.cli import Commands, Parser, add_board, add_command, add_page_options
+from rkm04_tools import completion, sim_target
+from rkm04_tools.cli import (
+    Commands,
+    Parser,
+    add_board,
+    add_command,
+    add_page_options,
+    add_static_option,
+    write_static,
+)
 from rkm04_tools.gve134 import check, serve
 from rkm04_tools.gve134.client_options import (
     BAUD_DEFAULT,
@@ -32,12 +40,20 @@ free; J at any time leaves what has not been answered without an answer, and not
 
 What gcode writes for a host is done: ;@wait and ;@probe; ;@pause goes on at once.
 Answers with values are shown, and each that is neither 0 nor 1; then the exit status is 1.
-INPUTS has lines ms,input,level such as 350.5,3,0: input 3 is closed to ground at 350.5 ms. Inputs
-are 1 to 4 (RefX, RefY, RefZ, RefA), 7 and 8 (button and plate of the tool sensor), and open (1) at
-the start. Bytes take no time on the line, unless --baud says a rate.
+INPUTS has lines ms,input,level such as 350.5,3,0: input 3 is closed to ground at 350.5 ms. The
+lines may come in any order; of two at the same time the later one acts last. Inputs are 1 to 4
+(RefX, RefY, RefZ, RefA), 7 and 8 (button and plate of the tool sensor), open (1) at the start.
+Bytes take no time on the line, unless --baud says a rate.
 
 The simulation ends when all lines have been answered and the axes stand, or at the limit of time.
 Steps, trace and waveforms are those of rkm04 sim, with motors 1 to 4 for X, Y, Z, A.
+
+--target stm32 plays FILE to the image of a board on the virtual board (modelled, not measured) and
+tells its load and its late steps. Bytes take their time there, at 115200 Bd unless --baud says
+another rate that images have. There is no --trace, --plot, --xy, and no ;@probe. Times in FILE and
+INPUTS count from its first line, those in the files that are written from power-on. Pulses there
+are rises of the pins, also where FILE turns their polarity (EW05). What comes as a packet has the
+ticks of the simulator, counted from the first pulse; other vectors come when the line brings them.
 """
 SERVICE_NOTES = """\
 Without --port and GVE134_PORT it connects to a virtual unit of its own. Connecting moves nothing.
@@ -104,12 +120,15 @@ def _service(options: argparse.Namespace) -> int:
     """Import the server only when it is needed: others have not even installed it."""
     from rkm04_tools.gve134.service import command
 
-    return command.run(options)
+    if options.static is None:
+        return command.run(options)
+    return write_static(options, options.port, options.machine, shown="gve134.html")
 
 
 def _add_service(commands: Commands) -> None:
     title = "a page in the browser: the path planned and made, start, halt, all that the unit tells"
     example = "gve134 service\n  gve134 service --port COM5 --machine mill.rkm --no-browser"
+    example += "\n  gve134 service --static build/page"
     command = add_command(
         commands, "service", _service, title, f"{example}\n\n{SERVICE_NOTES.rstrip()}"
     )
@@ -122,6 +141,7 @@ def _add_service(commands: Commands) -> None:
         "--machine", metavar="FILE.rkm", help="the machine (default: that of GVE134_MACHINE)"
     )
     add_page_options(command, 8405)
+    add_static_option(command)
 
 
 def _bench(options: argparse.Namespace) -> int:
@@ -159,7 +179,8 @@ def _add_sim(commands: Commands) -> None:
     title = "play a vector file to the simulated unit, in virtual time"
     example = (
         "gve134 sim part.gve --xy part.svg\n"
-        "  gve134 sim part.gve --inputs inputs.csv --baud 115200 --for 10 --vcd part.vcd"
+        "  gve134 sim part.gve --inputs inputs.csv --baud 115200 --for 10 --vcd part.vcd\n"
+        "  gve134 sim part.gve --target stm32 --steps board.csv"
     )
     command = add_command(commands, "sim", _sim, title, f"{example}\n\n{SIM_NOTES.rstrip()}")
     command.add_argument("file", metavar="FILE", help="a vector file (.gve); -: standard input")
@@ -172,3 +193,4 @@ def _add_sim(commands: Commands) -> None:
     )
     for flag, metavar, text in SIM_OPTIONS:
         command.add_argument(flag, metavar=metavar, help=text)
+    sim_target.add_arguments(command, "gve134")

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import re
 import signal
 import sys
 from argparse import Namespace
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import asdict, dataclass
 
-from rkm04_tools.failure import DONE, INTERRUPTED, NOT_SO
-from rkm04_tools.gve134 import answers
+from rkm04_tools.failure import DONE, INTERRUPTED, NOT_SO, Failure
+from rkm04_tools.gve134 import answers, host
 from rkm04_tools.gve134.answers import Answer, canonical
 from rkm04_tools.gve134.client_base import unit_of
 from rkm04_tools.gve134.job import COMMENT, LINE_OWN
@@ -22,6 +24,9 @@ from rkm04_tools.stopper import Stopper
 
 TYPED = re.compile(r"(?:!7)?[\x20\x22-\x7e]+")
 PROMPT = "> "
+READLINE = ("tab: complete", "set show-all-if-ambiguous on", "set enable-bracketed-paste off")
+SPINDLE, SPINDLE_ONLY = 2, "!7"
+"""What the table calls address 7, and how its commands are typed."""
 SUM_CHARACTERS = 4
 """Address, comma and two digits, within the characters of a line."""
 
@@ -31,8 +36,9 @@ def run_console(options: Namespace) -> int:
     is_typed = sys.stdin.isatty()
     with unit_of(options) as unit, Stopper(unit.link.wire) as stopper:
         unit.link.connect()
-        print(f"{unit.link.version}; Ctrl-D ends, Ctrl-C halts", file=sys.stderr)
-        console = Console(unit)
+        completes = "Tab completes, " if is_typed and _complete() else ""
+        print(f"{unit.link.version}; {completes}Ctrl-D ends, Ctrl-C halts", file=sys.stderr)
+        console = Console(unit, options.json)
         while True:
             try:
                 line = _line(stopper, is_typed)
@@ -56,9 +62,40 @@ def run_console(options: Namespace) -> int:
 def _line(stopper: Stopper, is_typed: bool) -> str:
     """The next line; empty: there is none."""
     with stopper.at_once():
-        if is_typed:
-            print(PROMPT, end="", flush=True)
-        return sys.stdin.readline()
+        if not is_typed:
+            return sys.stdin.readline()
+        try:
+            return input(PROMPT) + "\n"
+        except EOFError:
+            return ""
+
+
+def _complete() -> bool:
+    """Let Tab complete what is typed, where a terminal can do that."""
+    try:
+        import readline
+    except ImportError:  # on Windows
+        return False
+    names: list[str] = []
+    with suppress(Failure):
+        names = names_typed(host.commands())
+
+    def nth(begun: str, number: int) -> str | None:
+        found = [name for name in names if name.startswith(begun.upper())]
+        return found[number] if number < len(found) else None
+
+    readline.set_completer(nth)
+    readline.set_completer_delims("")
+    for setting in READLINE:
+        readline.parse_and_bind(setting)
+    return bool(names)
+
+
+def names_typed(commands: list[host.Command]) -> list[str]:
+    """The names of the table's commands as they are typed."""
+    both = {command.text for command in commands if command.address != SPINDLE}
+    spindle = {SPINDLE_ONLY + command.text for command in commands if command.address & SPINDLE}
+    return sorted(both) + sorted(spindle)
 
 
 def _forget_typed() -> None:
@@ -79,6 +116,7 @@ class Console:
     """Sends what is typed. `refused` counts the answers that were not `done`."""
 
     unit: Unit
+    as_json: bool = False
     refused: int = 0
     _packet: list[str] | None = None
 
@@ -88,14 +126,19 @@ class Console:
         if not text:
             return
         if wrong := self._wrong(text):
-            print(f"{text}: {wrong}", file=sys.stderr)
+            shown = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
+            print(f"{shown}: {wrong}", file=sys.stderr)
             self.refused += 1
             return
         answer = self._in_packet(text)
         if answer is None:
             return
         self.refused += answer.code != answers.DONE
-        print(f"{answer.text}  {answer.words}", flush=True)
+        words = answer.words
+        if text.startswith("W") and answer.code == answers.BOUNDS and answer.inta:
+            words = f"{answers.SWITCH_NOT_FOUND}, INTA is set"
+        told = {"command": text, **asdict(answer), "words": words}
+        print(json.dumps(told) if self.as_json else f"{answer.text}  {words}", flush=True)
 
     def _wrong(self, text: str) -> str:
         """Why a line is not sent; empty: it is."""
@@ -104,6 +147,8 @@ class Console:
         if len(text) > answers.TEXT_CHARACTERS_MAX - SUM_CHARACTERS:
             return "not sent: it is longer than a line of the unit"
         if text in LINE_OWN[:2]:
+            if not self.unit.link.sums:
+                return "not sent: checksums are the line's; this console began without them"
             return "not sent: checksums are the line's; --no-sums begins a console without them"
         return ""
 

@@ -27,7 +27,9 @@ def run_get(options: Namespace) -> int:
     """Print what stands at a place."""
     step = 1 if options.kind == "byte" else WORD_BYTES
     first = _place(options.place)
-    if options.count < 1 or first + step * options.count > MEMORY_BYTES:
+    if options.count < 1:
+        raise Failure(f"memory: --count {options.count}: write 1 or more")
+    if first + step * options.count > MEMORY_BYTES:
         raise Failure(f"memory: {options.count} from {first:02X} do not fit; it ends at FF")
     with unit_of(options) as unit:
         places = range(first, first + step * options.count, step)

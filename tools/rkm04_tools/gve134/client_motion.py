@@ -9,13 +9,15 @@ from argparse import Namespace
 from dataclasses import dataclass
 
 from rkm04_tools.client_base import tell
-from rkm04_tools.failure import NOT_SO, Failure
+from rkm04_tools.failure import NO_CONNECTION, NOT_SO, Failure
 from rkm04_tools.gve134 import answers
 from rkm04_tools.gve134.client_base import require_good, unit_of
 from rkm04_tools.gve134.link_errors import Refused
-from rkm04_tools.gve134.sending import SWITCH_NOT_FOUND, causes_of
-from rkm04_tools.gve134.state import AXES, INTA, Flags, Positions, positions_text
+from rkm04_tools.gve134.sending import causes_of
+from rkm04_tools.gve134.state import AXES, INTA, RUN, Flags, Positions, positions_text
 from rkm04_tools.gve134.stopping import (
+    SPINDLE_AFTER_RESTART,
+    SPINDLE_NOT_KNOWN,
     guarded_motion,
     halt_loudly,
     halted_text,
@@ -31,19 +33,22 @@ OVERRIDES = {"up": "XU", "down": "XD", "last": "XA"}
 
 
 def run_halt(options: Namespace) -> int:
-    """Stop the axes, and tell where they stand."""
+    """Stop the axes, and tell where they stand, and what the spindle does."""
     with unit_of(options, shared=True) as unit:
         try:
             halted = halt_loudly(unit)
         except KeyboardInterrupt:
             shout(ENDED_BEFORE)
-            raise
-    return tell(options, _state(halted.flags, halted.positions), halted_text(halted))
+            return NO_CONNECTION
+    spindle = SPINDLE_AFTER_RESTART if halted.restarted else SPINDLE_NOT_KNOWN
+    text = f"{halted_text(halted)}; {spindle}"
+    return tell(options, _state(halted.flags, halted.positions), text)
 
 
 def run_go(options: Namespace) -> int:
     """Let the vectors that wait go on; status 1 if they do not."""
     with unit_of(options) as unit:
+        begin = unit.positions()
         answer = unit.link.ask("G")
         if answer.code == answers.NOTHING_TO_GO_ON:
             raise Refused("nothing waits to go on", answer, f"the unit is {unit.flags().text}")
@@ -54,8 +59,8 @@ def run_go(options: Namespace) -> int:
         if flags.has(INTA):
             causes = ", ".join(causes_of(unit, flags)) or "what the unit does not tell"
             raise Failure(f"it goes on, and is interrupted at once by {causes}", NOT_SO)
-        positions = unit.positions()
-    return tell(options, _state(flags, positions), f"it goes on from {positions_text(positions)}")
+        state = {**_state(flags, unit.positions()), "from": dict(zip(AXES, begin, strict=True))}
+    return tell(options, state, f"it goes on from {positions_text(begin)}")
 
 
 def run_delete(options: Namespace) -> int:
@@ -77,8 +82,20 @@ def run_home(options: Namespace) -> int:
     command = f"W{options.axis.upper()}{','.join(parameters)}"
     require_good(command, "home")
     with unit_of(options) as unit:
-        unit.flags()
+        if not unit.flags().bits & (INTA | RUN):
+            print(f"gve134: {_ways_text(options)}; Ctrl-C halts", file=sys.stderr, flush=True)
         return guarded_motion(unit, lambda: _home(options, unit, command))
+
+
+def _ways_text(options: Namespace) -> str:
+    """What a reference run will do: the unit tells nothing of it before its end."""
+    way, speed, back, speed2 = (
+        int(each) for each in (options.way, options.speed, options.back, options.speed2)
+    )
+    return (
+        f"{options.axis.upper()} goes up to {way} pulses to its switch at {speed} pulses/s, then "
+        f"up to {-back if way > 0 else back} off it at {speed2}"
+    )
 
 
 def _home(options: Namespace, unit: Unit, command: str) -> int:
@@ -88,7 +105,7 @@ def _home(options: Namespace, unit: Unit, command: str) -> int:
         raise Refused(f"{axis} was not homed", answer)
     flags, positions = unit.flags(), unit.positions()
     if answer.code == answers.BOUNDS and answer.inta:
-        raise Refused(f"{axis} was not homed", answer, SWITCH_NOT_FOUND)
+        raise Refused(f"{axis} was not homed", answer, answers.SWITCH_NOT_FOUND)
     if answer.code != answers.DONE:
         raise Refused(f"{axis} was not homed", answer)
     if answer.inta:

@@ -24,7 +24,8 @@ OUTPUTS = ("spindle", "brake", "cooling", "blow", "lock", "release", "cover")
 
 STOPS = (
     "Ctrl-C halts the axes down their ramps (H) and tells where they stand. A second one, or a "
-    "unit that does not answer, ends with STOP NOT CONFIRMED: use the emergency stop then."
+    "unit that does not answer, ends with STOP NOT CONFIRMED: use the emergency stop then. Exit "
+    "status 130: stopped and confirmed; 3: not confirmed."
 )
 PLACES = (
     "Places of the memory with a meaning: 01 function of the relay; 05 polarity of STEP (bits 0-3) "
@@ -56,7 +57,8 @@ COMMANDS = (
         "check a vector file and send it to the unit, which runs it at once",
         ("send part.gve --port /dev/ttyUSB0", "send - < part.gve"),
         (
-            "Nothing is sent of a file with errors. Vectors go in packets; what is lost or damaged "
+            "Nothing is sent of a file with errors, nor to a unit that moves, unless the file "
+            "begins with H or J. Vectors go in packets; what is lost or damaged "
             "on the line is repeated, and never executed twice. At the end it waits until the axes "
             "stand. %+, %-, @ and > are left out: the line uses them by itself. G-code is turned "
             "as by gve134 gcode: position 0 of the program is where the axes stand when it begins, "
@@ -72,8 +74,10 @@ COMMANDS = (
         "send commands that are typed, one in a line, and show the answers in words",
         ("console --port COM5", "console < commands.txt"),
         (
-            "Commands are written as in vector files: P4, SR6, V1000, !7V300. Ctrl-D ends; Ctrl-C "
-            "halts the axes (H), whether they move or not.",
+            "Commands are written as in vector files: P4, SR6, V1000, !7V300; Tab completes them. "
+            "Ctrl-D ends; Ctrl-C halts the axes (H), whether they move or not; where that is not "
+            "confirmed, the exit status is 3. With --json each "
+            "answer is an object in a line of its own.",
         ),
     ),
     CommandRow(
@@ -96,8 +100,9 @@ COMMANDS = (
         "stop the axes down their ramps, and make sure that they stand (H)",
         ("halt --port COM5",),
         (
-            "A unit at rest counts as stopped after it, too: gve134 delete ends that. Exit status "
-            "3 and STOP NOT CONFIRMED: nobody knows whether the axes stand.",
+            "A unit at rest counts as stopped after it, too: gve134 delete ends that. The spindle "
+            "goes on as it was: gve134 spindle 0 stops it. Exit status 3 and STOP NOT CONFIRMED: "
+            "nobody knows whether the axes stand.",
         ),
     ),
     CommandRow(
@@ -131,8 +136,8 @@ COMMANDS = (
         ("override 80 --port COM5", "override up"),
         (
             "A number is the per cent of the last V (1 to 1000); up and down change by a "
-            "sixteenth; last is 100 %. It stays for vectors that come later. While gve134 send "
-            "runs its keys do this: it has the line.",
+            "sixteenth; last is 100 %. It stays for vectors that come later, those of a jog, too. "
+            "While gve134 send runs its keys do this: it has the line.",
         ),
     ),
     CommandRow(
@@ -186,7 +191,8 @@ MEMORY = (
         ("memory restore unit.mem --port COM5",),
         (
             "Only bytes that differ are written; places that the file does not have stay. A line "
-            "is a place, a colon and bytes, all hexadecimal (10: FF 0A); ; begins a comment.",
+            "is a place, a colon and bytes, all of two hexadecimal digits (10: FF 0A); ; begins a "
+            "comment.",
         ),
     ),
     CommandRow(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 import sys
 import time
@@ -23,8 +24,8 @@ from rkm04_tools.gve134.gcode.turning import turn_file
 from rkm04_tools.gve134.job import job_of
 from rkm04_tools.gve134.keys import Keys, are_there
 from rkm04_tools.gve134.link_errors import LineError, NotConfirmed, Refused, Restarted
-from rkm04_tools.gve134.sending import Interrupted, Sender
-from rkm04_tools.gve134.source import read_source
+from rkm04_tools.gve134.sending import Interrupted, Sender, require_stands
+from rkm04_tools.gve134.source import FILE_BYTES_MAX, TOO_LARGE, is_gcode, read_source
 from rkm04_tools.gve134.state import AXES, Flags, positions_text
 from rkm04_tools.gve134.steering import HELP, Held, Steering
 from rkm04_tools.gve134.stopping import guarded
@@ -34,7 +35,6 @@ from rkm04_tools.stopper import Stopper
 
 LEFT_AFTER_SECONDS = 2.0
 SHOWN_SECONDS = 0.25
-GCODE_SUFFIXES = (".nc", ".ngc", ".gcode", ".tap")
 
 
 def run_send(options: Namespace) -> int:
@@ -49,7 +49,8 @@ def run_send(options: Namespace) -> int:
     if job.pauses and not sys.stdin.isatty():
         raise Failure(f"{job.source.name}: waits for a person (;@pause); send it from a terminal")
     with unit_of(options) as unit, Bar("executing") as bar:
-        if _is_gcode(options):
+        if is_gcode(options.file):
+            require_stands(unit.flags())
             here = positions_text(unit.positions())
             start = ",".join(f"{at:g}" for at in options.start)
             at = "position 0" if options.start == START_DEFAULT else f"position {start}"
@@ -84,30 +85,31 @@ def run_send(options: Namespace) -> int:
 
 def vectors_of(options: Namespace) -> Source | None:
     """The commands of a file, whatever kind of file it is; None: it has errors, which are shown."""
-    if _is_gcode(options):
+    if is_gcode(options.file):
         return _turned(options)
     if options.start != START_DEFAULT or options.tolerance != TOLERANCE_DEFAULT:
         raise Failure(f"{options.file}: --start and --tolerance are for G-code, leave them out")
     return read_source(options.file)
 
 
-def _is_gcode(options: Namespace) -> bool:
-    return named(options.file).suffix.lower() in GCODE_SUFFIXES
-
-
 def _turned(options: Namespace) -> Source | None:
     """Vectors of a file of G-code."""
     path, mill = named(options.file), read_mill(machine_of(options))
-    pieces: list[str] = []
+    vectors = io.StringIO()
+
+    def put(text: str) -> None:
+        if vectors.tell() + len(text) > FILE_BYTES_MAX:
+            raise Failure(f"{path}: more than {FILE_BYTES_MAX} bytes of vectors, {TOO_LARGE}")
+        vectors.write(text)
+
     with Bar("turning") as bar:
         turned = turn_file(
-            lines_of(path, bar.show), path.name, mill, pieces.append,
-            options.tolerance, options.start,
-        )  # fmt: skip
+            lines_of(path, bar.show), path.name, mill, put, options.tolerance, options.start
+        )
     for kind, problems in (("error", turned.problems), ("warning", turned.warnings)):
         for each in problems[:SHOWN_MAX]:
             print(f"{path}:{each.line}:{each.column}: {kind}: {each.message}", file=sys.stderr)
-    return Source(f"{path} as vectors", "".join(pieces)) if turned.is_good else None
+    return Source(f"{path} as vectors", vectors.getvalue()) if turned.is_good else None
 
 
 def is_good(source: Source) -> bool:

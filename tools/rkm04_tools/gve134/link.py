@@ -18,7 +18,8 @@ firmware/gve134/docs/line.md; this is the state machine that they call for:
                a part of a packet: a packet is taken whole or not at all, so it was not; sent again;
                anything else: OutOfStep, UNKNOWN.
              An answer without a checksum is that of a unit which has restarted: @ without a
-             checksum proves it, Restarted, UNKNOWN. After too many attempts NoAnswer, UNKNOWN.
+             checksum proves it, here and when connecting, Restarted, UNKNOWN. After too many
+             attempts NoAnswer, UNKNOWN.
 
 > comes first, as a unit that gets a damaged @ answers code 2, which > repeats from then on; where
 that has happened it is EndUnknown, UNKNOWN.
@@ -189,7 +190,10 @@ class Link:
         """Bring checksums about, or do away with them, in whatever state they are."""
         done = self._switched(encoded("%+", sums=True), sums=True)
         if not done and self.wire.heard.bare:
-            self.restarted = self.sums and bool(self.version)
+            if self.sums and self.version:
+                if not (self._has_no_sums() or self._has_no_sums()):  # one may get lost
+                    return False
+                self.restarted = True
             done = not self.sums or self._switched(encoded("%+", sums=False), sums=True)
         elif done and not self.sums:
             done = self._switched(encoded("%-", sums=True), sums=False)
@@ -294,13 +298,19 @@ class Link:
         raise self._unanswered(self.wire.heard)
 
     def _refuse_restarted(self, may_be_executed: bool) -> None:
-        """Ask without a checksum: only a unit that has restarted has an answer to that."""
+        if self._has_no_sums():
+            self.version = ""  # so that connecting to it is no news any more
+            raise Restarted(self.name, may_be_executed)
+
+    def _has_no_sums(self) -> bool:
+        """Ask without a checksum: only a unit without them, as after a restart, answers that."""
         self.wire.write(encoded("@", sums=False))
         until = self.wire.clock() + PATIENCE_SECONDS
         while (left := until - self.wire.clock()) > 0:
-            if any(BARE_INDEX.fullmatch(line) for line in self.wire.lines(left)):
-                self.version = ""  # so that connecting to it is no news any more
-                raise Restarted(self.name, may_be_executed)
+            for line in self.wire.lines(left):
+                if BARE_INDEX.fullmatch(line) and parsed(line, sums=True) is None:
+                    return True
+        return False
 
     def _wait_long(self, seconds: float) -> Answer | None:
         """Wait for what ends when the axes stand; None: it has ended without an answer that can

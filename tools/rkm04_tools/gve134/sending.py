@@ -21,8 +21,8 @@ from dataclasses import dataclass, field
 
 from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.gve134 import answers
-from rkm04_tools.gve134.answers import Answer, encoded
-from rkm04_tools.gve134.executed import Executed
+from rkm04_tools.gve134.answers import SWITCH_NOT_FOUND, Answer, encoded
+from rkm04_tools.gve134.executed import Executed, Steps, steps_of
 from rkm04_tools.gve134.gcode.directives import Pause, Probe, Wait
 from rkm04_tools.gve134.job import Asked, Command, Job
 from rkm04_tools.gve134.known import Known
@@ -44,9 +44,10 @@ NO_ROOM_SECONDS = 0.01
 WAITS_MAX = 3
 """What is refused so often while nothing moves is refused for good."""
 LONG_SECONDS = 86_400.0
-SWITCH_NOT_FOUND = "its switch was not found, or not let go, within the ways that were given"
 BEGINS_ANEW = ("D", "G", "J", "H", "R")
 """What may stand first in a file for a unit that was interrupted."""
+ENDS_MOTION = ("J", "H")
+"""What may stand first in a file for a unit that moves."""
 
 SPINDLE_SET = re.compile(r"!7V(\d+)")
 
@@ -82,6 +83,8 @@ class Sender:
     _under_way: list[Command] = field(default_factory=list)
     _waits: int = 0
     _probes_from: Positions | None = None
+    _probed: Steps = (0, 0, 0, 0)
+    """The vector that probes."""
     _commands: Iterator[Command] | None = None
     _pending: deque[Command] = field(default_factory=deque)
     _begun: list[Command] = field(default_factory=list)
@@ -119,13 +122,15 @@ class Sender:
         return command
 
     def _begin(self) -> Iterator[Command]:
-        """Refuse to add to what was interrupted, unless the file begins with what ends that."""
+        """Refuse to add to what moves or was interrupted, unless the file begins with its end."""
         flags = self.unit.flags()
         self.inta = flags.has(INTA)
+        first = next(iter(self.job), None)
+        if first is not None and first.letter not in ENDS_MOTION:
+            require_stands(flags)
         self.executed = Executed(self.unit.positions())
         if flags.bits & (INTA | RUN):
             self.executed.done = None
-        first = next(iter(self.job), None)
         if self.inta and first is not None and first.letter not in BEGINS_ANEW:
             raise Failure(f"the unit is {flags.text}; nothing was sent", NOT_SO)
         return iter(self.job)
@@ -195,6 +200,7 @@ class Sender:
         if command.letter == "L" and self._is_probe_next():
             self._wait_until_stands()
             self._probes_from = self.unit.positions()
+            self._probed = steps_of(command)
         while True:
             answer = self._packet(whole) if command.text == "*S" else self._ask(command)
             is_cut_off = command.letter == "W" and answer.inta
@@ -272,7 +278,10 @@ class Sender:
         unit.order("SW1,00")
         unit.order("D")
         self.inta = False
-        way = (at - now for at, now in zip(touched, stand, strict=True))
+        way = (
+            at - now if step else 0  # a coupled A goes along by itself
+            for at, now, step in zip(touched, stand, self._probed, strict=True)
+        )
         unit.order(f"L{','.join(map(str, way))}")
         if unit.wait_until_stands().has(INTA):
             raise self.interrupted(self._where(command))
@@ -375,7 +384,8 @@ class Sender:
         """What has stopped the axes, and where they stand."""
         flags = self.unit.wait_until_stands()
         causes = causes_of(self.unit, flags)
-        latched = self.unit.link.ask("PL").values if causes else ""
+        by_input = causes and not flags.has(INTCOM)  # H leaves PL as it was
+        latched = self.unit.link.ask("PL").values if by_input else ""
         at = f", positions at that moment {latched}" if latched else ""
         text = f"INTERRUPTED by {', '.join(causes) or 'what the unit does not tell'}{at}; the axes "
         positions = self.unit.positions()
@@ -404,6 +414,16 @@ class Sender:
         self._waits += 1
         if self._waits > WAITS_MAX:
             raise self._refused(command, answer)
+
+
+def require_stands(flags: Flags) -> None:
+    """Refuse a file for a unit that still makes another one's vectors: it would join them."""
+    if not flags.stands:
+        raise Failure(
+            f"the unit is {flags.text}; nothing was sent; wait until the axes stand (gve134 watch),"
+            " or halt them (gve134 halt)",
+            NOT_SO,
+        )
 
 
 def causes_of(unit: Unit, flags: Flags) -> list[str]:

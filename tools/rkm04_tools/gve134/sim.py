@@ -28,6 +28,7 @@ from rkm04_tools.sim_files import (
     require_outputs,
     require_seconds,
 )
+from rkm04_tools.sim_target import is_board
 from rkm04_tools.source import Source, named
 
 SHOWN_MAX = 50
@@ -42,14 +43,36 @@ def run(options: Namespace) -> int:
     require_seconds(options.seconds)
     require_inputs(inputs)
     require_outputs(outputs, [file, *([inputs] if inputs else [])])
+    on_board = is_board(options)
     host.program_path()
     checked = check_source(read_source(str(file)))
     if checked.parsed.errors:
         checked.report(sys.stderr)
         return NOT_SO
-    with TemporaryDirectory(prefix="gve134-") as folder:
-        answer = _play(checked, plain(inputs, Path(folder)), outputs, options, Path(folder))
+    with TemporaryDirectory(prefix="gve134-") as name:
+        folder = Path(name)
+        inputs = plain(inputs, folder)
+        if on_board:
+            return _on_board(checked.source, inputs, outputs, options, folder)
+        answer = _play(checked, inputs, outputs, options, folder)
     return _report(checked, answer, options)
+
+
+def _on_board(
+    source: Source, inputs: Path | None, outputs: Outputs, options: Namespace, folder: Path
+) -> int:
+    """Play the file to the image of a board, and report."""
+    from rkm04_tools.gve134 import sim_board
+
+    sim_board.require_possible(options, outputs, source)
+    simulated, played = sim_board.simulate(source, inputs, outputs, options, folder)
+    told = sim_board.course(played)
+    if options.json:
+        print(sim_board.as_json(source.name, simulated, played, options))
+    else:
+        _show_answers(source.name, told)
+        print(sim_board.summary(simulated, played, options.seconds))
+    return NOT_SO if told["refused"] else DONE
 
 
 def _play(

@@ -89,7 +89,10 @@ def halt_at_signal(
     after: Callable[[Halted], str] = lambda _: "",
     spindle: Callable[[], str] = lambda: SPINDLE_NOT_KNOWN,
 ) -> int:
-    """Halt the axes, and tell where they stand and what was done; the exit status."""
+    """Halt the axes, and tell where they stand and what was done.
+
+    The exit status: INTERRUPTED only where the unit has confirmed that they stand.
+    """
     print(f"\ngve134: {text}halting ...", file=sys.stderr, flush=True)
     try:
         with stopper.at_once(TWICE_SECONDS):
@@ -100,7 +103,7 @@ def halt_at_signal(
     except KeyboardInterrupt:
         shout(ENDED_BEFORE)
         print(f"gve134: {spindle()}", file=sys.stderr)
-        return INTERRUPTED
+        return NO_CONNECTION
     except Failure as failure:
         print(f"gve134: {failure}; {spindle()}", file=sys.stderr)
         return NO_CONNECTION

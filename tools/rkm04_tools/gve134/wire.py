@@ -1,12 +1,14 @@
 """Bytes of the line: requests out, and out of what comes back the answer to each.
 
 What comes is cut at CR. A line with a right checksum that cannot be the answer to a request, by
-what its values look like, is skipped: it belongs to one that was given up. A line that is damaged
-ends the wait: it was the answer, as only one is under way.
+what its values look like, is skipped: it belongs to one that was given up. So is the rest of a line
+that had begun to come before the request went out. A line that is damaged ends the wait: it was the
+answer, as only one is under way.
 """
 
 from __future__ import annotations
 
+import math
 import re
 import time
 from collections.abc import Callable, Sequence
@@ -21,6 +23,8 @@ PATIENCE_SECONDS = 0.5
 PACKET_OVER_SECONDS = 1.2
 """After so much silence no packet is open, and nothing is thrown away any more."""
 GAP_SECONDS = 0.1
+CUT_SECONDS = 0.03
+"""Between two parts of an answer: what a converter makes of them."""
 SLICE_SECONDS = 0.02
 """How long a wait goes on before it is looked whether it is to end."""
 STALE_BYTES_MAX = 65_536
@@ -97,6 +101,8 @@ class Wire:
     heard: Heard = field(default_factory=Heard)
     _buffer: bytes = b""
     _sent: bytes = b""
+    _cut_until: float = -math.inf
+    """A line had begun to come when a request went out: until then its rest can come."""
 
     def exchange(self, request: Request) -> Answer | None:
         """Send once and wait; None: nothing came, or nothing that could be read."""
@@ -107,8 +113,12 @@ class Wire:
     def write(self, data: bytes) -> None:
         """Send; what has come before that is no answer to it."""
         dropped = 0
-        while dropped < STALE_BYTES_MAX and (stale := self.port.read(0)):
-            dropped += len(stale)
+        stale = self._buffer
+        while dropped < STALE_BYTES_MAX and (more := self.port.read(0)):
+            dropped += len(more)
+            stale = more
+        if stale := stale.rstrip(b"\n"):
+            self._cut_until = -math.inf if stale.endswith(b"\r") else self.clock() + CUT_SECONDS
         self._buffer = b""
         self.heard = Heard()
         self._sent = data
@@ -149,4 +159,9 @@ class Wire:
         came = self.port.read(min(seconds, SLICE_SECONDS)).replace(b"\n", b"")
         *lines, rest = (self._buffer + came).split(b"\r")
         self._buffer = rest[-LINE_BYTES_MAX:]
-        return [line.decode("latin-1") for line in lines if line]
+        told = [line.decode("latin-1") for line in lines]
+        if told and self.clock() < self._cut_until:
+            self._cut_until = -math.inf
+            if parsed(told[0], sums=True) is None:
+                del told[0]
+        return [line for line in told if line]

@@ -10,8 +10,10 @@ from difflib import unified_diff
 from shutil import rmtree
 from typing import Any
 
+from rkm04_tools.acting import MAY_MOVE
 from rkm04_tools.bar import Bar
 from rkm04_tools.client_base import count_of, port_of, reading_node_of, tell
+from rkm04_tools.doubt import Doubt, in_doubt
 from rkm04_tools.failure import DONE, NOT_SO, Failure, writing_failed
 from rkm04_tools.line import Motor as UnitMotor
 from rkm04_tools.line import open_line
@@ -25,7 +27,7 @@ from rkm04_tools.machine.machine import (
 )
 from rkm04_tools.machine.programs import MotorProgram, good_programs, programs_of, require_inputs
 from rkm04_tools.messages import MOTORS
-from rkm04_tools.sending import held_commands, plan_program
+from rkm04_tools.sending import held_commands, plan_program, without_hold
 from rkm04_tools.service.together import send_all
 from rkm04_tools.source import MACHINE_SUFFIX, named, read_source
 from rkm04_tools.table import table, thousands
@@ -65,7 +67,7 @@ def run_show(options: Namespace) -> int:
 
 
 def run_new(options: Namespace) -> int:
-    """Make a machine file; programs are taken as they are, with their comments."""
+    """Make a machine file of programs without errors, as they are, with their comments."""
     path = named(options.file)
     if path.suffix != MACHINE_SUFFIX:
         raise Failure(f"{path}: the name of a machine file ends in {MACHINE_SUFFIX}")
@@ -79,7 +81,13 @@ def run_new(options: Namespace) -> int:
     }
     if options.inputs is not None:
         content["inputs"] = read_source(options.inputs).text
-    require_inputs(Machine(str(path), content))
+    machine = Machine(str(path), content)
+    require_inputs(machine)
+    found = programs_of(machine)
+    for each in found:
+        each.show()
+    if not all(each.is_good for each in found):
+        raise Failure(f"{path}: {_verdict(machine, found)}; nothing was written", NOT_SO)
     write_machine(content, path)
     which = ", ".join(map(str, programs)) or "none yet"
     return tell(options, {"file": str(path)}, f"{path}: written, with programs of motors: {which}")
@@ -125,8 +133,8 @@ def run_diff(options: Namespace) -> int:
             unit = line.unit(node)
             lines = [
                 line
-                for number, each in programs.items()
-                for line in _unit_differences(each, unit.motor(number))
+                for number in MOTORS
+                for line in _unit_differences(machine, programs.get(number), unit.motor(number))
             ]
     answer = {"file": machine.file, "other": name, "same": not lines, "diff": lines}
     tell(options, answer, "\n".join(lines) or f"{machine.file}: the same as {name}")
@@ -141,11 +149,21 @@ def run_send(options: Namespace) -> int:
     if programs is None:
         return NOT_SO
     texts = {number: each.motor.program for number, each in programs.items()}
-    with open_line(port) as line, Bar("sending") as bar:
-        answer = send_all(line.unit(node), texts, options.together, bar.show)
-    others = [str(number) for number in MOTORS if number not in programs]
-    left = f"; left as they are, without a program in the file: {', '.join(others)}"
-    text = f"{machine.file}: sent to unit {node}: {answer.text}{left if others else ''}"
+    with in_doubt(Doubt()) as doubt, open_line(port) as line, Bar("sending") as bar:
+
+        def show(done: int, total: int) -> None:
+            what = f"which motors have got their programs of {machine.file}, and run"
+            counts = f"{done} of {count_of(total, 'message')} taken"
+            doubt.about(what, MAY_MOVE, counts)
+            bar.show(done, total)
+
+        answer = send_all(line.unit(node), texts, options.together, show)
+    others = ", ".join(str(number) for number in MOTORS if number not in programs)
+    left = "left as they are, without a program in the file"
+    if options.together and len(programs) > 1:
+        left = "without a program in the file, and empty but for ], which does nothing there"
+    rest = f"; {left}: {others}" if others else ""
+    text = f"{machine.file}: sent to unit {node}: {answer.text}{rest}"
     return tell(options, {"file": machine.file, "node": node, **answer.values}, text)
 
 
@@ -156,12 +174,15 @@ def run_store(options: Namespace) -> int:
     programs = good_programs(machine)
     if programs is None:
         return NOT_SO
-    with open_line(port) as line, Bar("storing") as bar:
+    doubt = Doubt(advice="store again")
+    with in_doubt(doubt), open_line(port) as line, Bar("storing") as bar:
         unit = line.unit(node)
         for number, each in programs.items():
             _require_held(machine, each, unit.motor(number), "nothing was stored")
         for done, (number, each) in enumerate(programs.items()):
             bar.show(done, len(programs))
+            doubt.what = f"whether motor {number} has stored"
+            doubt.done = f"stored before: {', '.join(map(str, list(programs)[:done])) or 'none'}"
             unit.motor(number).store()
             _require_held(machine, each, unit.motor(number), "it has changed while it was stored")
         bar.show(len(programs), len(programs))
@@ -192,7 +213,10 @@ def _counts(programs: Any) -> list[dict[str, Any]]:
 def _verdict(machine: Machine, programs: list[MotorProgram]) -> str:
     wrong = [str(each.motor.number) for each in programs if not each.is_good]
     if wrong:
-        return f"{machine.name}: errors in the programs of motors {', '.join(wrong)}"
+        where = f"program of motor {wrong[0]}"
+        if len(wrong) > 1:
+            where = f"programs of motors {', '.join(wrong)}"
+        return f"{machine.name}: errors in the {where}"
     counts = [
         f"motor {each.motor.number}: {count_of(each.commands, 'command')}" for each in programs
     ]
@@ -274,13 +298,20 @@ def _texts(machine: Machine) -> dict[str, list[str]]:
     }
 
 
-def _unit_differences(program: MotorProgram, motor: UnitMotor) -> list[str]:
-    plan = plan_program(program.checked)
+def _unit_differences(
+    machine: Machine, program: MotorProgram | None, motor: UnitMotor
+) -> list[str]:
+    """A unified diff; of a motor without a program in the file all that it holds."""
     held = held_commands(motor)
-    if plan.is_held(held):
+    wanted: list[str] = []
+    if program is not None:
+        plan = plan_program(program.checked)
+        wanted = held if plan.is_held(held) else plan.plain
+    elif not without_hold(held):
         return []
-    name = f"unit {motor.unit.node}, motor {motor.number}"
-    return list(unified_diff(plan.plain, held, program.checked.source.name, name, lineterm=""))
+    names = (f"{machine.file}: motor {motor.number}",
+             f"unit {motor.unit.node}, motor {motor.number}")  # fmt: skip
+    return list(unified_diff(wanted, held, *names, lineterm=""))
 
 
 def _require_held(machine: Machine, program: MotorProgram, motor: UnitMotor, so: str) -> None:

@@ -84,7 +84,7 @@ class Machine:
 def read_machine(name: str | Path) -> Machine:
     """Read a machine file; the first thing that is wrong with it is raised."""
     path = named(str(name))
-    content = parse_machine(_bytes_of(path), str(path))
+    content = parse_machine(bytes_of(path), str(path))
     return Machine(str(path), content)
 
 
@@ -137,7 +137,8 @@ def _motor(number: int, told: dict[str, Any]) -> Motor:
     )
 
 
-def _bytes_of(path: Path) -> bytes:
+def bytes_of(path: Path) -> bytes:
+    """What is in a machine file."""
     try:
         with path.open("rb") as file:
             data = file.read(FILE_BYTES_MAX + 1)

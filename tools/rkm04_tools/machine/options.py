@@ -21,11 +21,11 @@ ACTIONS = (
      "rkm04 machine check feeder.rkm"),
     ("show", "print what a machine file says: names, units, limits, notes",
      "rkm04 machine show feeder.rkm"),
-    ("new", "make a machine file of program files",
+    ("new", "make a machine file of program files without errors",
      "rkm04 machine new feeder.rkm --name Feeder --motor 1=feed.rks --inputs feed.csv"),
     ("unpack", "write the programs and inputs of a machine file to a new folder",
      "rkm04 machine unpack feeder.rkm feeder"),
-    ("diff", "compare a machine file with another one, or with what a unit has in its memory",
+    ("diff", "compare a machine file with another one, or with what the four motors of a unit hold",
      "rkm04 machine diff feeder.rkm old.rkm\n  rkm04 machine diff feeder.rkm --port COM5"),
     ("send", "check all programs, then send each to its motor, which runs it at once",
      "rkm04 machine send feeder.rkm --port COM5 --together"),
@@ -39,7 +39,8 @@ def add_arguments(commands: Any, add: Callable[..., argparse.ArgumentParser]) ->
     """Add the command; `add` adds an action with its example."""
     command = commands.add_parser(
         "machine", help=TITLE, description=f"{TITLE[0].upper()}{TITLE[1:]}.",
-        epilog=NOTES, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False,
+        epilog=f"example:\n  rkm04 machine check feeder.rkm\n\n{NOTES}",
+        formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False,
     )  # fmt: skip
     actions = command.add_subparsers(metavar="ACTION", required=True)
     for name, title, example in ACTIONS:
@@ -64,7 +65,8 @@ def _add_own(name: str, action: argparse.ArgumentParser) -> None:
         action.add_argument("--inputs", metavar="INPUTS", help="what the inputs do in simulations")
     elif name == "send":
         action.add_argument("--together", action="store_true",
-                            help="let all motors start on the same tick")  # fmt: skip
+                            help="let them start on the same tick; motors without a program in "
+                                 "the file must be empty, as ] goes to all four")  # fmt: skip
     if name in OF_UNITS:
         action.add_argument("--port", metavar="PORT", help=PORT_HELP)
         action.add_argument("--node", metavar="N", help=NODE_HELP)

@@ -5,9 +5,22 @@ from __future__ import annotations
 import argparse
 
 from rkm04_tools import board, completion
-from rkm04_tools.cli import Commands, Parser, add_board, add_command, add_page_options
+from rkm04_tools.cli import (
+    Commands,
+    Parser,
+    add_board,
+    add_command,
+    add_page_options,
+    add_static_option,
+    write_static,
+)
 from rkm04_tools.positioning import check, listing, serve
-from rkm04_tools.positioning.client_options import add_client_commands, add_line_options
+from rkm04_tools.positioning.client_options import (
+    FORMAT,
+    RATE,
+    add_client_commands,
+    add_line_options,
+)
 from rkm04_tools.tree import require_checkout
 
 NAME = "positioning"
@@ -18,12 +31,15 @@ A script has an instruction in each line, with its time in ms from the start and
   ms,axis,POS_CONTROL,feed[,mp]         ms,axis,POS_CAPTURE
   ms,axis,POS_RESET                     ms,0,SETTING,register,value
   ms,axis,READ                          # begins a comment
-Ways and positions are in um, accelerations in mm/s2, feeds in 1/65536 mm/min, or as 1000mm/min.
+Ways and positions are in um, accelerations in mm/s2, feeds in 1/65536 mm/min, or in whole
+mm/min as 1000mm/min.
 """
 SIM_NOTES = """\
 What READ has found is shown, and each instruction that is refused; then, and where an axis has an
-error at the end, the exit status is 1.
+error at the end, the exit status is 1. So it is for a script that cannot be read, which check
+tells as well; INPUTS is an option, and 2 tells that it cannot be read.
 INPUTS has lines ms,input,level such as 350.5,3,1: BI3 becomes 1 at 350.5 ms. All begin at 0.
+The lines may come in any order; of two at the same time the later one acts last.
 
 The simulation ends when the script is over and the axes stand, or at the limit of time. Steps,
 trace and waveforms are those of rkm04 sim, with motors 1 to 4 for axes 1 to 4.
@@ -31,8 +47,9 @@ trace and waveforms are those of rkm04 sim, with motors 1 to 4 for axes 1 to 4.
 BENCH_NOTES = """\
 --target stm32 runs the image of the reference board on the virtual board (modelled, not measured):
 load and late pulses at 4 x 100 000 steps/s with new feeds for all axes every 15 ms at 115 200 Bd,
-requests not answered, the time from a request to the first pulse that it changes, stack, flash and
-RAM, each with two cycle models. hal/stm32/bench/README.md tells what each figure means.
+requests not answered, the time from a request, or an edge at a limit input, to the first pulse that
+it changes, stack, flash and RAM, each with two cycle models. hal/stm32/bench/README.md tells what
+each figure means.
 """
 SIM_OPTIONS = [
     ("--inputs", "INPUTS", "what the inputs do over time; all are 0 at the start"),
@@ -91,6 +108,10 @@ def _sim(options: argparse.Namespace) -> int:
 
 def _service(options: argparse.Namespace) -> int:
     """Import the server only when it is needed: others have not even installed it."""
+    if options.static is not None:
+        is_usual = (options.node, options.baud, options.form) == (None, RATE, FORMAT)
+        others = (options.port, None if is_usual else options)
+        return write_static(options, *others, shown="positioning.html")
     from rkm04_tools.positioning.service import command
 
     return command.run(options)
@@ -101,12 +122,14 @@ def _add_service(commands: Commands) -> None:
     example = (
         "positioning service\n"
         "  positioning service --port /dev/ttyUSB0 --node 2\n"
-        "  positioning service --port modbus://192.168.1.5:502"
+        "  positioning service --port modbus://192.168.1.5:502\n"
+        "  positioning service --static build/page"
     )
     text = f"{example}\n\n{SERVICE_NOTES.rstrip()}"
     command = add_command(commands, "service", _service, title, text)
     add_line_options(command)
     add_page_options(command, 8406)
+    add_static_option(command)
 
 
 def _bench(options: argparse.Namespace) -> int:

@@ -2,34 +2,45 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from argparse import Namespace
 from collections.abc import Callable
 from functools import partial
 
+from rkm04_tools.bar import Bar
 from rkm04_tools.client_base import port_of, tell
+from rkm04_tools.doubt import Doubt, in_doubt, interrupted_by_any_end
 from rkm04_tools.failure import INTERRUPTED, NO_CONNECTION, Failure
 from rkm04_tools.frame import NODES
 from rkm04_tools.line_errors import LineError, PortError
 from rkm04_tools.positioning import settings
-from rkm04_tools.positioning.line_errors import Restarted, WrongUnit
+from rkm04_tools.positioning.line_errors import NotHeld, Restarted, WrongUnit
 from rkm04_tools.positioning.state import AxisState, UnitState, feed_text, mm_text
 from rkm04_tools.positioning.table import AXES
-from rkm04_tools.positioning.unit import Axis, Unit, open_unit
+from rkm04_tools.positioning.unit import Axis, Tell, Unit, open_unit, require_motion
 from rkm04_tools.stopper import ENDED_BEFORE, TWICE_SECONDS, Stopper, shout
 from rkm04_tools.table import table
 from rkm04_tools.watch import Shown, require_looks, watch
 
-PORT_VARIABLE = "POSITIONING_PORT"
+PORT_VARIABLE, NODE_VARIABLE = "POSITIONING_PORT", "POSITIONING_NODE"
 HEAD = ("axis", "state", "position mm", "to go mm", "mm/min")
 
 
 def unit_of(options: Namespace, node: int | None = None) -> Unit:
     """Open the line that is named by option or environment. Nothing is sent yet."""
-    wanted = options.node if node is None else node
-    if wanted not in NODES:
-        raise Failure(f"--node {wanted}: write an address, 1 to 16")
+    wanted = node_of(options) if node is None else node
     return open_unit(port_of(options, PORT_VARIABLE), wanted, options.baud, options.form)
+
+
+def node_of(options: Namespace) -> int:
+    """The address that is named by option or environment."""
+    name, text = "--node", options.node
+    if text is None:
+        name, text = NODE_VARIABLE, os.environ.get(NODE_VARIABLE) or "1"
+    if not (text.isascii() and text.isdigit() and int(text) in NODES):
+        raise Failure(f"{name} {text}: write an address, 1 to 16")
+    return int(text)
 
 
 def all_axes(unit: Unit) -> list[AxisState]:
@@ -49,17 +60,19 @@ def axis_text(state: AxisState) -> str:
 def run_scan(options: Namespace) -> int:
     """Ask all addresses."""
     found = []
-    for node in NODES:
-        with unit_of(options, node) as unit:
-            unit.wire.tries = 1
-            try:
-                found.append({"node": node, "version": unit.read().version})
-            except PortError:
-                raise
-            except WrongUnit:
-                found.append({"node": node, "version": None})
-            except LineError:
-                continue
+    with Bar("asking") as bar:
+        for done, node in enumerate(NODES):
+            bar.show(done, len(NODES))
+            with unit_of(options, node) as unit:
+                unit.wire.tries = 1
+                try:
+                    found.append({"node": node, "version": unit.read().version})
+                except PortError:
+                    raise
+                except WrongUnit:
+                    found.append({"node": node, "version": None})
+                except LineError:
+                    continue
     lines = [f"unit {u['node']}: version {u['version'] or 'NONE: another device'}" for u in found]
     tell(options, {"units": found}, "\n".join(lines) or "no unit answers")
     return 0 if found else NO_CONNECTION
@@ -117,15 +130,55 @@ def _look(unit: Unit) -> Shown:
 # ---- instructions -------------------------------------------------------------------------------
 
 
-def _one(act: Callable[[Axis, Namespace], AxisState]) -> Callable[[Namespace], int]:
+Act = Callable[[Axis, Namespace], AxisState]
+
+
+def _one(what: str, act: Act) -> Callable[[Namespace], int]:
     """A command that gives one instruction, and tells what the axis does then."""
 
     def run(options: Namespace) -> int:
-        with unit_of(options) as unit:
-            state = act(unit.axis(options.axis), options)
+        with in_doubt(Doubt()) as doubt, unit_of(options) as unit:
+            axis = unit.axis(options.axis)
+            axis.read()
+            doubt.about(f"whether {what} was done", "positioning status tells what the axis does")
+            state = act(axis, options)
         return tell(options, state.as_json(), axis_text(state))
 
     return run
+
+
+def _stop(act: Act) -> Callable[[Namespace], int]:
+    """The same of what stops an axis: what is not confirmed is shouted."""
+
+    def run(options: Namespace) -> int:
+        try:
+            with interrupted_by_any_end(), unit_of(options) as unit:
+                state = act(unit.axis(options.axis), options)
+        except KeyboardInterrupt:
+            shout(ENDED_BEFORE)
+            return INTERRUPTED
+        except Restarted:
+            raise
+        except LineError as error:
+            raise _unconfirmed(error) from None
+        return tell(options, state.as_json(), axis_text(state))
+
+    return run
+
+
+def _feed(options: Namespace) -> int:
+    """Another feed; 0 is a stop."""
+    give: Act = lambda axis, _: axis.control(feed=options.feed)  # noqa: E731
+    return (_one("feed", give) if options.feed else _stop(give))(options)
+
+
+def _unconfirmed(failure: Failure) -> Failure:
+    """Shout; what to raise then."""
+    shout(str(failure))
+    return Failure(
+        "the stop is NOT CONFIRMED, use the emergency stop; what stands or moves is not known",
+        NO_CONNECTION,
+    )
 
 
 def _mode(axis: Axis, options: Namespace) -> AxisState:
@@ -141,12 +194,11 @@ def hold_loudly(axis: Axis) -> AxisState:
     """Hold; what is not confirmed is shouted, and raised."""
     try:
         return axis.hold(_tell_meanwhile)
-    except Failure as failure:
+    except NotHeld as failure:
         shout(str(failure))
-        raise Failure(
-            "the stop is NOT CONFIRMED, use the emergency stop; what stands or moves is not known",
-            NO_CONNECTION,
-        ) from None
+        raise Failure("the axis is NOT HELD, use the emergency stop", failure.status) from None
+    except Failure as failure:
+        raise _unconfirmed(failure) from None
 
 
 def _tell_meanwhile() -> None:
@@ -161,44 +213,66 @@ def _tell_meanwhile() -> None:
 
 def run_move(options: Namespace) -> int:
     """Move by so much, or to a position."""
-    return _moved(options, lambda axis: _move(axis, options))
+
+    def move(axis: Axis, told: Tell) -> AxisState:
+        act = axis.move_to if options.abs else axis.move
+        return act(options.mm, options.feed, options.accel, told)
+
+    return _moved(options, options.mm, move)
 
 
 def run_home(options: Namespace) -> int:
     """Find the reference."""
-    return _moved(
-        options,
-        lambda axis: axis.home(options.method, options.position, options.feed, options.accel),
-    )
+
+    def home(axis: Axis, told: Tell) -> AxisState:
+        return axis.home(options.method, options.position, options.feed, options.accel, told)
+
+    return _moved(options, options.position, home)
 
 
-def _move(axis: Axis, options: Namespace) -> AxisState:
-    move = axis.move_to if options.abs else axis.move
-    return move(options.mm, options.feed, options.accel)
+def _shown(bar: Bar) -> Tell:
+    """Shows how far it is on a terminal; of homing no way is known."""
+    most_um = 0
+
+    def show(state: AxisState) -> None:
+        nonlocal most_um
+        left_um = abs(state.way_left_um)
+        most_um = max(most_um, left_um)
+        if left_um:
+            words = "" if state.moves else f", {state.words}"
+            bar.show(most_um - left_um, most_um, f", at {mm_text(state.position_um)} mm{words}")
+        else:
+            bar.say(axis_text(state))
+
+    return show
 
 
-def _moved(options: Namespace, work: Callable[[Axis], AxisState]) -> int:
+def _moved(options: Namespace, mm: float, work: Callable[[Axis, Tell], AxisState]) -> int:
     """Take the axis if need be, and do what moves it; Ctrl-C holds."""
-    if options.feed <= 0:
-        raise Failure(f"--feed {options.feed:g}: write mm/min, more than 0")
-    with unit_of(options) as unit:
-        axis = unit.axis(options.axis)
-        begun = False
-        with Stopper(unit.wire) as stopper:
+    require_motion(mm, options.feed, options.accel)
+    begun = False
+    try:
+        with unit_of(options) as unit, Stopper(unit.wire) as stopper:
+            axis = unit.axis(options.axis)
+            is_taken = axis.read().is_taken
+            begun = True
             try:
-                taken = axis.read().is_taken
-                begun = True
-                if not taken:
+                if not is_taken:
                     axis.init()
-                state = work(axis)
+                with Bar("um made") as bar:
+                    state = work(axis, _shown(bar))
             except KeyboardInterrupt:
                 return _hold_at_signal(axis, stopper)
             except Restarted:
                 raise
             except LineError as error:
-                if begun:
-                    shout(str(error))
+                shout(str(error))
                 raise
+    except KeyboardInterrupt:
+        if begun:
+            raise
+        why = "interrupted; nothing was sent that takes or moves the axis"
+        raise Failure(why, INTERRUPTED) from None
     return tell(options, state.as_json(), axis_text(state))
 
 
@@ -212,7 +286,7 @@ def _hold_at_signal(axis: Axis, stopper: Stopper) -> int:
         return INTERRUPTED
     except Failure as failure:
         print(f"positioning: {failure}", file=sys.stderr)
-        return NO_CONNECTION
+        return failure.status
     kept = "; go goes on, reset gives the axis back" if state.state == "READY" else ""
     if not state.is_taken:
         kept = "; it was given back: THE UNIT HAS RESTARTED, or another master has done it"
@@ -224,12 +298,12 @@ RUNS: dict[str, Callable[[Namespace], int]] = {
     "scan": run_scan,
     "status": run_status,
     "watch": run_watch,
-    "init": _one(lambda axis, options: axis.init(options.space)),
-    "mode": _one(_mode),
-    "feed": _one(lambda axis, options: axis.control(feed=options.feed)),
-    "hold": _one(_hold),
-    "go": _one(lambda axis, _: axis.go()),
-    "reset": _one(lambda axis, _: axis.reset()),
+    "init": _one("init", lambda axis, options: axis.init(options.space)),
+    "mode": _one("mode", _mode),
+    "feed": _feed,
+    "hold": _stop(_hold),
+    "go": _one("go", lambda axis, _: axis.go()),
+    "reset": _stop(lambda axis, _: axis.reset()),
     "move": run_move,
     "home": run_home,
     "settings get": partial(settings.run_get, opened=unit_of),

@@ -158,7 +158,9 @@ async def _run(options: argparse.Namespace, passed_on: serve.Passed) -> int:
         sys.stdout.flush()
     server.close()
     gateway.close()
-    return DONE if await unit.wait() == DONE else NOT_SO
+    if await unit.wait() != DONE:
+        raise Failure("the virtual unit has ended by itself; start it again", NOT_SO)
+    return DONE
 
 
 def _is_number(text: str) -> bool:

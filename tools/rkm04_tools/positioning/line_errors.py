@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rkm04_tools.failure import NOT_SO, Failure
-from rkm04_tools.line_errors import LineError
+from rkm04_tools.line_errors import LineError, UnitRestarted
 from rkm04_tools.positioning.state import EXCEPTIONS, error_text
 
 
@@ -14,19 +14,28 @@ class WrongUnit(LineError):
         super().__init__(f"{where}: something answers that is no positioning unit; is it another?")
 
 
-class Restarted(LineError):
+class Restarted(UnitRestarted):
     """The unit has started anew: axes are free, positions count from 0."""
 
     def __init__(self, where: str, executed: bool = False) -> None:
+        self.repeated = executed
         what = "the last instruction may have been executed before that; " if executed else ""
-        super().__init__(
+        LineError.__init__(
+            self,
             f"{where} HAS RESTARTED: its axes are free, positions count from 0, and what moved "
-            f"stood at once; {what}positioning status tells what it is like"
+            f"stood at once; {what}positioning status tells what it is like",
         )
 
 
 class NotConfirmed(LineError):
     """Nobody has told that the axis stands."""
+
+
+class NotHeld(Failure):
+    """The axis was told to stand and does not."""
+
+    def __init__(self, axis: int, why: str) -> None:
+        super().__init__(f"axis {axis} IS NOT HELD: {why}", NOT_SO)
 
 
 class RequestRefused(Failure):
@@ -39,10 +48,11 @@ class RequestRefused(Failure):
 
 
 class Refused(Failure):
-    """An axis has refused an instruction."""
+    """An axis has refused an instruction. `fault` is the one that stands, 0: none."""
 
-    def __init__(self, axis: int, what: str, number: int) -> None:
-        super().__init__(f"axis {axis}: {what} was refused: {error_text(number)}", NOT_SO)
+    def __init__(self, axis: int, what: str, number: int, fault: int = 0) -> None:
+        cause = f" ({error_text(fault)}; {ADVICE[fault]})" if fault in ADVICE else ""
+        super().__init__(f"axis {axis}: {what} was refused: {error_text(number)}{cause}", NOT_SO)
         self.number = number
 
 
@@ -52,7 +62,17 @@ class Faulted(Failure):
     def __init__(self, axis: int, number: int, at: str) -> None:
         super().__init__(
             f"axis {axis}: the measure was ended by {error_text(number)}; it stands at {at} mm; "
-            "init comes before the next one",
+            f"{ADVICE.get(number, 'find out why')}; init comes before the next one",
             NOT_SO,
         )
         self.number = number
+
+
+ADVICE = {
+    7: "go the other way, or leave the switch by hand",
+    8: "WATCHDOG must be longer than the pause to the next request, as between two commands; "
+    "or reset first, and then move or home, which take the axis themselves",
+    10: "go the other way, or change SOFT_MIN and SOFT_MAX",
+    11: "look at the switch and its setting, the method and HOME_WAY",
+}
+"""What to do about faults."""

@@ -52,7 +52,8 @@ def summary(answer: Mapping[str, Any], limit: str) -> str:
     if answer["late_steps"]:
         lines.append(f"{thousands(answer['late_steps'])} pulses came too late")
     if (left := answer["lines"] - answer["executed"]) > 0:
-        lines.append(f"{thousands(left)} lines of the script were not due")
+        are = "line of the script was" if left == 1 else "lines of the script were"
+        lines.append(f"{thousands(left)} {are} not due")
     return "\n".join(lines)
 
 

@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from rkm04_tools.client_base import count_of, tell
+from rkm04_tools.doubt import Doubt, in_doubt
 from rkm04_tools.failure import DONE, NOT_SO, Failure, finished_or_absent, writing_failed
 from rkm04_tools.positioning.listing import Place, places
-from rkm04_tools.positioning.table import AXES, Register, registers
+from rkm04_tools.positioning.table import AXES, Register, registers, values_text
 from rkm04_tools.positioning.unit import LAYOUT, Unit, setting
 from rkm04_tools.source import STANDARD_INPUT, named, read_text
 
@@ -18,8 +19,9 @@ FORMAT = "positioning settings"
 FORMAT_VERSION = 1
 FILE_BYTES_MAX = 100_000
 UNIT_PART = "unit"
-PAIR = ("STEPS", "MICROMETRES")
-"""Each is held against the other."""
+UNWRITTEN = "nothing was written; "
+AGAIN = "do it once more when the unit answers; settings get and settings diff tell what there is"
+STEPS_PER_UM_MAX, UM_PER_STEP_MAX = 500, 10_000
 
 Opened = Callable[[Namespace], Unit]
 Values = dict[str, dict[str, int]]
@@ -76,23 +78,39 @@ def run_set(options: Namespace, opened: Opened) -> int:
         name, equals, text = each.partition("=")
         row = setting(name)
         if not equals or not text.removeprefix("-").isdecimal() or not row.takes(int(text)):
-            raise Failure(f"{each}: write {row.name}=VALUE, a value that registers --md lists")
+            raise Failure(f"{each}: write {row.name}=VALUE, with a VALUE of {values_text(row)}")
         values[row.name] = int(text)
-    with opened(options) as unit:
-        for names in _together(values):
-            unit.set_many({name: values[name] for name in names}, options.axis)
+    with in_doubt(Doubt()) as doubt, opened(options) as unit:
+        require_free(unit, _concerned(values, options))
+        write(unit, _by_part(values, unit.axis(options.axis).number), read_all(unit), doubt)
         if options.store:
-            unit.store()
+            _store(unit, doubt)
     text = ", ".join(f"{name} is {value}" for name, value in values.items())
     note = "" if options.store else "; not stored (--store)"
     answer = {"axis": options.axis, "settings": values, "stored": options.store}
     return tell(options, answer, f"{text}{note}")
 
 
-def _together(values: dict[str, int]) -> list[list[str]]:
-    """STEPS and MICROMETRES in one request: each is held against the other."""
-    pair: list[str] = [name for name in PAIR if name in values]
-    return ([pair] if pair else []) + [[name] for name in values if name not in pair]
+def _concerned(values: dict[str, int], options: Namespace) -> Iterable[int]:
+    """The axes that must be free: all of them for STORE and for settings of the unit."""
+    of_unit = any(registers()[name].scope == "U" for name in values)
+    return range(1, AXES + 1) if options.store or of_unit else [options.axis]
+
+
+def _by_part(values: dict[str, int], axis: int) -> Values:
+    parts: Values = {}
+    for name, value in values.items():
+        part = part_of(axis if registers()[name].scope == "A" else 0)
+        parts.setdefault(part, {})[name] = value
+    return parts
+
+
+def _store(unit: Unit, doubt: Doubt) -> None:
+    doubt.about(
+        "whether the settings are stored", "positioning status tells whether they are as stored",
+        "all of them are written",
+    )  # fmt: skip
+    unit.store()
 
 
 def run_backup(options: Namespace, opened: Opened) -> int:
@@ -121,31 +139,57 @@ def text_of(values: Values) -> str:
 
 def run_restore(options: Namespace, opened: Opened) -> int:
     """Write the settings of a file that differ."""
-    wanted = read_file(options.file)
-    with opened(options) as unit:
+    wanted = read_file(options.file, UNWRITTEN)
+    with in_doubt(Doubt()) as doubt, opened(options) as unit:
         found = read_all(unit)
         require_free(unit)
         differ = _differ(wanted, found)
-        write(unit, wanted, found)
+        write(unit, wanted, found, doubt)
         if left := _differ(wanted, read_all(unit)):
             raise Failure(f"{len(left)} settings read otherwise than written", NOT_SO)
         if options.store:
-            unit.store()
+            _store(unit, doubt)
     note = "" if options.store else "; not stored (--store)"
     answer = {"file": options.file, "written": differ, "stored": options.store}
     text = f"{options.file}: {count_of(len(differ), 'setting')} written, the others were so already"
     return tell(options, answer, text + note)
 
 
-def write(unit: Unit, wanted: Values, found: Values) -> None:
-    """Write those of some settings that are not as they were found; each is read back."""
-    for axis in range(AXES + 1):
-        before = found[part_of(axis)]
-        own = {n: v for n, v in wanted.get(part_of(axis), {}).items() if v != before[n]}
-        if any(name in own for name in PAIR):
-            own = {name: before[name] for name in PAIR} | own
-        for names in _together(own):
-            unit.set_many({name: own[name] for name in names}, axis)
+def write(unit: Unit, wanted: Values, found: Values, doubt: Doubt | None = None) -> None:
+    """Write those parts in which a setting is not as it was found, each in one request.
+
+    A part is written whole or not at all, and read back.
+    """
+    doubt = doubt or Doubt()
+    changes = {axis: _changed(axis, wanted, found) for axis in range(AXES + 1)}
+    written: list[str] = []
+    for axis, own in changes.items():
+        if own:
+            doubt.about(f"whether the settings of {part_of(axis)} were written", AGAIN)
+            doubt.done = _written(written)
+            unit.set_many(own, axis)
+            written.append(part_of(axis))
+    doubt.about("whether all settings are as wanted", AGAIN, _written(written))
+
+
+def _written(parts: list[str]) -> str:
+    return f"written: {', '.join(parts) or 'no other part'}; nothing is stored"
+
+
+def _changed(axis: int, wanted: Values, found: Values) -> dict[str, int]:
+    """The whole part, if something of it differs."""
+    before = found[part_of(axis)]
+    own = before | wanted.get(part_of(axis), {})
+    if own == before:
+        return {}
+    if axis:
+        steps, um = own["STEPS"], own["MICROMETRES"]
+        if steps > STEPS_PER_UM_MAX * um or um > UM_PER_STEP_MAX * steps:
+            raise Failure(
+                f"axis {axis}: {steps} STEPS in {um} MICROMETRES: the quotient is "
+                f"1/{UM_PER_STEP_MAX} to {STEPS_PER_UM_MAX}; nothing was written", NOT_SO,
+            )  # fmt: skip
+    return own
 
 
 def require_free(unit: Unit, axes: Iterable[int] = range(1, AXES + 1)) -> None:
@@ -178,38 +222,56 @@ def _differ(wanted: Values, found: Values) -> list[dict[str, Any]]:
     ]
 
 
-def read_file(name: str) -> Values:
+def read_file(name: str, note: str = "") -> Values:
     """The settings of a backup: all of them, each in its range, or a Failure."""
     source = read_text(name, FILE_BYTES_MAX, "so it is no backup", "a backup of the settings")
-    return read_values(source.text, source.name)
+    return read_values(source.text, source.name, note)
 
 
-def read_values(text: str, where: str) -> Values:
-    """The settings of the text of a backup."""
+def read_values(text: str, where: str, note: str = UNWRITTEN) -> Values:
+    """The settings of the text of a backup. `note`: what is told with a complaint."""
     try:
-        content = json.loads(text)
+        return _values_of(text)
+    except _Damaged as damage:
+        why = f"{where}: {damage}; {note}settings backup makes such a file"
+        raise Failure(why, NOT_SO) from None
+
+
+class _Damaged(ValueError):
+    """Why a file is no backup."""
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object whose names differ: of two values nobody knows which one is meant."""
+    names = [name for name, _ in pairs]
+    if twice := sorted({name for name in names if names.count(name) > 1}):
+        raise _Damaged(f"{twice[0]} is there twice")
+    return dict(pairs)
+
+
+def _values_of(text: str) -> Values:
+    try:
+        content = json.loads(text, object_pairs_hook=_once)
+    except _Damaged:
+        raise
     except (ValueError, RecursionError):
-        raise _damaged(where, "it is no JSON") from None
+        raise _Damaged("it is no JSON") from None
     if not isinstance(content, dict) or content.get("format") != FORMAT:
-        raise _damaged(where, "it is of another kind")
+        raise _Damaged("it is of another kind")
     if (content.get("version"), content.get("layout")) != (FORMAT_VERSION, LAYOUT):
-        raise _damaged(where, "it is of another version of the unit or of this tool")
+        raise _Damaged("it is of another version of the unit or of this tool")
     values = content.get("settings")
     known = {part_of(axis): {} for axis in range(AXES + 1)}  # type: dict[str, dict[str, Register]]
     for place in stored_places():
         known[part_of(place.axis)][place.register.name] = place.register
     if not isinstance(values, dict) or values.keys() != known.keys():
-        raise _damaged(where, f"it must have {', '.join(known)}")
+        raise _Damaged(f"it must have {', '.join(known)}")
     for part, rows in known.items():
         own = values[part]
         if not isinstance(own, dict) or own.keys() != rows.keys():
-            raise _damaged(where, f"{part} does not have just its settings")
+            raise _Damaged(f"{part} does not have just its settings")
         for row in rows.values():
             value = own[row.name]
             if type(value) is not int or not row.takes(value):
-                raise _damaged(where, f"{row.name} of {part} has no value of its range")
+                raise _Damaged(f"{row.name} of {part} has no value of its range")
     return values
-
-
-def _damaged(name: str, why: str) -> Failure:
-    return Failure(f"{name}: {why}; nothing was written; settings backup makes such a file", NOT_SO)

@@ -115,6 +115,11 @@ class AxisState:
         return self._has("PROG")
 
     @property
+    def may_move(self) -> bool:
+        """Whether permission and feed let it move: there is a measure that is not reached."""
+        return self.is_taken and self.is_programmed and not self.is_reached
+
+    @property
     def has_error(self) -> bool:
         """ERR."""
         return self._has("ERR")

@@ -136,6 +136,14 @@ def span(row: Register) -> str:
     }.get(row.form, least_to_most)
 
 
+def values_text(row: Register) -> str:
+    """The values that are taken, as a message tells them."""
+    if row.form == "RATE":
+        return f"{', '.join(map(str, RATES[:-1]))} or {RATES[-1]}"
+    ends = row.all_values if row.form == "ANY" else range(row.least, row.most + 1)
+    return f"{'0, or ' if row.form == 'ZERO_OR' else ''}{ends[0]} to {ends[-1]}"
+
+
 def line(row: Register) -> str:
     """The row of a register in the document."""
     sign = "+" if row.scope == "A" else ""

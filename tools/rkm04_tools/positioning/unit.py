@@ -24,6 +24,7 @@ from rkm04_tools.line_errors import LineError
 from rkm04_tools.positioning.line_errors import (
     Faulted,
     NotConfirmed,
+    NotHeld,
     Refused,
     RequestRefused,
     Restarted,
@@ -43,6 +44,7 @@ from rkm04_tools.positioning.table import (
     Register,
     instructions,
     registers,
+    values_text,
 )
 from rkm04_tools.positioning.wire import FORMAT, RATE, Wire, open_wire
 
@@ -52,12 +54,19 @@ CONTROL, FEED = 5, 6
 IN_FIRST, IN_WORDS = 10, 18
 UNIT_WORDS = 28
 NUMBERS = 256
+SPACES = range(7)
 POLL_SECONDS = 0.05
 STOP_SECONDS = 5.0
 """How long a stop is tried for on a line that does not answer."""
 BRAKE_SECONDS = 60.0
 """How long an axis may brake before it is told that nobody knows."""
+SLOWER_SECONDS = 2.0
+"""An axis that brakes, and makes steps, is slower after that."""
+HELD_SECONDS = 0.3
+"""So long an axis that stands is looked at: a PLC gives the permission in each of its cycles."""
 CLOCK_HALF = 1 << 31
+MM_MAX = (CLOCK_HALF - 1) / UM_PER_MM
+FEED_MAX = (1 << 32) - 1
 Tell = Callable[[AxisState], None] | None
 """What is called with each look at an axis that is waited for."""
 NAMES = {  # of AxisState: registers
@@ -166,8 +175,7 @@ class Unit:
         by_name = {name.upper(): value for name, value in values.items()}
         for row in rows:
             if not row.takes(by_name[row.name]):
-                raise Failure(f"{row.name} {by_name[row.name]}: not a value of it; "
-                              f"positioning registers --md lists them")  # fmt: skip
+                raise Failure(f"{row.name} {by_name[row.name]}: write {values_text(row)}")
         self.require_known()
         words = [word for row in rows for word in row.to_words(by_name[row.name])]
         first = self.place(rows[0], axis)
@@ -201,6 +209,8 @@ class Axis:
         self.number = number
         self._base = AXIS_STEP * number
         self._taken = False
+        self._word: int | None = None
+        """What was given here last."""
 
     def read(self) -> AxisState:
         """What it tells at this moment."""
@@ -211,27 +221,25 @@ class Axis:
 
     def init(self, space: int = 0) -> AxisState:
         """POS_INIT: take the axis; what moves stops, and errors are over."""
-        state = self._instruct("POS_INIT", [space])
-        self._taken = True
-        return state
+        if space not in SPACES:
+            raise Failure(f"space {space}: write 0 to {SPACES[-1]}")
+        return self._instruct("POS_INIT", [space])
 
     def mode(self, way_mm: float, accel: int) -> AxisState:
         """POS_MODE: a measure, from where it stands. It moves when it has a feed."""
-        return self._instruct("POS_MODE", self._measure(way_mm, accel))
+        return self._instruct("POS_MODE", _measure(way_mm, accel))
 
     def mode_abs(self, position_mm: float, accel: int) -> AxisState:
         """POS_MODE_ABS: a measure to a position."""
-        return self._instruct("POS_MODE_ABS", self._measure(position_mm, accel))
+        return self._instruct("POS_MODE_ABS", _measure(position_mm, accel))
 
     def prepare_home(self, method: int, position_mm: float = 0.0, accel: int = 0) -> AxisState:
         """POS_HOME: the reference is at this position. It moves when it has a feed."""
-        return self._instruct("POS_HOME", self._measure(position_mm, accel, method))
+        return self._instruct("POS_HOME", _measure(position_mm, accel, method))
 
     def reset(self) -> AxisState:
         """POS_RESET: end the work, and give the axis back."""
-        state = self._instruct("POS_RESET", [])
-        self._taken = False
-        return state
+        return self._instruct("POS_RESET", [])
 
     def capture(self) -> AxisState:
         """POS_CAPTURE: keep the position at the next edge of the input CAPTURE."""
@@ -250,12 +258,18 @@ class Axis:
                 feed is None or wanted == words[-2:]
             )
             if not taken:
-                self._require_taken(self.read())
-                raise Failure(
-                    f"axis {self.number}: in the state {self.read().words} it takes no feed; "
-                    "init and a measure come first", NOT_SO,
-                )  # fmt: skip
+                self._refuse_control(self.read())
         return self.read()
+
+    def _refuse_control(self, state: AxisState) -> None:
+        """Tell why a feed or a permission was not taken."""
+        self._require_taken(state)
+        if state.has_fault:
+            raise Faulted(self.number, state.error, mm_text(state.position_um))
+        raise Failure(
+            f"axis {self.number} is {state.words}, and takes no feed before a measure: "
+            "mode gives one", NOT_SO,
+        )  # fmt: skip
 
     # ---- motion ----
 
@@ -305,17 +319,39 @@ class Axis:
                 tell(state)
             time.sleep(POLL_SECONDS)
             self.unit.wire.look()
+        if self._word not in (None, state.done):
+            raise Failure(
+                f"axis {self.number}: another master has given an instruction meanwhile; it is at "
+                f"{mm_text(state.position_um)} mm, and for which measure is not known", NOT_SO,
+            )  # fmt: skip
         return state
 
     def hold(self, waits: Callable[[], None] = lambda: None) -> AxisState:
         """MP = 0: brake, keep what is left of the measure, and make sure that it stands."""
         state = self._until_answered(lambda: self.control(permitted=False), waits)
-        end = time.monotonic() + BRAKE_SECONDS
-        while state.moves:
-            if time.monotonic() > end:
-                raise NotConfirmed(f"{self.unit.wire.name}, axis {self.number}: it still moves")
+        now = time.monotonic()
+        end, stands_from, slower_by = now + BRAKE_SECONDS, now, now
+        speed, steps = state.speed + 1, state.position_steps
+        while state.moves or now < stands_from + HELD_SECONDS:
+            if state.speed < speed or state.position_steps == steps:
+                slower_by, speed = now + SLOWER_SECONDS, state.speed
+            steps = state.position_steps
+            if state.moves and now > min(end, slower_by):
+                raise NotHeld(self.number, "MP is 0, and it does not brake")
             time.sleep(POLL_SECONDS)
-            state = self._until_answered(self.read, waits)
+            state = self._until_answered(self._read_held, waits)
+            now = time.monotonic()
+            stands_from = now if state.moves else stands_from
+        return state
+
+    def _read_held(self) -> AxisState:
+        """What it tells, if nobody lets it go on meanwhile."""
+        state = self.read()
+        if state.may_move and self.unit.wire.read(self._base + CONTROL, 1)[0] & 1:
+            raise NotHeld(
+                self.number, "another master, such as a PLC, has given the permission (MP) again; "
+                "take it away there, or end the measure: positioning init or reset",
+            )  # fmt: skip
         return state
 
     def go(self) -> AxisState:
@@ -323,14 +359,6 @@ class Axis:
         return self.control(permitted=True)
 
     # ---- what is common to them ----
-
-    def _measure(self, way_mm: float, accel: int, space: int = 0) -> list[int]:
-        um = round(way_mm * UM_PER_MM)
-        if not -CLOCK_HALF < um < CLOCK_HALF:
-            raise Failure(f"{way_mm} mm: too far; a way has at most 2147483.647 mm")
-        if not 0 <= accel <= WORD_MAX:
-            raise Failure(f"{accel} mm/s2: write an acceleration, 1 to {WORD_MAX}")
-        return [space, *_words(um), accel]
 
     def _instruct(self, name: str, parameters: Sequence[int]) -> AxisState:
         """Give an instruction once, with its parameters in the same request; see it done."""
@@ -352,7 +380,8 @@ class Axis:
                 "an instruction meanwhile", NOT_SO,
             )  # fmt: skip
         if state.result:
-            raise Refused(self.number, name, state.result)
+            raise Refused(self.number, name, state.result, state.error if state.has_fault else 0)
+        self._taken, self._word = state.is_taken, word
         return state
 
     def _require_taken(self, state: AxisState) -> None:
@@ -370,6 +399,8 @@ class Axis:
         while True:
             try:
                 return ask()
+            except NotHeld:
+                raise
             except Restarted:
                 return self.read()
             except LineError as error:
@@ -396,8 +427,27 @@ def _words(value: int) -> list[int]:
     return [value >> 16 & WORD_MAX, value & WORD_MAX]
 
 
+def require_motion(mm: float, feed: float, accel: int) -> None:
+    """Refuse what no axis can do, before one is taken for it."""
+    _measure(mm, accel)
+    if not _feed(feed):
+        raise Failure(f"{feed} mm/min: write a feed of more than 0")
+    if not accel:
+        raise Failure(f"{accel} mm/s2: write an acceleration, 1 to {WORD_MAX}")
+
+
+def _measure(mm: float, accel: int, space: int = 0) -> list[int]:
+    if not abs(mm) <= MM_MAX:
+        raise Failure(f"{mm} mm: write up to {MM_MAX} mm, either way")
+    if mm and not round(mm * UM_PER_MM):
+        raise Failure(f"{mm} mm: it would be none; write 0.001 mm or more, or 0")
+    if not 0 <= accel <= WORD_MAX:
+        raise Failure(f"{accel} mm/s2: write an acceleration, 1 to {WORD_MAX}")
+    return [space, *_words(round(mm * UM_PER_MM)), accel]
+
+
 def _feed(mm_min: float) -> int:
-    feed = round(mm_min * FEED_PER_MM_MIN)
-    if not 0 <= feed < 1 << 32:
+    """What is not 0 stays so."""
+    if not 0 <= mm_min <= FEED_MAX / FEED_PER_MM_MIN:
         raise Failure(f"{mm_min} mm/min: write a feed, 0 to 65535.99")
-    return feed
+    return max(round(mm_min * FEED_PER_MM_MIN), mm_min > 0)

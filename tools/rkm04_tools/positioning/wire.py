@@ -222,8 +222,7 @@ class Wire:
 def open_wire(name: str, node: int = 1, rate: int = RATE, form: str = FORMAT) -> Wire:
     """Open a line: a serial device, a pty, socket://HOST:PORT (RTU) or modbus://HOST:PORT (TCP)."""
     if name.startswith(TCP):
-        port = open_transport(f"socket://{name.removeprefix(TCP)}")
-        port.name = name
+        port = open_transport(name, scheme=TCP)
         return Wire(port, node, rate, BITS_MAX, tcp=True)
     is_pty = os.path.realpath(name).startswith(PTYS)
     port = open_transport(name, rate, "8N1" if is_pty else form)

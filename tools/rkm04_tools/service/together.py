@@ -15,12 +15,15 @@ from rkm04_tools.sending import (
     COMMANDS_MAX,
     POLL_SECONDS,
     STAND_SECONDS,
+    Hold,
     Plan,
     Tell,
     held_commands,
     pack,
     plan_program,
+    require_room,
     send_program,
+    send_texts,
 )
 from rkm04_tools.service.answers import Answer, ProgramWrong
 from rkm04_tools.service.checking import first_error
@@ -33,12 +36,16 @@ def send_all(unit: Unit, texts: Mapping[int, str], together: bool, tell: Tell) -
     """Send each motor its own program, or nothing if one of them is wrong.
 
     Each runs as soon as it has arrived; or, `together`, each waits after `[` until one `]` for all
-    motors lets them start on the same tick.
+    motors lets them start on the same tick. There is no `]` for some of them only: the others must
+    be empty, and hold it then, where it does nothing.
     """
     plans = {motor: _planned(motor, text) for motor, text in texts.items()}
     if together:
         plans = {motor: _held_back(motor, plan) for motor, plan in plans.items()}
-        _require_no_other_waits(unit, [motor for motor in MOTORS if motor not in plans])
+        for motor, plan in plans.items():
+            _require_room(unit.motor(motor), plan)
+        if len(plans) > 1:
+            _require_others_empty(unit, [motor for motor in MOTORS if motor not in plans])
     total = sum(len(plan.texts) for plan in plans.values())
     done, overflow = 0, False
     for number, plan in plans.items():
@@ -92,30 +99,40 @@ def _held_back(motor: int, plan: Plan) -> Plan:
             NOT_SO,
         )
     start = ["\\"] if plan.resets else []
-    return replace(plan, texts=pack([*start, HOLD, *plan.plain]))
+    return replace(plan, hold=Hold.BRACKETS, texts=pack([*start, HOLD, *plan.plain]))
 
 
-def _require_no_other_waits(unit: Unit, others: Sequence[int]) -> None:
-    """`]` for all motors would let a motor start that waits after `[` of another program."""
+def _require_room(motor: Motor, plan: Plan) -> None:
+    try:
+        require_room(motor, plan)
+    except Failure as failure:
+        failure.args = (f"motor {motor.number}: {failure}",)
+        raise
+
+
+def _require_others_empty(unit: Unit, others: Sequence[int]) -> None:
+    """`]` for all motors would be stored in their programs, and let one start that waits."""
     for number in others:
-        brackets = [c for c in held_commands(unit.motor(number)) if c in (HOLD, RELEASE)]
+        held = held_commands(unit.motor(number))
+        brackets = [command for command in held if command in (HOLD, RELEASE)]
         if brackets and brackets[-1] == HOLD:
-            raise Failure(
-                f"motor {number} waits at [ in another program and would start too; nothing was "
-                "sent to any motor; reset it, or send without starting together",
-                NOT_SO,
-            )
+            why = "waits at [ in another program and would start too"
+        elif len(brackets) < len(held):
+            why = "holds another program, and ] to all motors would be added to it"
+        else:
+            continue
+        raise Failure(
+            f"motor {number} {why}; nothing was sent to any motor; reset it, or send without "
+            "starting together",
+            NOT_SO,
+        )
 
 
 def _send(motor: Motor, plan: Plan, together: bool, tell: Tell) -> bool:
     """Send a program; return whether the memory has overflowed."""
     if not together:
         return send_program(motor, plan.checked, tell).overflow
-    overflow = False
-    for part, text in enumerate(plan.texts):
-        tell(part, len(plan.texts))
-        overflow = motor.command(text) or overflow
-    return overflow
+    return send_texts(motor, plan, tell).overflow
 
 
 def _told(failure: Failure, motor: int, motors: Sequence[int], together: bool) -> Failure:
@@ -139,4 +156,4 @@ def _start(unit: Unit, motors: Sequence[int]) -> None:
                     NOT_SO,
                 )
             time.sleep(POLL_SECONDS)
-    unit.motor(ALL_MOTORS).command(RELEASE)
+    unit.motor(ALL_MOTORS if len(motors) > 1 else motors[0]).command(RELEASE)

@@ -169,9 +169,10 @@ class Turns(ABC, Generic[Unit]):
         if time.monotonic() - since > TURN_SECONDS:
             self.refuse(order, asked, Late())
             return
+        was_away = bool(self.board.state.error)
         self.board.change(busy=name)
         got = self._tried(lambda: self._obey(order))
-        if isinstance(got, LineError):
+        if was_away or isinstance(got, LineError):
             self._give_up(Unsent())
         is_first = isinstance(order, Connect) and asked.client is None
         self._own_line.note(got, comes_back=is_first or not isinstance(order, Connect))

@@ -210,9 +210,10 @@ class Worker:
         name = name_of(order)
         if self._wire:
             self._wire.forget()
+        was_away = bool(self._state.error)
         self._change(busy=name)
         got = _tried(lambda: self._obey(order, asked))
-        if isinstance(got, LineError):
+        if was_away or isinstance(got, LineError):
             self._give_up(Unsent())
         is_first = isinstance(order, Connect) and asked.client is None
         self._note(got, comes_back=is_first or not isinstance(order, Connect))

@@ -94,6 +94,8 @@ def read_block(words: list[Pair]) -> Block:
         elif letter == "N":
             if index:
                 block.faults.append((index, "a line's number stands at its beginning"))
+            elif text[0] in "+-":
+                block.faults.append((index, f"N{text}: a line's number has no sign"))
         elif letter in values:
             block.faults.append((index, f"{letter} stands twice in the line"))
         elif letter in "BCEO" or letter not in LETTERS:

@@ -144,9 +144,10 @@ def _summary(turned: Turned, previewed: Previewed | None) -> Iterator[str]:
     if turned.dwelt_s:
         yield f"dwells     {turned.dwelt_s:.3f} s of it"
     yield f"peak       {thousands(round(60 * previewed.peak_mm_per_s))} mm/min"
-    peaks = (f"{letter} {thousands(round(peak))}"
-             for letter, peak in zip(LETTERS, previewed.peaks, strict=True) if peak)  # fmt: skip
-    yield f"           {', '.join(peaks)} pulses/s"
+    peaks = [f"{letter} {thousands(round(peak))}"
+             for letter, peak in zip(LETTERS, previewed.peaks, strict=True) if peak]  # fmt: skip
+    if peaks:
+        yield f"           {', '.join(peaks)} pulses/s"
 
 
 def _left_out(previewed: Previewed) -> str:

@@ -8,8 +8,8 @@ They stand after a line that was answered when all before had been done, so that
 after a vector that probes they may still move. `;@probe` asks for this: wait until they stand (F:
 INTA is set, or RUN is not). Without INTA, or with INTCOM, nothing was touched: the file ends with
 an error, and nothing more is sent. Else write SW1,00, so that the sensor stops nothing any more;
-read PL and P4; D; send L with PL - P4, so that the axes go back to where it was touched; wait until
-they stand. Positions that follow count from there.
+read PL and P4; D; send L with PL - P4 on the axes of that vector, so that they go back to where it
+was touched; wait until they stand. Positions that follow count from there.
 """
 
 from __future__ import annotations

@@ -39,6 +39,8 @@ class Modal:
     is_inverse: bool = False
     feed: float | None = None
     """mm, inch or degree a minute; in G93 one over minutes, of the block at hand."""
+    _no_feed: str = "yet"
+    """Since when there is none."""
 
     @property
     def is_arc(self) -> bool:
@@ -54,13 +56,21 @@ class Modal:
         """Take what is modal in a block."""
         codes = block.codes
         if (mode := codes.get(code.FEED_MODE)) is not None and self.is_inverse != (mode == 930):
-            self.is_inverse, self.feed = mode == 930, None
+            self._forget_feed("G93" if mode == 930 else "G94")
+            self.is_inverse = mode == 930
         if (units := codes.get(code.UNITS)) is not None and self.is_inch != (units == 200):
-            self.is_inch, self.feed = units == 200, None
+            self._forget_feed("G20" if units == 200 else "G21")
+            self.is_inch = units == 200
         self.plane = codes.get(code.PLANE, self.plane)
         if (distance := codes.get(code.DISTANCE)) is not None:
             self.is_absolute = distance == 900
         self.motion = codes.get(code.MOTION, self.motion)
+
+    def _forget_feed(self, word: str) -> None:
+        """Its unit is another one from now on."""
+        if self.feed is not None or self._no_feed != "yet":
+            self._no_feed = f"since {word}, with which that from before does not hold"
+        self.feed = None
 
     def take_feed(self, block: Block) -> None:
         """Take the feed of a block; in G93 it is for that block alone."""
@@ -77,7 +87,7 @@ class Modal:
     def pace(self, block: Block) -> Pace:
         """How fast the motion of a block goes, which has a feed."""
         if self.feed is None:
-            what = "of its own in G93" if self.is_inverse else "yet"
+            what = "of its own in G93" if self.is_inverse else self._no_feed
             raise Wrong(code.MOTION, f"the motion has no feed {what}; write F")
         if self.is_inverse:
             return Pace(seconds=60.0 / self.feed)

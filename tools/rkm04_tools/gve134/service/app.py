@@ -13,9 +13,9 @@ from starlette.routing import Route
 from starlette.types import ASGIApp
 
 from rkm04_tools.failure import Failure
-from rkm04_tools.gve134.gcode.axes import Mill
 from rkm04_tools.gve134.service.desk import UnitDesk
 from rkm04_tools.gve134.service.files import FILE_BYTES_MAX, File
+from rkm04_tools.gve134.service.machine_file import MachineFile
 from rkm04_tools.service.browsers import Browsers
 from rkm04_tools.service.http import Site, application, bytes_of, object_of
 from rkm04_tools.service.trouble import BadRequest
@@ -28,13 +28,13 @@ NAME_MAX = 200
 
 
 def make_app(
-    page: Path, token: str, port: int, first: Connect, baud: int, mill: Mill | None
+    page: Path, token: str, port: int, first: Connect, baud: int, machine: MachineFile | None
 ) -> ASGIApp:
     """The application, which shows the page of a folder and connects to a first port."""
     desks: list[UnitDesk] = []
 
     def make_desk(*arguments: Any) -> UnitDesk:
-        desks.append(UnitDesk(first, baud, mill, *arguments))
+        desks.append(UnitDesk(first, baud, machine, *arguments))
         return desks[0]
 
     browsers = Browsers(make_desk)
@@ -49,6 +49,10 @@ def make_app(
         name, data = _name(request), await bytes_of(request)
         await asyncio.to_thread(desk.open_machine, name, data)
         return JSONResponse({})
+
+    async def show_machine(_: Request) -> Response:
+        machine = desk.machine()
+        return JSONResponse({"name": machine.name, "text": machine.text})
 
     async def open_example(request: Request) -> Response:
         name = (await object_of(request)).get("name")
@@ -72,6 +76,7 @@ def make_app(
         Route("/api/file", show_file),
         Route("/api/file", open_file, methods=["POST"]),
         Route("/api/course", show_course),
+        Route("/api/machine", show_machine),
         Route("/api/machine", open_machine, methods=["POST"]),
         Route("/api/examples", show_examples),
         Route("/api/example", open_example, methods=["POST"]),
@@ -89,7 +94,7 @@ def examples() -> list[str]:
 def _open_example(desk: UnitDesk, name: str) -> File:
     """Open an example, and the machine that they are for unless there is one."""
     try:
-        if not desk.has_mill:
+        if not desk.has_machine:
             desk.open_machine(MACHINE.name, MACHINE.read_bytes())
         return desk.open_file(name, (EXAMPLES / name).read_bytes())
     except OSError as error:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from rkm04_tools.gve134.gcode.directives import Wait
 from rkm04_tools.gve134.job import Job
 from rkm04_tools.gve134.state import AXES
 
@@ -35,6 +36,8 @@ class Course:
     absolute_from: tuple[int | None, ...]
     """Of each axis the first vector from which on places are absolute."""
     counts: Ints
+    waits_s: float
+    """What the host waits in all."""
 
     def __len__(self) -> int:
         return len(self.lines)
@@ -43,7 +46,7 @@ class Course:
 def course_of(job: Job, is_gcode: bool) -> Course:
     """The course of a file without errors."""
     origins = _origins(job) if is_gcode else None
-    at = [0, 0, 0, 0]
+    at, waits_s = [0, 0, 0, 0], 0.0
     parts, begins, lines, counts = [], [], [], [0]
     absolute: list[int | None] = [None] * len(AXES)
     for command in job:
@@ -59,6 +62,8 @@ def course_of(job: Job, is_gcode: bool) -> Course:
             for axis in [AXES.index(match[1])] if match[1] else range(len(AXES)):
                 at[axis] = int(match[2] or 0)
                 absolute[axis] = len(parts) if absolute[axis] is None else absolute[axis]
+        elif isinstance(command.asked_of_host, Wait):
+            waits_s += command.asked_of_host.seconds
     shape = (len(parts), len(AXES))
     return Course(
         np.array(parts, np.int64).reshape(shape),
@@ -66,6 +71,7 @@ def course_of(job: Job, is_gcode: bool) -> Course:
         np.array(lines, np.int64),
         tuple(absolute),
         np.array(counts, np.int64),
+        waits_s,
     )
 
 

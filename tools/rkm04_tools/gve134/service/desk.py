@@ -8,11 +8,12 @@ from threading import Lock
 from typing import Any
 
 from rkm04_tools.gve134 import host
-from rkm04_tools.gve134.gcode.axes import Mill, mill_of
-from rkm04_tools.gve134.service.files import NO_MILL, File, is_gcode, read_file
+from rkm04_tools.gve134.gcode.axes import Mill
+from rkm04_tools.gve134.service.files import NO_MILL, File, read_file
+from rkm04_tools.gve134.service.machine_file import MachineFile, machine_file
 from rkm04_tools.gve134.service.orders import Home, Order, Start, Work, read_order
 from rkm04_tools.gve134.service.worker import Worker
-from rkm04_tools.machine.machine import Machine, parse_machine
+from rkm04_tools.gve134.source import is_gcode
 from rkm04_tools.service.browsers import Tell
 from rkm04_tools.service.fields import Asked
 from rkm04_tools.service.trouble import BadRequest
@@ -25,7 +26,7 @@ class UnitDesk(TurnsDesk):
     """A Desk; it connects to a `first` port when it starts."""
 
     def __init__(
-        self, first: Connect, baud: int, mill: Mill | None,
+        self, first: Connect, baud: int, machine: MachineFile | None,
         tell: Tell, is_watched: Callable[[], bool],
     ) -> None:  # fmt: skip
         units = VirtualLine(host.program_path, ("--baud", str(baud)))
@@ -33,9 +34,9 @@ class UnitDesk(TurnsDesk):
         super().__init__(first, self._worker, units)
         self._opening = Lock()
         self._file: File | None = None
-        self._mill: Mill | None = None
-        if mill:
-            self._set_mill(mill)
+        self._machine: MachineFile | None = None
+        if machine:
+            self._set_machine(machine)
 
     def read(self, text: str) -> tuple[Order, Asked]:
         """Read an order."""
@@ -44,7 +45,7 @@ class UnitDesk(TurnsDesk):
     def work_of(self, order: Any) -> Work:
         """An order as the worker takes it: a reference run is a file of its own."""
         if isinstance(order, Home):
-            if self._mill is None:
+            if self._machine is None:
                 raise BadRequest("which switches? open a machine file (.rkm) that has them")
             name = f"home {order.axis or 'all'}.nc"
             text = f"G91 G28 {order.axis}0" if order.axis else "G28"
@@ -72,12 +73,18 @@ class UnitDesk(TurnsDesk):
 
     def open_machine(self, name: str, data: bytes) -> None:
         """Take another machine; a program that is open is turned for it anew."""
-        mill = mill_of(Machine(name, parse_machine(data, name)))
+        machine = machine_file(name, data)
         with self._opening:
             self._worker.require_no_job()
-            self._set_mill(mill)
+            self._set_machine(machine)
             if self._file and is_gcode(self._file.name):
-                self._show(read_file(self._file.name, self._data, mill), self._data)
+                self._show(read_file(self._file.name, self._data, machine.mill), self._data)
+
+    def machine(self) -> MachineFile:
+        """The machine file that is open."""
+        if self._machine is None:
+            raise BadRequest("no machine file is open; open one (.rkm) first")
+        return self._machine
 
     def file(self, number: int) -> File:
         """The file of a number, if it is still the one that is open."""
@@ -90,17 +97,21 @@ class UnitDesk(TurnsDesk):
         self._file, self._data = file, data
         self._worker.board.change(file=file.as_json())
 
-    def _set_mill(self, mill: Mill) -> None:
-        self._mill = mill
-        self._worker.board.change(machine=_machine(mill))
+    def _set_machine(self, machine: MachineFile) -> None:
+        self._machine = machine
+        self._worker.board.change(machine=_told(machine.mill))
 
     @property
-    def has_mill(self) -> bool:
+    def _mill(self) -> Mill | None:
+        return self._machine.mill if self._machine else None
+
+    @property
+    def has_machine(self) -> bool:
         """Whether a machine file is open."""
-        return self._mill is not None
+        return self._machine is not None
 
 
-def _machine(mill: Mill) -> dict[str, Any]:
+def _told(mill: Mill) -> dict[str, Any]:
     """What a page is told of a machine."""
     assert mill is not NO_MILL
     return {

@@ -18,13 +18,13 @@ import numpy.typing as npt
 
 from rkm04_tools.failure import Failure
 from rkm04_tools.gve134 import host
-from rkm04_tools.gve134.client_send import GCODE_SUFFIXES
 from rkm04_tools.gve134.gcode.axes import Mill
 from rkm04_tools.gve134.gcode.preview import Preview, Previewed
 from rkm04_tools.gve134.gcode.reading import KIND, LINE_BYTES_MAX
 from rkm04_tools.gve134.gcode.turning import Problem, turn_file
 from rkm04_tools.gve134.job import Job, job_of
 from rkm04_tools.gve134.service.course import Course, course_of
+from rkm04_tools.gve134.source import is_gcode
 from rkm04_tools.service.trouble import BadRequest
 from rkm04_tools.source import Source, decode, why_no_text
 
@@ -95,11 +95,6 @@ def read_file(name: str, data: bytes, mill: Mill | None) -> File:
     return _read_gcode(name, data, mill) if is_gcode(name) else _read_vectors(name, data)
 
 
-def is_gcode(name: str) -> bool:
-    """Whether a name is that of a program of G-code."""
-    return Path(name).suffix.lower() in GCODE_SUFFIXES
-
-
 def _read_gcode(name: str, data: bytes, mill: Mill | None) -> File:
     if mill is None:
         raise BadRequest(f"{name}: for which machine? open its machine file (.rkm) first")
@@ -134,10 +129,10 @@ def _read_vectors(name: str, data: bytes) -> File:
     problems = [_told("error", e.line, e.column, e.message) for e in parsed.errors]
     more = max(0, len(problems) - PROBLEMS_MAX) + parsed.more
     file = File(next(_numbers), name, source.text, problems[:PROBLEMS_MAX], more)
-    return file if parsed.errors else _planned(file, source, None, 0.0)
+    return file if parsed.errors else _planned(file, source, None, None)
 
 
-def _planned(file: File, source: Source, mill: Mill | None, dwelt_s: float) -> File:
+def _planned(file: File, source: Source, mill: Mill | None, dwelt_s: float | None) -> File:
     """Add what the planner says; what gcode has written has passed the same parser."""
     job = job_of(source)
     course = course_of(job, is_gcode=mill is not None)
@@ -150,4 +145,5 @@ def _planned(file: File, source: Source, mill: Mill | None, dwelt_s: float) -> F
     seconds = seconds[~np.isnan(seconds)]
     if len(seconds) != len(course):
         raise Failure(f"{source.name}: the plan has {len(seconds)} vectors of {len(course)}")
+    dwelt_s = course.waits_s if dwelt_s is None else dwelt_s
     return replace(file, job=job, course=course, seconds=seconds, plan=plan, dwelt_s=dwelt_s)

@@ -1,4 +1,4 @@
-"""Requests on the line of the virtual board at 115 200 Bd, and what the image answers."""
+"""Requests on the line of the virtual board, and what the image answers."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from pathlib import Path
 from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.target_run import Ran, Rig
 
-BAUD = 115_200
-BYTE_MS = 11 * 1000 / BAUD
-SILENCE_MS = 1.75
-"""Behind a request, until it has come."""
+BAUD, DELIVERED_BAUD = 115_200, 19_200
+BYTE_BITS = 11
+PAUSE_MS = 1.75
+"""Ends an answer, and above 19 200 Bd a request."""
 FORMAT = ("--format", "8E1")
 CYCLE_MS = 15.0
 AXES = range(1, 5)
@@ -74,16 +74,22 @@ class Asked:
 
     ms: float
     data: bytes
+    baud: int = BAUD
+
+    @property
+    def byte_ms(self) -> float:
+        """How long a byte takes."""
+        return 1000 * BYTE_BITS / self.baud
 
     @property
     def end_ms(self) -> float:
         """When its last byte is over."""
-        return self.ms + len(self.data) * BYTE_MS
+        return self.ms + len(self.data) * self.byte_ms
 
     @property
     def come_ms(self) -> float:
         """When it has come, as the contract says."""
-        return self.end_ms + SILENCE_MS
+        return self.end_ms + max(PAUSE_MS, 3.5 * self.byte_ms)
 
 
 @dataclass(frozen=True)
@@ -104,12 +110,16 @@ def stored(rig: Rig) -> Path:
     return path
 
 
-def play(rig: Rig, asked: Sequence[Asked], seconds: float, *options: str) -> tuple[Ran, list[Said]]:
-    """Send requests at 115 200 Bd; what was answered."""
+def play(
+    rig: Rig, asked: Sequence[Asked], seconds: float, *options: str, inputs: str = ""
+) -> tuple[Ran, list[Said]]:
+    """Send requests, all at one rate; what was answered."""
+    baud = asked[0].baud
     line = "".join(f"{each.ms:.6f} {each.data.hex()}\n" for each in asked)
     log = rig.folder / LOG
-    options = ("--baud", str(BAUD), *FORMAT, "--line-log", str(log), *options)
-    ran = rig.run(seconds, line, "", *options, steps=True, flash=stored(rig))
+    options = ("--baud", str(baud), *FORMAT, "--line-log", str(log), *options)
+    flash = None if baud == DELIVERED_BAUD else stored(rig)
+    ran = rig.run(seconds, line, inputs, *options, steps=True, flash=flash)
     return ran, said_in(log)
 
 
@@ -122,7 +132,7 @@ def said_in(log: Path) -> list[Said]:
         if byte.endswith("*"):
             raise Failure("the image has sent a byte that nobody could read", NOT_SO)
         ms, data = float(text), bytes.fromhex(byte)
-        if found and ms - last < SILENCE_MS:
+        if found and ms - last < PAUSE_MS:
             found[-1] = Said(found[-1].ms, found[-1].data + data)
         else:
             found.append(Said(ms, data))

@@ -6,6 +6,7 @@ import random
 
 from rkm04_tools.positioning.bench.line import (
     AXES,
+    BAUD,
     CYCLE_MS,
     Asked,
     cycle,
@@ -28,10 +29,12 @@ FULL, WIDE = 1.0, 50.0
 """How far under the top feeds may be, in percent."""
 
 
-def begin(accel: int, feeds: list[int]) -> list[Asked]:
+def begin(
+    accel: int, feeds: list[int], at: float = BEGIN_MS, apart: float = SPACE_MS, baud: int = BAUD
+) -> list[Asked]:
     """The requests that set all axes in motion."""
     frames = measures([FAR_UM] * len(AXES), accel, feeds)
-    return [Asked(BEGIN_MS + i * SPACE_MS, frame) for i, frame in enumerate(frames)]
+    return [Asked(at + i * apart, frame, baud) for i, frame in enumerate(frames)]
 
 
 def measure(rig: Rig, name: str, spread: float, cycles: int = CYCLES) -> Figures:

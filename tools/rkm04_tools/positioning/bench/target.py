@@ -22,6 +22,9 @@ MEASURES: Mapping[str, Measure] = {
     "fast": reactions.fast,
     "hold": reactions.hold,
     "slow": reactions.slow,
+    "delivered": reactions.delivered,
+    "limit": reactions.limit,
+    "limits": reactions.limits,
 }
 
 FIGURES = [
@@ -45,6 +48,16 @@ FIGURES = [
     Goal("late_hold", "... late pulses", "pulses", 0),
     Goal("begins_slow", "... to the ramp: feeds of all axes, pulses 512 ms apart", "ms", 1),
     Goal("late_slow", "... late pulses", "pulses", 0),
+    Goal("begins_delivered", "... to the ramp at 19 200 Bd: feeds of all axes", "us", 1000),
+    Goal("changes_delivered", "... to the first pulse at another time", "us", 1000),
+    Goal("late_delivered", "... late pulses", "pulses", 0),
+    Goal("begins_limit", "from an edge at a limit input to the ramp, 4 x 100 000 steps/s: one axis",
+         "us", 1000),
+    Goal("changes_limit", "... to the first pulse at another time", "us", 1000),
+    Goal("late_limit", "... late pulses", "pulses", 0),
+    Goal("begins_limits", "... to the ramp: all axes", "us", 1000),
+    Goal("changes_limits", "... to the first pulse at another time", "us", 1000),
+    Goal("late_limits", "... late pulses", "pulses", 0),
     Goal(STACK, "stack that was used in all runs", "bytes"),
 ]  # fmt: skip
 

@@ -113,10 +113,9 @@ class Looks:
 
     def _compare(self, axes: list[AxisState], wanted: list[Wanted], now: float) -> None:
         """DONE, MP and FEED change by orders, or FEED by a fault: if not by an order from here,
-        then by another's."""
+        then by another's. A fault may have come after the FEED of its first look was read."""
         for before, old, axis, new in zip(self.axes, self.wanted, axes, wanted, strict=False):
-            is_fault = axis.has_fault and not before.has_fault and new.feed == 0
-            feed = old.feed if is_fault else new.feed
+            feed = old.feed if axis.has_fault and new.feed == 0 else new.feed
             is_same = (before.done, old.permitted, old.feed) == (axis.done, new.permitted, feed)
             if not is_same and axis.axis not in self._own:
                 self._others_at[axis.axis] = now
