@@ -50,6 +50,7 @@ def test_all_programs_are_sent_each_to_its_own_motor(page, requests):
     (asked,) = requests
     assert asked["together"] is False
 
+    page.forget(2)
     page.page.locator("#together").check()
     page.page.locator("#send-all").click()
     expect(page.answers.first).to_contain_text("started together")

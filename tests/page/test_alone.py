@@ -18,8 +18,8 @@ import pytest
 from alone_page import steps, write, write_alone
 from page_looks import AXE, CUT, OUTSIDE, OVER, SIZES, VIOLATIONS
 from playwright.sync_api import Browser, BrowserContext, Page, expect
+from rkm04_tools import static_pages
 from rkm04_tools.failure import Failure
-from rkm04_tools.service import static
 from rkm04_tools.service.checking import check, examples
 from rkm04_tools.service.curves import Curves, read_wanted
 from rkm04_tools.service.orders import TEXT_MAX
@@ -99,14 +99,16 @@ def answers(page: Page, orders: list[dict[str, Any]]) -> list[Any]:
     return [one["answer"] for one in told]
 
 
-def test_it_is_one_file_of_less_than_400_kb_gzipped(written):
-    assert [path.name for path in written.parent.iterdir()] == ["index.html"]
-    assert len(gzip.compress(written.read_bytes())) <= GZIPPED_BYTES_MAX
+def test_each_page_is_one_file_of_less_than_400_kb_gzipped(written):
+    found = sorted(path.name for path in written.parent.iterdir())
+    assert found == sorted(page.name for page in static_pages.PAGES)
+    for name in found:
+        assert len(gzip.compress((written.parent / name).read_bytes())) <= GZIPPED_BYTES_MAX
 
 
 def test_a_folder_that_cannot_be_is_one_line(written):
     with pytest.raises(Failure, match=r"cannot be written \(.+\); name a folder of yours"):
-        static.write(written)
+        static_pages.write(written)
 
 
 TEXTS = (
@@ -165,8 +167,9 @@ def test_a_program_is_checked_and_drawn_while_it_is_typed(alone):
     expect(alone.locator("#plan")).to_have_attribute("data-state", "old")
 
 
-def test_it_says_where_the_pages_of_other_units_are(alone):
-    expect(alone.locator("#alone-hint")).to_contain_text("positioning service")
+def test_it_leads_to_the_pages_of_the_other_units(alone):
+    names = [link.get_attribute("href") for link in alone.locator("#pages a").all()]
+    assert names == [page.name for page in static_pages.PAGES]
 
 
 def test_the_examples_are_there_with_their_inputs(alone):
@@ -339,6 +342,38 @@ def test_without_webassembly_there_is_no_unit_and_stop_confirms_nothing(context,
     expect(page.locator("#alarm")).to_have_attribute("data-kind", "failed")
     expect(page.locator("#alarm")).to_contain_text("emergency stop")
     page.close()
+
+
+FORBIDDEN = """() => {
+    const deny = { get() { throw new DOMException("denied", "SecurityError"); } };
+    ["localStorage", "sessionStorage"].forEach((name) => Object.defineProperty(window, name, deny));
+    Object.defineProperty(document, "cookie", { ...deny, set: deny.get });
+}"""
+
+
+@pytest.mark.parametrize("name", [page.name for page in static_pages.PAGES])
+def test_a_browser_that_lets_no_page_keep_anything_shows_all_the_same(context, written, name):
+    page = context.new_page()
+    faults: list[str] = []
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.add_init_script(f"({FORBIDDEN})()")
+    page.goto(written.with_name(name).as_uri())
+
+    expect(page.locator("#state")).to_have_attribute("data-kind", "good")
+    page.locator("#language").select_option("cs")
+    expect(page.locator("html")).to_have_attribute("lang", "cs")
+    assert faults == []
+    page.close()
+
+
+def test_the_language_that_was_chosen_stays_for_the_pages_of_a_disk(browser, written):
+    context = browser.new_context(locale="en-GB")
+    page = context.new_page()
+    page.goto(written.as_uri())
+    page.locator("#language").select_option("cs")
+    page.goto(written.with_name("positioning.html").as_uri())
+    expect(page.locator("html")).to_have_attribute("lang", "cs")
+    context.close()
 
 
 def renderers(browser: Browser) -> list[int]:

@@ -101,20 +101,47 @@ def test_a_motor_runs_as_long_as_its_button_is_held(firefox, written):
     firefox.wait_for("document.querySelectorAll('#log [data-message=stop]').length === 0")
 
 
+def move_and_stop_axis(firefox: Firefox) -> None:
+    firefox.wait_for_text("#state-1", "FREE")
+    firefox.click("#way-1")
+    firefox.press("Control", "a")
+    firefox.type("2000.5")
+    firefox.click("#danger-confirm")
+    firefox.click("#move-1")
+    firefox.wait_for_text("#state-1", "MOVING")
+    firefox.wait_for_text("#target-1", "2,000.500 mm")
+    firefox.press("Escape")
+    firefox.wait_for("document.getElementById('alarm').dataset.kind === 'done'")
+    firefox.wait_for_text("#state-1", "READY")
+    firefox.wait_for("document.getElementById('curves').dataset.samples > 3")
+
+
+def test_an_axis_moves_and_stops_in_the_page_that_needs_no_service(firefox, written):
+    firefox.open(written.replace("index.html", "positioning.html"))
+    firefox.wait_for_text("#serial-hint", "tools/positioning service")
+    move_and_stop_axis(firefox)
+
+
 def test_an_axis_of_a_positioning_unit_moves_and_stops(firefox):
     service = PosService()
     try:
         firefox.open(service.url)
-        firefox.wait_for_text("#state-1", "FREE")
-        firefox.click("#way-1")
-        firefox.press("Control", "a")
-        firefox.type("2000.5")
-        firefox.click("#move-1")
-        firefox.wait_for_text("#state-1", "MOVING")
-        firefox.wait_for_text("#target-1", "2,000.500 mm")
-        firefox.press("Escape")
-        firefox.wait_for("document.getElementById('alarm').dataset.kind === 'done'")
-        firefox.wait_for_text("#state-1", "READY")
-        firefox.wait_for("document.getElementById('curves').dataset.samples > 3")
+        move_and_stop_axis(firefox)
     finally:
         service.end()
+
+
+def test_a_job_of_a_gve134_runs_and_halts_in_the_page_that_needs_no_service(firefox, written):
+    firefox.open(written.replace("index.html", "gve134.html"), "delete Navigator.prototype.serial")
+    firefox.wait_for_text("#live-state", "at rest")
+    firefox.wait_for_text("#serial-hint", "tools/gve134 service")
+    firefox.evaluate(
+        "examples.value = 'circle.gve', examples.dispatchEvent(new Event('change')), 0"
+    )
+    firefox.wait_for("document.getElementById('canvas').dataset.plan === '103'")
+    firefox.wait_for("!document.getElementById('start').disabled")
+    firefox.click("#start")
+    firefox.wait_for_text("#live-state", "moving")
+    firefox.press("Escape")
+    firefox.wait_for_text("#alarm", "HALT is confirmed")
+    firefox.wait_for_text("#job-words", "was stopped")

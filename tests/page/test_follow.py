@@ -98,6 +98,9 @@ def test_a_program_of_several_messages_is_followed_too(page):
 
 
 def test_programs_that_start_together_are_followed(page):
+    page.forget(0)
+    page.page.reload()
+    page.ready()
     page.write("W30000")
     page.page.locator("#tab-2").click()
     page.write("@1 W31000 J1")

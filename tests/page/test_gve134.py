@@ -18,7 +18,7 @@ from service_page import NOT_KNOWN
 
 BUILD = Path(__file__).resolve().parents[2] / "build"
 EXAMPLES = Path(__file__).resolve().parents[2] / "tools/examples/gve"
-ZIPPED_BYTES_MAX = 30_000
+ZIPPED_BYTES_MAX = 33_000
 LONG = "V1000\n" + "C100,50\nC-100,50\n" * 200
 
 
@@ -144,6 +144,91 @@ def test_gcode_without_a_machine_says_what_to_do(page: GvePage) -> None:
     expect(page.at("file-trouble")).to_contain_text("open its machine file (.rkm) first")
 
 
+def drawn(page: GvePage) -> str:
+    """What the canvas shows, when nothing more is to be drawn."""
+    page.page.wait_for_timeout(300)
+    url: str = page.page.evaluate("document.getElementById('canvas').toDataURL()")
+    return url
+
+
+def test_the_path_is_seen_from_above_and_aslant_and_can_be_turned(page: GvePage) -> None:
+    page.open("a.gve", "V1000\nC0,0,1000\nC0,0,-1000\n")
+    expect(page.at("canvas")).to_have_attribute("data-plan", "2")
+    expect(page.at("scale")).not_to_be_empty()
+    above = drawn(page)
+    page.page.locator("label", has_text=re.compile("^XYZ$")).click()
+    expect(page.at("scale")).to_be_empty()
+    aslant = drawn(page)
+    place = page.at("canvas").bounding_box()
+    assert place is not None
+    x, y = place["x"] + place["width"] / 2, place["y"] + place["height"] / 2
+    page.page.mouse.move(x, y)
+    page.page.mouse.down()
+    page.page.mouse.move(x + 60, y + 40, steps=4)
+    page.page.mouse.up()
+    turned = drawn(page)
+    page.page.locator("label", has_text=re.compile("^XY$")).click()
+
+    assert len({above, aslant, turned}) == 3
+    assert drawn(page) == above
+
+
+def test_a_machine_file_is_edited_taken_over_and_saved(page: GvePage) -> None:
+    expect(page.at("machine-edit")).to_be_disabled()
+    page.at("machine-file").set_input_files(EXAMPLES / "mill.rkm")
+    expect(page.at("machine-shown")).to_have_text("Small mill")
+    page.open("a.nc", "G1 X10 F600\n")
+    page.at("machine-edit").click()
+    expect(page.at("code")).to_be_hidden()
+    expect(page.at("machine-text")).not_to_have_value("")
+    text = page.at("machine-text").input_value()
+    assert text == (EXAMPLES / "mill.rkm").read_text(encoding="utf-8")
+    wrong = text.replace('"steps_per_mm": 320', '"steps_per_mm": -320', 1)
+    page.at("machine-text").fill(wrong)
+    page.at("machine-take").click()
+    expect(page.at("machine-trouble")).to_contain_text("steps_per_mm")
+    expect(page.at("machine-shown")).to_have_text("Small mill")
+    page.at("machine-close").click()
+    page.at("machine-edit").click()
+    expect(page.at("machine-text")).to_have_value(wrong)
+    other = text.replace("Small mill", "Fine mill").replace(
+        '"steps_per_mm": 320', '"steps_per_mm": 640'
+    )
+    page.at("machine-text").fill(other)
+    page.at("machine-take").click()
+    expect(page.at("machine-shown")).to_have_text("Fine mill")
+    expect(page.at("machine-trouble")).to_be_hidden()
+    with page.page.expect_download() as download:
+        page.at("machine-save").click()
+    assert download.value.suggested_filename == "mill.rkm"
+    assert Path(download.value.path()).read_text(encoding="utf-8") == other
+    page.at("machine-close").click()
+    expect(page.at("code")).to_be_visible()
+    page.at("start").click()
+    expect(page.at("job-words")).to_have_text("a.nc is done")
+    assert page.steps("X") == 6400
+
+
+def test_the_machine_file_has_room_at_every_width_and_no_place_in_a_job(page: GvePage) -> None:
+    page.example("pocket.nc")
+    page.at("machine-edit").click()
+    page.page.evaluate(AXE.read_text())
+    for language in ("cs", "en"):
+        page.at("language").select_option(language)
+        for width, height in SIZES:
+            page.page.set_viewport_size({"width": width, "height": height})
+            page.page.wait_for_timeout(200)
+            for look in (OUTSIDE, OVER, CUT):
+                assert page.page.evaluate(look) == [], (width, language)
+        assert page.page.evaluate(VIOLATIONS) == []
+    page.at("start").click()
+    expect(page.at("code")).to_be_visible()
+    expect(page.at("machine-text")).to_be_hidden()
+    expect(page.at("machine-edit")).to_be_disabled()
+    page.page.keyboard.press("Escape")
+    expect(page.at("alarm")).to_have_attribute("data-kind", "done")
+
+
 def test_two_windows_see_the_same_and_either_halts(
     page: GvePage, browser: Browser, service: GveService
 ) -> None:
@@ -165,15 +250,14 @@ def test_two_windows_see_the_same_and_either_halts(
 
 
 def test_axes_are_moved_by_hand_in_pulses_and_in_mm(page: GvePage) -> None:
-    buttons = page.page.locator(".card").nth(1).locator("button")
-    buttons.nth(0).click()
+    page.jog("Y-")
     expect(page.at("position-Y")).to_have_text("\N{MINUS SIGN}100 ")
     page.at("machine-file").set_input_files(EXAMPLES / "mill.rkm")
     expect(page.at("jog-speed")).to_have_value("600")
     page.at("jog-step").select_option("0.1")
-    buttons.nth(1).click()
+    page.jog("Y+")
     expect(page.at("steps-Y")).to_have_text("\N{MINUS SIGN}68 pulses")
-    buttons.nth(2).click()
+    page.page.locator(".card").nth(1).get_by_text("= 0").click()
     expect(page.at("position-Y")).to_have_text("0.000 mm")
 
 
@@ -207,7 +291,7 @@ def test_commands_are_typed_and_answered(page: GvePage) -> None:
 def test_homing_says_that_the_unit_is_silent_then_and_can_be_halted(page: GvePage) -> None:
     page.at("machine-file").set_input_files(EXAMPLES / "mill.rkm")
     page.page.locator("#inputs button").first.click()
-    page.page.locator(".card").first.get_by_role("button", name="Home").click()
+    page.home("X")
     page.doing("reference run: the unit tells nothing until it stands")
     page.page.wait_for_timeout(2500)
     expect(page.at("position-X")).to_have_text(NOT_KNOWN)
@@ -343,7 +427,8 @@ def test_everything_is_reached_by_keys(page: GvePage) -> None:
         seen.add(page.page.evaluate("document.activeElement.id || document.activeElement.name"))
 
     assert {"stop", "start", "override", "code", "view", "zoom-in", "fit", "jog-step", "typed",
-            "open", "machine-open", "examples", "outputs-off"} <= seen  # fmt: skip
+            "danger-confirm", "open", "machine-open", "examples",
+            "outputs-off"} <= seen  # fmt: skip
 
 
 @pytest.mark.parametrize("language", ["en", "cs"])

@@ -6,13 +6,11 @@ A page without a service has this in TypeScript, where it cannot ask the tools.
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from collections.abc import Sequence
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
+from page_source import ROOT, ask_source
 from rkm04_tools import messages
 from rkm04_tools.line_errors import UnknownMessage, WrongAnswer
 from rkm04_tools.messages import (
@@ -26,28 +24,14 @@ from rkm04_tools.service.stopping import is_stopped
 from rkm04_tools.status import CAUSES, ERRORS, LINE_COUNTS, Status, parse_status
 from statuses import VECTORS, Vector
 
-ROOT = Path(__file__).resolve().parents[2]
-SCRIPT = ROOT / "tests" / "support" / "page_parser.mjs"
-SOURCE = ROOT / "tools" / "service_page" / "src" / "unit_messages.ts"
-ESBUILD = ROOT / "build" / "service_page" / "node_modules" / "esbuild" / "lib" / "main.js"
 STATES = range(1 << 7)
 """All that the byte of a motor's state can say."""
 
 
 def ask(asked: Sequence[Sequence[Any]]) -> list[Any]:
     """What the page's functions return; bytes go as hex."""
-    coded = [
-        [{"hex": each.hex()} if isinstance(each, bytes) else each for each in one] for one in asked
-    ]
     names = {"causes": CAUSES, "errors": ERRORS, "line": list(LINE_COUNTS)}
-    node = Path(sys.executable).with_name("node")
-    told = subprocess.check_output(
-        [node, SCRIPT, ESBUILD, SOURCE],
-        input=json.dumps({"names": names, "asked": coded}),
-        text=True,
-    )
-    answers: list[Any] = json.loads(told)
-    return answers
+    return ask_source("unit_messages.ts", asked, names)
 
 
 def as_page(status: Status) -> dict[str, Any]:

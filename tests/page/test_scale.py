@@ -50,3 +50,26 @@ def test_the_unit_is_shown_in_mm_too_and_the_field_of_the_speed(page):
     expect(page.page.locator("#speed-scaled")).to_have_text("= 12.5 mm/s")
     page.page.locator("#scaled").uncheck()
     expect(page.position(1)).to_have_text("400")
+
+
+def test_fields_of_commissioning_say_what_they_are_in_mm(page):
+    opened(page)
+    page.page.locator("#commission").evaluate("(panel) => (panel.open = true)")
+    fields = {
+        "speed": ("500", "= 12.5 mm/s"),
+        "ramp": ("1000", "= 25 mm/s²"),
+        "step": ("10", "= 0.25 mm"),
+        "farthest": ("2000", "= 50 mm"),
+        "away": ("50", "= 1.25 mm"),
+    }
+    for name, (value, words) in fields.items():
+        page.page.locator(f"#commission-{name}").fill(value)
+        expect(page.page.locator(f"#commission-{name}-scaled")).to_have_text(words)
+    page.send("\\ C100 S100 V1000 F400 R")
+    expect(page.page.locator("#commission-position")).to_have_text("10 mm")
+    page.page.locator("#commission-motor").select_option("2")
+    expect(page.page.locator("#commission-step-scaled")).to_have_text("= 0.5 °")
+    page.page.locator("#commission-motor").select_option("3")
+    expect(page.page.locator("#commission-step-scaled")).to_have_text("")
+    page.page.locator("#scaled").uncheck()
+    page.page.locator("#commission").evaluate("(panel) => (panel.open = false)")

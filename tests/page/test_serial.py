@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from alone_page import write, write_alone
+from alone_page import forget, hold, write, write_alone
 from frames import frame, unescape
 from noisy_line import NoisyLine
 from page_looks import AXE, CUT, OUTSIDE, OVER, SIZES, VIOLATIONS
@@ -204,18 +204,19 @@ def test_all_messages_are_answered_over_the_line(page):
         expect(page.locator("#log .log-item").first).to_contain_text(words)
 
 
-def test_programs_of_several_motors_start_together(page):
-    for motor in (1, 2):
-        page.locator(f"#tab-{motor}").click()
-        write(page, "\\ C100 S500 V500 A1000 F100000 R")
+def test_programs_of_several_motors_start_together_if_the_others_are_empty(page):
+    write(page, "\\ C100 S500 V500 A1000 F100000 R")
+    page.locator("#tab-2").click()
+    write(page, "\\ C100 S500 V500 A1000 F100000 R")
     page.locator("#together").check()
     page.locator("#send-all").click()
-    expect(page.locator("#log .log-item").first).to_contain_text("started together")
-    for motor in (1, 2):
-        expect(page.locator(f"#state-{motor}")).to_contain_text("moves")
-
+    last = page.locator("#log .log-item").first
+    expect(last).to_contain_text("motor 3 holds another program, and ] to all motors")
+    forget(page)
+    page.locator("#send-all").click()
+    expect(last).to_contain_text("started together")
+    expect(page.locator("#state-2")).to_contain_text("moves")
     page.keyboard.press("Escape")
-
     expect(page.locator("#alarm")).to_have_attribute("data-kind", "done")
     expect(page.locator("#state-2")).to_have_text("stopped by K")
     assert page.locator("#position-1").inner_text() == page.locator("#position-2").inner_text()
@@ -273,18 +274,28 @@ def test_a_cable_pulled_in_motion_is_told_in_the_largest_letters_and_nothing_hap
     expect(page.locator("#state-1")).to_have_text("stopped by K")
 
 
+def test_a_page_that_is_left_while_a_button_is_held_asks_and_stops_the_motor(
+    open_page, page, bridge
+):
+    page.locator("#connect").click()
+    expect(page.locator("#port")).to_be_enabled()
+    leaving = open_page(bridge.script)
+    connect(leaving)
+    hold(leaving, farthest=0)
+    leaving.on("dialog", lambda dialog: dialog.accept())
+    with leaving.expect_event("dialog") as asked:
+        leaving.goto("about:blank")
+    assert asked.value.type == "beforeunload"
+    bridge.wait_until_free()
+    assert frame(0, 0, K.encode()) in bridge.sent
+
+    connect(page)
+    expect(page.locator("#state-1")).to_contain_text("stopped by K")
+    leaving.close()
+
+
 def test_a_cable_pulled_while_a_button_is_held_is_told_and_the_run_has_an_end(page, bridge):
-    page.locator("#commission").evaluate("(panel) => (panel.open = true)")
-    page.locator("#commission-confirm").check()
-    for name, value in (("start", "500"), ("speed", "2000"), ("farthest", "3000")):
-        page.locator(f"#commission-{name}").fill(value)
-    expect(page.locator("#jog-forth")).to_be_enabled()
-    page.locator("#jog-forth").scroll_into_view_if_needed()
-    box = page.locator("#jog-forth").bounding_box()
-    assert box
-    page.mouse.move(box["x"] + 20, box["y"] + 20)
-    page.mouse.down()
-    expect(page.locator("#state-1")).to_contain_text("moves")
+    hold(page, farthest=3000)
     page.evaluate("fakeSerial.pull()")
 
     alarm = page.locator("#alarm")
@@ -346,6 +357,20 @@ def test_a_choice_that_is_not_made_is_no_connection(open_page, bridge):
     assert page.evaluate("fakeSerial.opened") == []
 
 
+def test_connect_may_be_pressed_twice(open_page, bridge):
+    page = open_page(bridge.script)
+    page.locator("#connect").click()
+    expect(page.locator("#port")).to_be_enabled()
+    page.evaluate("fakeSerial.choice_ms = 300")
+    page.locator("#port").select_option(CHOOSE)
+    page.locator("#node").select_option(str(NODE))
+    page.locator("#connect").dblclick()
+
+    expect(page.locator("#state")).to_contain_text(f"{PORT}, node {NODE}")
+    expect(page.locator("#state")).to_have_attribute("data-kind", "good")
+    assert page.evaluate("fakeSerial.opened.length") == 1
+
+
 def test_a_silent_unit_is_told_and_its_stop_is_not_confirmed(page, bridge):
     send(page, LONG)
     bridge.silent = True
@@ -363,6 +388,21 @@ def test_a_silent_unit_is_told_and_its_stop_is_not_confirmed(page, bridge):
     expect(page.locator("#state-1")).to_have_text("stopped by K")
     page.keyboard.press("Escape")
     expect(page.locator("#alarm")).to_have_attribute("data-kind", "done")
+
+
+def test_what_waits_for_a_scan_of_a_silent_line_is_not_done_when_the_unit_is_back(page, bridge):
+    write(page, LONG)
+    bridge.silent = True
+    expect(page.locator("#banner")).to_contain_text(f"unit {NODE} does not answer")
+    page.locator("#log-clear").click()
+    page.locator("#scan").click()
+    page.locator("#send").click()
+    bridge.silent = False
+
+    sent = page.locator("#log .log-item[data-message=send]")
+    expect(sent).to_contain_text(UNSENT)
+    expect(page.locator("#state")).to_have_attribute("data-kind", "good")
+    expect(page.locator("#position-1")).to_have_text("0")
 
 
 def test_a_stop_does_not_wait_for_what_is_under_way(page, bridge):

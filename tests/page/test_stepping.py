@@ -131,10 +131,10 @@ def test_the_line_of_the_cursor_is_shown_in_the_curve(page):
         return data[3];
     }"""
     page.page.locator(".cm-line").nth(1).click()
-    page.page.wait_for_function(f"({count})(0.43) > 0")
+    page.page.wait_for_function(count, arg=0.43)
     assert page.page.evaluate(count, 0.1) == 0
     page.page.locator(".cm-line").nth(0).click()
-    page.page.wait_for_function(f"({count})(0.1) > 0")
+    page.page.wait_for_function(count, arg=0.1)
     assert page.page.evaluate(count, 0.43) == 0
 
 

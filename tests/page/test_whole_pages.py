@@ -22,14 +22,20 @@ from service_page import Service, shown
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ROOT / "tools/service_page/src"
 ESBUILD = ROOT / "build/service_page/node_modules/esbuild/lib/main.js"
-FOLDERS = {"service": "", "alone": "", "gve134": "gve134", "positioning": "positioning"}
+FOLDERS = {
+    "service": "", "alone": "", "gve134": "gve134", "positioning": "positioning",
+    "gve134 alone": "gve134", "positioning alone": "positioning",
+}  # fmt: skip
+PAGES = {"alone": "index.html"} | {
+    f"{name} alone": f"{name}.html" for name in ("gve134", "positioning")
+}
 SAME = {
     "Motor", "Port", "Program", "Start", "Stop", "STOP", "HALT", "Esc", "Version",
     "Reset", "Reset \\",
     "Set Command", "Store Flash", "Get Position", "Get Command", "Get Tabul Run", "Get Pozic Run",
     "Motor {motor}", "motor {motor}", "motor {motor}: {value}", "Ref X", "Ref Y", "Ref Z", "Ref A",
     "n", "mm/min", "{speed} mm/min", "{speed} {unit}/s", "max. {speed}", "mm, °",
-    "{position} {unit}",
+    "{position} {unit}", "RKM04", "GVE134",
 }  # fmt: skip
 """What is the same in Czech: names of the original's messages, signs, and words that both have."""
 PHONE = (360, 740)
@@ -71,7 +77,8 @@ TEXTS = """() => {
     const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
     while (walker.nextNode()) {
         const { parentElement, textContent } = walker.currentNode;
-        if (textContent.trim() && isOurs(parentElement) && parentElement.checkVisibility()) {
+        const shown = parentElement.closest("select") ?? parentElement;
+        if (textContent.trim() && isOurs(parentElement) && shown.checkVisibility()) {
             told.add(textContent.trim());
         }
     }
@@ -98,12 +105,12 @@ def _service(browser: Browser) -> Iterator[Page]:
 
 
 @contextlib.contextmanager
-def _alone(browser: Browser, folder: Path) -> Iterator[Page]:
+def _alone(browser: Browser, folder: Path, name: str) -> Iterator[Page]:
     context = browser.new_context(viewport={"width": 1400, "height": 900})
     try:
         page = context.new_page()
-        page.goto(write_alone(folder / "alone").as_uri())
-        expect(page.locator("#position-1")).to_have_text("0")
+        page.goto(write_alone(folder / "alone").with_name(PAGES[name]).as_uri())
+        expect(page.locator("#state")).to_have_attribute("data-kind", "good")
         yield page
     finally:
         context.close()
@@ -126,11 +133,11 @@ def whole(
 ) -> Iterator[tuple[str, Page]]:
     """A page with all its parts opened."""
     name: str = request.param
-    ways = {
-        "service": lambda: _service(browser),
-        "alone": lambda: _alone(browser, tmp_path_factory.mktemp("alone")),
-    }
-    with ways.get(name, lambda: _unit(browser, name))() as page:
+    if name in PAGES:
+        way = _alone(browser, tmp_path_factory.mktemp("alone"), name)
+    else:
+        way = _service(browser) if name == "service" else _unit(browser, name)
+    with way as page:
         page.evaluate(OPEN)
         yield name, page
 

@@ -1,7 +1,7 @@
 // A stand-in for navigator.serial: one USB adapter, whose bytes go to a bridge (serial_bridge.py) over a WebSocket.
 // Tests change it by window.fakeSerial: `busy` lets open() fail, pull() pulls the cable, `lastWords` does so as soon as
 // these characters were sent, damage() is a character with a framing error, `opened` are the options that it was opened
-// with.
+// with, `choice_ms` is how long the user takes to choose it.
 (() => {
     const place = "PLACE";
 
@@ -11,6 +11,7 @@
         busy = false;
         opened = [];
         lastWords = null;
+        choice_ms = 0;
         #reader = null;
         #socket = null;
 
@@ -26,11 +27,10 @@
             if (this.#socket !== null) {
                 throw new DOMException("The port is already open.", "InvalidStateError");
             }
-            const socket = new WebSocket(place);
+            const socket = (this.#socket = new WebSocket(place));
             socket.binaryType = "arraybuffer";
             await new Promise((take, fail) => Object.assign(socket, { onopen: take, onerror: fail }));
             socket.onmessage = ({ data }) => this.#reader?.enqueue(new Uint8Array(data));
-            this.#socket = socket;
             this.#begin();
             this.writable = new WritableStream({ write: (data) => this.#send(socket, data) });
         }
@@ -85,6 +85,7 @@
             if (port.refused) {
                 throw new DOMException("No port selected by the user.", "NotFoundError");
             }
+            await new Promise((take) => setTimeout(take, port.choice_ms));
             isAllowed = true;
             return port;
         },

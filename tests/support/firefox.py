@@ -23,6 +23,7 @@ POLL_SECONDS = 0.05
 LISTENS = re.compile(r"WebDriver BiDi listening on (ws://\S+)")
 KEYS = {"Escape": "\ue00c", "Control": "\ue009"}
 MIDDLE = "{ block: 'center' }"
+LEFT = "was interrupted while the page was loading"  # of a socket, when its page is left
 
 
 @contextlib.contextmanager
@@ -70,11 +71,15 @@ class Firefox:
         self._socket.send(json.dumps({"id": number, "method": method, "params": parameters}))
         while True:
             told = json.loads(self._socket.recv(PATIENCE_SECONDS))
-            if told.get("method") == "log.entryAdded" and told["params"]["type"] == "javascript":
-                self.faults.append(told["params"]["text"])
+            if told.get("method") == "log.entryAdded":
+                self._note(told["params"])
             if told.get("id") == number:
                 assert told["type"] == "success", told
                 return told["result"]
+
+    def _note(self, entry: Any) -> None:
+        if entry["type"] == "javascript" and LEFT not in entry["text"]:
+            self.faults.append(entry["text"])
 
     def open(self, url: str, script: str = "") -> None:
         """Show a page, in which a script runs before its own; wait until it has been loaded."""

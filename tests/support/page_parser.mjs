@@ -1,4 +1,4 @@
-// What the page's own code (tools/service_page/src/unit_messages.ts) makes of answers.
+// What functions of the page (a file of tools/service_page/src) return.
 //
 //   node page_parser.mjs ESBUILD SOURCE < QUESTIONS       QUESTIONS: {"names", "asked": [[function, arguments ...], ...]}
 //

@@ -45,6 +45,14 @@ class SerialBridge:
         """Wait until the page has let go, and all that it has said was passed on."""
         assert self._is_free.wait(PATIENCE_SECONDS)
 
+    def to_unit(self, data: bytes) -> bytes:
+        """What a bad line makes of it."""
+        return data
+
+    def to_page(self, data: bytes) -> bytes:
+        """The same, the other way."""
+        return data
+
     def _carry(self, page: ServerConnection) -> None:
         self._is_free.clear()
         with contextlib.ExitStack() as stack:
@@ -61,7 +69,7 @@ class SerialBridge:
                 for data in page:
                     assert isinstance(data, bytes)
                     self.sent += data
-                    os.write(line, data)
+                    os.write(line, self.to_unit(data))
             ended.set()
             hearing.join()
 
@@ -74,4 +82,4 @@ class SerialBridge:
                 break
             if not self.silent:
                 with contextlib.suppress(ConnectionClosed):
-                    page.send(data)
+                    page.send(self.to_page(data))

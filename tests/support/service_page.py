@@ -158,6 +158,15 @@ class ServicePage:
         for motor in (1, 2, 3, 4):
             expect(self.position(motor)).to_have_text("0")
 
+    def forget(self, motor: int) -> None:
+        """Empty the memory of a motor, or of all four (0)."""
+        self.page.locator("#motors label").nth(motor).click()
+        reset = self.page.locator("#reset")
+        reset.click()
+        self.page.wait_for_timeout(600)
+        reset.click()
+        expect(self.answers.first).to_have_attribute("data-message", "reset")
+
     def expect_pulses(self, pulses: int) -> None:
         """Wait for a curve with so many pulses."""
         expect(self.plan).to_have_attribute("data-pulses", str(pulses))

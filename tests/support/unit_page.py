@@ -67,6 +67,10 @@ class UnitPage:
         """The part of an id."""
         return self.page.locator(f"#{name}")
 
+    def confirm_danger(self) -> None:
+        """Say that the danger was read, before which nothing is moved by hand."""
+        self.at("danger-confirm").check()
+
     @property
     def answers(self) -> Locator:
         """The log, the youngest answer first."""

@@ -1,12 +1,13 @@
 // Bundles the page into the directory $RKM04_SERVICE_OUT: index.html, page.js, page.css, engine.js (the
 // worker of a page without a service) of RKM04, gve134.html and positioning.html with a script
-// and a style each, and icon.svg, nothing else.
+// and a style each, gve134_unit.js and positioning_unit.js (likewise workers), and icon.svg, nothing else.
 import Ajv from "ajv/dist/2020.js";
 import standaloneCode from "ajv/dist/standalone/index.js";
 import { build } from "esbuild";
 import { copyFile, mkdir, readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { helpPages } from "./help_pages.mjs";
+import { registerTable } from "./register_table.mjs";
 
 const out = process.env.RKM04_SERVICE_OUT ?? "../../build/service";
 
@@ -45,8 +46,13 @@ await build({
     logLevel: "warning",
 });
 await build({
-    entryPoints: [{ in: "src/engine_worker.ts", out: "engine" }],
+    entryPoints: [
+        { in: "src/engine_worker.ts", out: "engine" },
+        { in: "src/gve134/alone/worker.ts", out: "gve134_unit" },
+        { in: "src/positioning/alone/worker.ts", out: "positioning_unit" },
+    ],
     outdir: out,
+    plugins: [registerTable, rules],
     bundle: true,
     minify: true,
     format: "iife",

@@ -12,7 +12,8 @@ export class AllPrograms {
                 onEmpty();
                 return;
             }
-            commands.request("send_all", ALL_MOTORS, { texts: programs, together: together.checked });
+            const each = Object.entries(programs).map(([motor, text]): [number, string] => [Number(motor), text]);
+            commands.sendPrograms(each, "send_all", ALL_MOTORS, { texts: programs, together: together.checked });
         });
         byId("store-all", HTMLButtonElement).addEventListener("click", () => commands.request("store", ALL_MOTORS));
     }

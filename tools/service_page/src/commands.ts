@@ -15,11 +15,15 @@ export interface ShownProgram {
     text: string;
 }
 
+/** Has texts sent to motors by `send`, or says why it does not. */
+export type Guard = (programs: [motor: number, text: string][], send: () => void) => void;
+
 /** What goes to the unit when the user says so: messages, resume, reset and speed. STOP is in stop.ts. */
 export class Commands {
     readonly motor = new Cell<number>(MOTORS[0]);
     readonly #link: Link;
     readonly #program: () => ShownProgram;
+    readonly #guard: Guard;
     readonly #message = byId("message", HTMLSelectElement);
     readonly #units = byId("units", HTMLSelectElement);
     readonly #send = byId("send", HTMLButtonElement);
@@ -30,9 +34,11 @@ export class Commands {
     /** Number of the request whose progress is shown. */
     #asked: number | null = null;
 
-    constructor(link: Link, program: () => ShownProgram) {
+    /** `guard` sees programs and speeds before they are sent. */
+    constructor(link: Link, program: () => ShownProgram, guard: Guard) {
         this.#link = link;
         this.#program = program;
+        this.#guard = guard;
         this.#addMotors();
         this.#listen();
         link.on("progress", ({ id, from, value }) => this.#showProgress(id, from, value));
@@ -75,6 +81,11 @@ export class Commands {
         this.#link.send({ type: "request", id, message, motor, ...parts });
     }
 
+    /** Asks the unit to take programs, by motor, if the machine allows them. */
+    sendPrograms(programs: [motor: number, text: string][], message: MessageName, motor: number, parts: RequestParts): void {
+        this.#guard(programs, () => this.request(message, motor, parts));
+    }
+
     /** Whether the next message goes to all units of the line. */
     get #isEverywhere(): boolean {
         return this.#units.value !== "";
@@ -94,8 +105,9 @@ export class Commands {
         byId("speed-form", HTMLFormElement).addEventListener("submit", (event) => {
             event.preventDefault();
             const value = byId("speed", HTMLInputElement).valueAsNumber;
-            const id = this.#link.nextId();
-            this.#link.send({ type: "speed", id, motor: this.motor.value, value });
+            const motor = this.motor.value;
+            const send = (): void => void this.#link.send({ type: "speed", id: this.#link.nextId(), motor, value });
+            this.#guard(motorsOf(motor).map((each) => [each, `V${value}`]), send);
         });
         byId("message-form", HTMLFormElement).addEventListener("submit", (event) => {
             event.preventDefault();
@@ -107,9 +119,14 @@ export class Commands {
 
     #submit(): void {
         const message = this.#message.value as MessageName;
-        const text = message === "send" ? { text: this.#program().text } : {};
         const everywhere = this.#isEverywhere ? { everywhere: true } : {};
-        this.request(message, this.motor.value, { ...text, ...everywhere });
+        const motor = this.motor.value;
+        if (message === "send") {
+            const { text } = this.#program();
+            this.sendPrograms(motorsOf(motor).map((each) => [each, text]), message, motor, { text, ...everywhere });
+        } else {
+            this.request(message, motor, everywhere);
+        }
         this.#forgetUnits();
     }
 
@@ -175,3 +192,5 @@ export class Commands {
         this.describe();
     }
 }
+
+const motorsOf = (motor: number): number[] => (motor === ALL_MOTORS ? [...MOTORS] : [motor]);

@@ -1,14 +1,17 @@
 import { Refused, checkProgram } from "./api";
 import { goTo, homingOf, moveOf, runOf, settingsOf, type Settings } from "./commission_programs";
-import { byId, debounced } from "./dom";
+import { Danger } from "./danger";
+import { byId, debounced, make } from "./dom";
 import { HoldButton } from "./hold_button";
 import { language, numberText, t } from "./i18n";
 import { Jog } from "./jog";
+import { onLimits, speedLimit } from "./limits";
 import type { Link } from "./link";
 import type { Presence } from "./presence";
 import { MOTORS, type Live, type MotorLive, type UnitState } from "./protocol";
 import { translateProblem } from "./problem_words";
 import { NotPossible, computeRamp, type Ramp } from "./ramp";
+import { besideWords, onScale, positionNumber } from "./scale";
 import type { Cell } from "./signal";
 import { keep, recall } from "./storage";
 
@@ -16,6 +19,11 @@ const TYPING_MS = 150;
 const FIELDS = ["start", "speed", "ramp", "trial", "farthest", "step", "input", "search", "away"] as const;
 
 type Field = (typeof FIELDS)[number];
+
+/** Fields of steps, and what they are steps of. */
+const SCALED: readonly (readonly [Field, "" | "/s" | "/s²"])[] = [
+    ["start", "/s"], ["speed", "/s"], ["ramp", "/s²"], ["trial", ""], ["farthest", ""], ["step", ""], ["search", "/s"], ["away", ""],
+];
 
 /** What this panel needs of the others. */
 export interface Around {
@@ -36,7 +44,7 @@ export class Commission {
     readonly #around: Around;
     readonly #jog: Jog;
     readonly #buttons: HoldButton[];
-    readonly #confirm = byId("commission-confirm", HTMLInputElement);
+    readonly #danger = new Danger("commission-confirm");
     readonly #why = byId("commission-why", HTMLElement);
     readonly #motor = byId("commission-motor", HTMLSelectElement);
     readonly #weighSoon = debounced(TYPING_MS, () => void this.#weigh());
@@ -51,14 +59,17 @@ export class Commission {
         this.#jog = new Jog(link, presence.isFresh, around.stop);
         this.#buttons = this.#holdButtons();
         this.#recallFields();
+        this.#addUnits();
         this.#listen();
         around.motor.watch((motor) => this.#motorChanged(motor));
         link.on("live", (live) => this.#see(live));
         link.on("state", (state) => this.#setState(state));
-        for (const cell of [presence.isFresh, this.#jog.phase, this.#jog.left]) {
+        for (const cell of [presence.isFresh, this.#jog.phase, this.#jog.left, this.#danger.isConfirmed]) {
             cell.onChange(() => this.#show());
         }
         language.watch(() => this.#translate());
+        onScale(() => this.#show());
+        onLimits(() => this.#show());
         this.#weighSoon();
     }
 
@@ -104,7 +115,6 @@ export class Commission {
             this.#insertHoming();
         });
         byId("ramp-form", HTMLFormElement).addEventListener("submit", (event) => event.preventDefault());
-        this.#confirm.addEventListener("change", () => this.#show());
         this.#motor.addEventListener("change", () => this.#around.motor.set(Number(this.#motor.value)));
         for (const name of FIELDS) {
             this.#field(name).addEventListener("input", () => {
@@ -112,6 +122,19 @@ export class Commission {
                 this.#weighSoon();
                 this.#show();
             });
+        }
+    }
+
+    /** Beside each field, what it is in mm or degrees. */
+    #addUnits(): void {
+        for (const [name] of SCALED) {
+            this.#field(name).after(make("small", { id: `commission-${name}-scaled`, class: "hint" }));
+        }
+    }
+
+    #showUnits(): void {
+        for (const [name, per] of SCALED) {
+            this.#say(`commission-${name}-scaled`, besideWords(this.#around.motor.value, this.#field(name).valueAsNumber, per));
         }
     }
 
@@ -135,10 +158,7 @@ export class Commission {
 
     /** Another unit is another machine. */
     #setState(state: UnitState): void {
-        const before = this.#state;
-        const isSame = state.connected && before?.port === state.port && before.node === state.node;
-        if (!isSame) {
-            this.#confirm.checked = false;
+        if (this.#danger.setPlace(state)) {
             this.#live = null;
             this.#jog.left.set(null);
         }
@@ -184,13 +204,17 @@ export class Commission {
         if (motor.moving || (motor.running === true && motor.stopped !== true)) {
             return t("commission.runs");
         }
+        const limit = speedLimit(this.#around.motor.value);
+        if (Math.max(this.#number("start"), this.#number("speed")) > limit) {
+            return t("limits.hand", { limit: numberText(limit) });
+        }
         return this.#ramp instanceof NotPossible ? this.#ramp.message : null;
     }
 
     #show(): void {
         const isIdle = this.#jog.phase.value === "rest";
         const why = isIdle ? this.#obstacle() : null;
-        const isReady = this.#confirm.checked && why === null;
+        const isReady = this.#danger.isConfirmed.value && why === null;
         for (const id of ["jog-back", "jog-forth"]) {
             byId(id, HTMLButtonElement).disabled = !isReady;
         }
@@ -201,16 +225,17 @@ export class Commission {
         const motor = this.#known;
         const canTeach = motor !== null && motor.moving === false;
         byId("commission-teach", HTMLButtonElement).disabled = !canTeach;
-        const place = motor === null ? t("commission.unknown") : numberText(motor.position);
+        const place = motor === null ? t("commission.unknown") : positionNumber(this.#around.motor.value, motor.position);
         byId("commission-position", HTMLElement).textContent = place;
         const left = this.#jog.left.value;
         const rest = isIdle && left !== null ? t("commission.left", { motor: left }) : "";
-        const words = this.#confirm.checked ? [why ?? "", rest].filter((part) => part !== "").join(" ") : "";
+        const words = this.#danger.isConfirmed.value ? [why ?? "", rest].filter((part) => part !== "").join(" ") : "";
         if (this.#why.textContent !== words) {
             this.#why.textContent = words;
         }
         this.#why.hidden = words === "";
         this.#showReach();
+        this.#showUnits();
     }
 
     /** What happens where nothing can stop the motor. */

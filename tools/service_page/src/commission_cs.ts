@@ -1,14 +1,11 @@
 import type { commissionEn } from "./commission_en";
+import { dangerCs } from "./danger_words";
 
 /** The words of commissioning in Czech. */
 export const commissionCs: Record<keyof typeof commissionEn, string> = {
     "commission.title": "Uvedení do provozu",
     "commission.about": "ruční pojezd, rampy, polohy, spínače",
-    "commission.danger": "Nebezpečí: odtud se motory pohybují.",
-    "commission.dangerWords":
-        "V dosahu stroje nesmí nikdo být. Mějte po ruce nouzové tlačítko, které vypíná napájení: STOP na této stránce "
-        + "potřebuje počítač, kabel i jednotku.",
-    "commission.confirm": "Na stroj vidím, nikdo není v jeho dosahu a na jeho nouzové tlačítko dosáhnu",
+    ...dangerCs("STOP"),
     "commission.motor": "Motor",
     "commission.acts": "Ruční pojezd motoru",
     "commission.hold": "Jede, dokud je stisknuto: myší, prstem, mezerníkem nebo šipkami",
@@ -26,7 +23,8 @@ export const commissionCs: Record<keyof typeof commissionEn, string> = {
     "commission.letGo":
         "Puštění zastaví motor po rampě; stejně tak opuštění tlačítka nebo tohoto okna a jednotka, která se odmlčí. Když "
         + "služba o této stránce 0,7 s neslyší, zastaví všechny motory. Bez služby, kdy má sériový port sama tato stránka, "
-        + "to po zavření stránky nemůže nikdo; a nikdo to nemůže po vytažení kabelu.",
+        + "zastaví všechny motory i zavření stránky, ale nikdo nevidí, zda zastavily; a nikdo je nezastaví, když stránku "
+        + "ukončí prohlížeč nebo počítač, nebo po vytažení kabelu.",
     "commission.reach": "Pak motor dojede tento pojezd do konce, nejvýše {steps} kroků.",
     "commission.noReach": "Pak motor jede dál BEZ KONCE: použijte nouzové tlačítko. (Nejvýše 0 znamená: bez omezení.)",
     "commission.forgets":

@@ -1,12 +1,10 @@
+import { dangerEn } from "./danger_words";
+
 /** The words of commissioning in English. */
 export const commissionEn = {
     "commission.title": "Commissioning",
     "commission.about": "run a motor by hand, ramps, positions, switches",
-    "commission.danger": "Danger: motors move from here.",
-    "commission.dangerWords":
-        "Nobody may be within reach of the machine. Have the emergency stop, the one that cuts the power, at hand: STOP on "
-        + "this page needs the computer, the cable and the unit.",
-    "commission.confirm": "I see the machine, nobody is within its reach, and I can reach its emergency stop",
+    ...dangerEn("STOP"),
     "commission.motor": "Motor",
     "commission.acts": "Run the motor by hand",
     "commission.hold": "Runs as long as it is held: by mouse, finger, Space, or the arrow keys",
@@ -24,8 +22,8 @@ export const commissionEn = {
     "commission.letGo":
         "Letting go stops the motor down its ramp; so does leaving the button or this window, and a unit that falls "
         + "silent. If the service hears nothing of this page for 0.7 s, it stops all motors. Without a service, where "
-        + "this page has the serial port itself, nobody can do that once the page is closed; and nobody can when the "
-        + "cable is pulled.",
+        + "this page has the serial port itself, closing the page stops all motors, too, but nobody sees whether they do; "
+        + "nobody can stop them when the browser or the computer ends the page, or the cable is pulled.",
     "commission.reach": "Then the motor runs on to the end of this run, at most {steps} steps.",
     "commission.noReach": "Then the motor runs on WITHOUT END: use the emergency stop. (At most 0 means: no limit.)",
     "commission.forgets":

@@ -42,13 +42,14 @@ export class Connection {
         });
         link.on("ports", ({ ports }) => this.#setPorts(ports));
         link.on("state", (state) => this.#setState(state));
-        link.isOpen.onChange((isOpen) => this.#linkChanged(isOpen));
+        link.isOpen.onChange(() => this.#linkChanged());
         presence.isFresh.onChange(() => this.#showState());
         presence.seconds.onChange(() => this.#showState());
         language.watch(() => {
             this.#showPorts();
             this.#showSwitches();
             this.#showState();
+            this.#askForPorts(); // their labels have words, too
         });
     }
 
@@ -57,10 +58,14 @@ export class Connection {
         return this.#state?.connected === true || this.#state?.away === true;
     }
 
-    #linkChanged(isOpen: boolean): void {
-        if (isOpen) {
+    #askForPorts(): void {
+        if (this.#link.isOpen.value) {
             this.#link.send({ type: "ports" });
         }
+    }
+
+    #linkChanged(): void {
+        this.#askForPorts();
         this.#showState();
     }
 

@@ -1,6 +1,9 @@
 import { commissionCs } from "./commission_cs";
 import { firmwareCs } from "./firmware_cs";
+import { pagesCs } from "./common/pages";
 import { helpCs } from "./help_cs";
+import { machineCs } from "./common/machine_words";
+import { serialCs } from "./common/serial_words";
 import type { Dictionary } from "./i18n";
 
 /** The words of the page in Czech; names of messages and fields are those of the original service program. */
@@ -8,6 +11,9 @@ export const cs: Dictionary = {
     ...commissionCs,
     ...helpCs,
     ...firmwareCs,
+    ...pagesCs,
+    ...serialCs,
+    ...machineCs,
     "page.title": "Servis RKM04",
     "page.language": "Jazyk",
 
@@ -32,20 +38,10 @@ export const cs: Dictionary = {
     "port.virtual": "vestavěná virtuální jednotka",
     "port.virtualShort": "virtuální jednotka",
     "port.other": "jiný …",
-    "port.choose": "sériový port: prohlížeč se zeptá který …",
     "serial.none":
         "Tento prohlížeč nedosáhne na sériové porty, proto je zde jen virtuální jednotka. Pro skutečnou jednotku otevřete "
         + "stránku v Chrome, Edge, Opeře nebo Firefoxu 153 na počítači, ze souboru nebo přes "
         + "https; nebo použijte tools/rkm04 service.",
-    "serial.notChosen": "nebyl vybrán žádný port ({cause})",
-    "serial.notChosenNext": "stiskněte Připojit a vyberte jej",
-    "serial.notOpened": "{port} nelze otevřít ({cause})",
-    "serial.notOpenedNext":
-        "možná jej má otevřený jiný program nebo jiná stránka: ukončete je a připojte se znovu; jinak zkontrolujte kabel "
-        + "a v Linuxu právo k portu (skupina dialout)",
-    "serial.unplugged": "odpojen",
-    "serial.lost": "spojení přes {port} se přerušilo ({cause}); co jednotka teď dělá, není známo",
-    "serial.lostNext": "zkontrolujte kabel a připojte se znovu; co bylo zadáno mezitím, se nestane ani později",
 
     "state.connected": "{port}, DNode {node}",
     "state.disconnected": "nepřipojeno",
@@ -72,8 +68,7 @@ export const cs: Dictionary = {
     "alone.notSent": "Neodesláno: virtuální jednotka neodpovídá",
     "alone.hint":
         "Jednotka je v této stránce: nehýbe žádným strojem a po novém načtení stránky začíná znovu, bez uložených "
-        + "programů. Když stránka nebo počítač spí, její čas stojí. Jednotky GVE134 a polohovací mají své stránky: "
-        + "gve134 service, positioning service.",
+        + "programů. Když stránka nebo počítač spí, její čas stojí.",
     "alone.noWebAssembly":
         "Tento prohlížeč nemá WebAssembly, které zde kontroluje a simuluje. Použijte jiný, nebo tools/rkm04 service.",
     "alone.failed": "Simulátor v této stránce selhal; načtěte stránku znovu.",
@@ -124,7 +119,7 @@ export const cs: Dictionary = {
     "all.send": "Poslat všechny programy",
     "all.sendLabel": "Každý motor dostane svůj program. Nejprve se všechny zkontrolují: má-li jeden chybu, nepošle se nic",
     "all.together": "spustit společně",
-    "all.togetherLabel": "Programy na sebe počkají a začnou ve stejném okamžiku; jinak běží každý hned",
+    "all.togetherLabel": "Programy na sebe počkají a začnou ve stejném okamžiku, pokud mají ostatní motory prázdnou paměť; jinak běží každý hned",
     "all.store": "Uložit všechny",
     "all.storeLabel": "Store Flash všech čtyř motorů: každý si uchová program z paměti, i když je prázdná",
     "all.empty": "Žádný motor zde nemá program: nic se neposlalo",
@@ -153,6 +148,22 @@ export const cs: Dictionary = {
     "machine.printLabel": "Vytisknout stroj nebo z něj udělat PDF: poznámky, zapojení, meze, programy, vstupy, křivky",
     "print.inputs": "Vstupy v simulaci: ms, vstup, úroveň",
     "print.noCurve": "Křivka není: některý program má chyby, nebo tu žádný není.",
+    "compare.name": "Porovnat",
+    "compare.label": "Porovná tyto programy s těmi v paměti jednotky, která se jen čte (Get Command)",
+    "compare.asked": "ptá se …",
+    "compare.same": "zde a v jednotce stejný",
+    "compare.none": "zde ani v jednotce není žádný program",
+    "compare.refused": "neporovnáno: jednotka svůj program neřekla, nebo má zdejší chyby",
+    "compare.other": "NENÍ STEJNÝ: {place}: zde {here}, v jednotce {there}",
+    "compare.command": "příkaz {ordinal}",
+    "compare.line": "příkaz {ordinal}, řádek {line}",
+    "compare.nothing": "nic",
+    "limits.speed": "motor {motor}, řádek {line}: {command} je nad mezí stroje, {limit} kroků/s",
+    "limits.next": "nic nebylo odesláno; snižte ji, nebo otevřete stroj bez této meze",
+    "limits.unknown": "Neodesláno: nebylo možné zkontrolovat, zda je v mezích stroje",
+    "limits.hand": "Nelze: S nebo V je nad mezí stroje, {limit} kroků/s.",
+    "limits.lowest": "jede až na {position}, pod svou mez",
+    "limits.highest": "jede až na {position}, nad svou mez",
     "machine.details": "Název, poznámky, zapojení",
     "machine.name": "Název",
     "machine.notes": "Poznámky",
@@ -161,37 +172,7 @@ export const cs: Dictionary = {
     "machine.lowest": "nejnižší poloha {steps}",
     "machine.highest": "nejvyšší poloha {steps}",
     "machine.fastest": "nejvýše {steps} kroků/s",
-    "machine.motor": "motor {motor}",
-    "machine.notOpened": "neotevřeno, co je zde, zůstává",
     "machine.notSaved": "Neuloženo",
-    "machine.tooLarge": "{name}: větší než {bytes} bajtů, takže to není soubor stroje; neotevřeno",
-    "machine.notUtf8": "není to UTF-8, takže to není soubor stroje",
-    "machine.notJson": "není to JSON, možná je soubor useknutý",
-    "machine.twice": "jeden název je tam dvakrát a jedna z hodnot by se ztratila",
-    "machine.half": "v textu je půl znaku",
-    "machine.notMachine": "není to soubor stroje (.rkm)",
-    "machine.later": "soubor zapsaly novější nástroje; použijte novější stránku",
-    "machine.wrong": "",
-    "machine.limitsCrossed": "position_min_steps je nad position_max_steps",
-    "machine.noText": "program není text",
-    "machine.inputs": "čekají se řádky milisekundy,vstup,úroveň, například 500,3,1",
-    "machine.rule.string": "musí být text",
-    "machine.rule.number": "musí být číslo",
-    "machine.rule.integer": "musí být celé číslo",
-    "machine.rule.object": "musí být objekt",
-    "machine.rule.array": "musí být seznam",
-    "machine.rule.boolean": "musí být true nebo false",
-    "machine.rule.required": "chybí {name}",
-    "machine.rule.additionalProperties": "{name} není známo",
-    "machine.rule.minimum": "{value} je příliš málo; nejméně {limit}",
-    "machine.rule.maximum": "{value} je příliš mnoho; nejvýše {limit}",
-    "machine.rule.exclusiveMinimum": "{value} musí být více než {limit}",
-    "machine.rule.minLength": "nesmí být prázdné",
-    "machine.rule.maxLength": "je příliš dlouhé; nejvýše {limit} znaků",
-    "machine.rule.minItems": "musí být seznam o délce {limit}, jeden pro každý motor",
-    "machine.rule.maxItems": "musí být seznam o délce {limit}, jeden pro každý motor",
-    "machine.rule.not": "má steps_per_mm i steps_per_degree; ponechte jedno",
-    "machine.rule.other": "není, jak má být",
 
     "editor.title": "Program",
     "editor.label": "Program motoru",

@@ -1,12 +1,18 @@
 import { commissionEn } from "./commission_en";
 import { firmwareEn } from "./firmware_en";
+import { pagesEn } from "./common/pages";
 import { helpEn } from "./help_en";
+import { machineEn } from "./common/machine_words";
+import { serialEn } from "./common/serial_words";
 
 /** The words of the page in English; the keys of this dictionary are those of every other. */
 export const en = {
     ...commissionEn,
     ...helpEn,
     ...firmwareEn,
+    ...pagesEn,
+    ...serialEn,
+    ...machineEn,
     "page.title": "RKM04 service",
     "page.language": "Language",
 
@@ -31,19 +37,9 @@ export const en = {
     "port.virtual": "built-in virtual unit",
     "port.virtualShort": "virtual unit",
     "port.other": "other …",
-    "port.choose": "serial port: the browser asks which …",
     "serial.none":
         "This browser does not reach serial ports, so there is only the virtual unit. For a real unit open this page in "
         + "Chrome, Edge, Opera or Firefox 153 on a computer, from a file or over https; or take tools/rkm04 service.",
-    "serial.notChosen": "no port was chosen ({cause})",
-    "serial.notChosenNext": "press Connect, and choose one",
-    "serial.notOpened": "{port} cannot be opened ({cause})",
-    "serial.notOpenedNext":
-        "another program, or another page, may have it open: end that and connect again; if not, check the cable, and "
-        + "on Linux whether you may use the port (group dialout)",
-    "serial.unplugged": "unplugged",
-    "serial.lost": "{port} was lost ({cause}); what the unit does now is not known",
-    "serial.lostNext": "check the cable, then connect again; nothing that was asked for meanwhile is done later",
 
     "state.connected": "{port}, node {node}",
     "state.disconnected": "not connected",
@@ -70,8 +66,7 @@ export const en = {
     "alone.notSent": "Not sent: the virtual unit does not answer",
     "alone.hint":
         "The unit is in this page: it moves no machine, and begins anew, without stored programs, when the page is "
-        + "loaded again. While the page or the computer sleeps its time stands. GVE134 and positioning units have pages of "
-        + "their own: gve134 service, positioning service.",
+        + "loaded again. While the page or the computer sleeps its time stands.",
     "alone.noWebAssembly":
         "This browser has no WebAssembly, which checks and simulates here. Take one that has it, or tools/rkm04 service.",
     "alone.failed": "The simulator in this page has failed; load the page again.",
@@ -122,7 +117,7 @@ export const en = {
     "all.send": "Send all programs",
     "all.sendLabel": "Each motor gets its own program. All are checked first: if one has an error, nothing is sent",
     "all.together": "start together",
-    "all.togetherLabel": "The programs wait for each other and start on the same tick; else each runs as it arrives",
+    "all.togetherLabel": "The programs wait for each other and start on the same tick, if the other motors are empty; else each runs as it arrives",
     "all.store": "Store all",
     "all.storeLabel": "Store Flash of all four motors: each keeps the program in its memory, also if it is empty",
     "all.empty": "No motor has a program here: nothing was sent",
@@ -151,6 +146,22 @@ export const en = {
     "machine.printLabel": "Print the machine, or make a PDF of it: notes, wiring, limits, programs, inputs, curves",
     "print.inputs": "Inputs in the simulation: ms, input, level",
     "print.noCurve": "There is no curve: a program has errors, or there is none.",
+    "compare.name": "Compare",
+    "compare.label": "Compare these programs with those in the unit's memory, which is only read (Get Command)",
+    "compare.asked": "asked …",
+    "compare.same": "the same here and in the unit",
+    "compare.none": "no program here, and none in the unit",
+    "compare.refused": "not compared: the unit did not tell its program, or the one here has errors",
+    "compare.other": "NOT THE SAME: {place}: here {here}, in the unit {there}",
+    "compare.command": "command {ordinal}",
+    "compare.line": "command {ordinal}, line {line}",
+    "compare.nothing": "nothing",
+    "limits.speed": "motor {motor}, line {line}: {command} is above the machine's limit, {limit} steps/s",
+    "limits.next": "nothing was sent; lower it, or open a machine without this limit",
+    "limits.unknown": "Not sent: whether it is within the machine's limits could not be checked",
+    "limits.hand": "Not possible: S or V is above the machine's limit, {limit} steps/s.",
+    "limits.lowest": "goes down to {position}, below its limit",
+    "limits.highest": "goes up to {position}, above its limit",
     "machine.details": "Name, notes, wiring",
     "machine.name": "Name",
     "machine.notes": "Notes",
@@ -159,37 +170,7 @@ export const en = {
     "machine.lowest": "lowest position {steps}",
     "machine.highest": "highest position {steps}",
     "machine.fastest": "at most {steps} steps/s",
-    "machine.motor": "motor {motor}",
-    "machine.notOpened": "not opened, what is here stays",
     "machine.notSaved": "Not saved",
-    "machine.tooLarge": "{name}: larger than {bytes} bytes, so it is no machine file; not opened",
-    "machine.notUtf8": "this is not UTF-8, so it is no machine file",
-    "machine.notJson": "this is not JSON, perhaps it was cut off",
-    "machine.twice": "a name stands there twice, and one of the two values would be lost",
-    "machine.half": "a text has half a character",
-    "machine.notMachine": "this is no machine file (.rkm)",
-    "machine.later": "this was written by later tools; take a later page",
-    "machine.wrong": "",
-    "machine.limitsCrossed": "position_min_steps is above position_max_steps",
-    "machine.noText": "the program is not a text",
-    "machine.inputs": "lines of milliseconds,input,level are wanted, such as 500,3,1",
-    "machine.rule.string": "must be a text",
-    "machine.rule.number": "must be a number",
-    "machine.rule.integer": "must be a whole number",
-    "machine.rule.object": "must be an object",
-    "machine.rule.array": "must be a list",
-    "machine.rule.boolean": "must be true or false",
-    "machine.rule.required": "lacks {name}",
-    "machine.rule.additionalProperties": "nothing is known of {name}",
-    "machine.rule.minimum": "{value} is too small; {limit} is the least",
-    "machine.rule.maximum": "{value} is too large; {limit} is the most",
-    "machine.rule.exclusiveMinimum": "{value} must be more than {limit}",
-    "machine.rule.minLength": "must not be empty",
-    "machine.rule.maxLength": "is too long; {limit} characters are the most",
-    "machine.rule.minItems": "must be a list of {limit}, one for each motor",
-    "machine.rule.maxItems": "must be a list of {limit}, one for each motor",
-    "machine.rule.not": "has both steps_per_mm and steps_per_degree; keep one",
-    "machine.rule.other": "is not as it should be",
 
     "editor.title": "Program",
     "editor.label": "Program of the motor",

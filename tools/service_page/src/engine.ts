@@ -64,7 +64,7 @@ export class Engine {
             const { unit, names } = this.#brought;
             const worker = begun(this.#brought);
             worker.postMessage({ kind: "unit", bytes: decoded(unit), names } satisfies Order);
-            this.#unit = { worker, ports: portsOf(worker) };
+            this.#unit = { worker, ports: portsOf(worker, t) };
         }
         return new UnitLine(this.#unit.worker, this.#unit.ports);
     }

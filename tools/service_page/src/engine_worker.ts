@@ -2,6 +2,7 @@ import { ProgramHost, type Bytes } from "./program_host";
 import type { CurveRequest } from "./protocol";
 import { Simulator } from "./simulator";
 import type { StatusNames } from "./unit_messages";
+import { unpacked } from "./unpack";
 import { UnitRunner, type PortNews } from "./unit_runner";
 
 /**
@@ -33,12 +34,6 @@ function obey(order: Question): Told {
     } catch (error) {
         return { id: order.id, trouble: error instanceof Error ? error.message : String(error) };
     }
-}
-
-/** A program as it was before the page was written (gzip). */
-async function unpacked(bytes: Bytes): Promise<Bytes> {
-    const whole = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return new Uint8Array(await new Response(whole).arrayBuffer());
 }
 
 /** What has come while a program was unpacked; each is done in a turn of its own, as if it had come then. */

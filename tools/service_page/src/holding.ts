@@ -101,6 +101,10 @@ export class Holding {
             for (const [each, text] of Object.entries(request.texts ?? {})) {
                 await this.#append([Number(each)], text, request.together === true ? true : null);
             }
+            if (request.together === true) {
+                const others = MOTORS.filter((each) => request.texts?.[each] === undefined);
+                others.forEach((each) => this.#held.delete(each)); // they may hold the ] for all
+            }
         } else if (values?.alone === undefined) {
             await this.#append(motors, request.text ?? "", (values?.messages ?? 1) > 1);
         } else if (values.alone === RESET) {

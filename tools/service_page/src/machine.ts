@@ -4,7 +4,6 @@ import { motorForm } from "./drafts";
 import type { FileForm } from "./file_form";
 import { language, numberText, t } from "./i18n";
 import {
-    MACHINE_BYTES_MAX,
     isMachine,
     judged,
     newMachine,
@@ -14,15 +13,13 @@ import {
     withPrograms,
     type MachineContent,
     type MachineMotor,
-    type NoMachine,
 } from "./machine_file";
-import { sentence } from "./machine_words";
+import { MACHINE_BYTES_MAX, troubleOf } from "./machine_words";
 import { MOTORS } from "./protocol";
 import { Cell } from "./signal";
 import { keep, recall } from "./storage";
 
 const SUFFIX = ".rkm";
-const PROBLEMS_MAX = 5;
 const TYPES = [{ description: "RKM04", accept: { "application/json": [SUFFIX] } }];
 
 /** What the machine has beside its name and notes belongs to other parts of the page. */
@@ -66,7 +63,7 @@ export class Machine {
             } else if (isMachine(found)) {
                 this.#take(found);
             } else {
-                this.#say(`${file.name}: ${troubleOf(found)}; ${t("machine.notOpened")}`);
+                this.#say(`${file.name}: ${troubleOf(found, t)}; ${t("machine.notOpened")}`);
             }
         }
         input.value = "";
@@ -84,7 +81,7 @@ export class Machine {
         const named = { ...this.#now(), name: this.#name.value.trim() || t("machine.unnamed") };
         const found = judged(withPrograms(named, this.#parts.programs(), this.#parts.inputs()));
         if (!isMachine(found)) {
-            this.#say(`${t("machine.notSaved")}: ${troubleOf(found)}`);
+            this.#say(`${t("machine.notSaved")}: ${troubleOf(found, t)}`);
             return;
         }
         const bytes = new TextEncoder().encode(toText(found));
@@ -128,12 +125,6 @@ export class Machine {
         place.textContent = words;
         place.hidden = words === "";
     }
-}
-
-function troubleOf({ key, problems }: NoMachine): string {
-    const told = problems.slice(0, PROBLEMS_MAX).map(sentence);
-    const more = problems.length > PROBLEMS_MAX ? ["…"] : [];
-    return [t(key), ...told, ...more].filter((words) => words !== "").join("; ");
 }
 
 /** What is wired where, how far a step goes, and what is not to be exceeded. */

@@ -3,15 +3,13 @@
  * all, so that nothing of it is lost when it is saved again. Pure.
  */
 import validate from "machine-rules";
+import type { MachineKey } from "./common/machine_words";
 import { decodeProgram, encodeProgram, type FileForm } from "./file_form";
 import { formatInputs, parseInputs } from "./inputs_text";
-import type { Key } from "./i18n";
 import { ruleWords, type Words } from "./machine_words";
 
 const FORMAT = "rkm04-machine";
 const VERSION = 1;
-/** More than four programs, notes and inputs of the greatest length. */
-export const MACHINE_BYTES_MAX = 2_000_000;
 
 export interface MachineMotor {
     name?: string;
@@ -42,11 +40,11 @@ const HALF = /\p{Cs}/u;
 
 /** Why a content is none; `problems` are to be shown in its words. */
 export interface NoMachine {
-    key: Key;
+    key: MachineKey;
     problems: Words[];
 }
 
-const no = (key: Key, problems: Words[] = []): NoMachine => ({ key, problems });
+const no = (key: MachineKey, problems: Words[] = []): NoMachine => ({ key, problems });
 
 export const isMachine = (found: MachineContent | NoMachine): found is MachineContent => "motors" in found;
 

@@ -1,13 +1,18 @@
 import type { RuleError } from "machine-rules";
-import { isKey, numberText, t, type Key } from "./i18n";
+import { isMachineKey, type MachineKey, type MachineWords } from "./common/machine_words";
+import { numberText } from "./language";
+import type { NoMachine } from "./machine_file";
 
 /** Something that is wrong with a machine file, and where. */
 export interface Words {
     place: { motor: number | null; names: string[] };
-    key: Key;
+    key: MachineKey;
     values: Record<string, string | number>;
 }
 
+/** More than four programs, notes and inputs of the greatest length. */
+export const MACHINE_BYTES_MAX = 2_000_000;
+const PROBLEMS_MAX = 5;
 const LIMITS = ["minimum", "maximum", "exclusiveMinimum", "minLength", "maxLength", "minItems", "maxItems"];
 
 /** What a rule of the schema says of a file. */
@@ -18,13 +23,21 @@ export function ruleWords({ instancePath, keyword, params, data }: RuleError): W
     const place = { motor: isMotor ? Number(second) + 1 : null, names };
     const key = `machine.rule.${keyword === "type" ? String(params["type"]) : keyword}`;
     const name = String(params["missingProperty"] ?? params["additionalProperty"] ?? "");
-    const limit = LIMITS.includes(keyword) ? numberText(Number(params["limit"])) : "";
+    const limit = LIMITS.includes(keyword) ? Number(params["limit"]) : "";
     const value = typeof data === "number" ? String(data) : "";
-    return { place, key: isKey(key) ? key : "machine.rule.other", values: { name: name.slice(0, 40), limit, value } };
+    return { place, key: isMachineKey(key) ? key : "machine.rule.other", values: { name: name.slice(0, 40), limit, value } };
 }
 
 /** In the language of the page: the place first. */
-export function sentence({ place: { motor, names }, key, values }: Words): string {
+function sentence({ place: { motor, names }, key, values }: Words, t: MachineWords): string {
     const place = [...(motor === null ? [] : [t("machine.motor", { motor })]), ...names].join(", ");
-    return `${place}${place === "" ? "" : ": "}${t(key, values)}`;
+    const shown = Object.entries(values).map(([name, value]) => [name, typeof value === "number" ? numberText(value) : value]);
+    return `${place}${place === "" ? "" : ": "}${t(key, Object.fromEntries(shown) as Record<string, string>)}`;
+}
+
+/** Why a file is no machine, in the language of the page. */
+export function troubleOf({ key, problems }: NoMachine, t: MachineWords): string {
+    const told = problems.slice(0, PROBLEMS_MAX).map((problem) => sentence(problem, t));
+    const more = problems.length > PROBLEMS_MAX ? ["…"] : [];
+    return [t(key), ...told, ...more].filter((words) => words !== "").join("; ");
 }

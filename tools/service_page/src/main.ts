@@ -1,6 +1,7 @@
 import { AllPrograms } from "./all_programs";
 import { Commission } from "./commission";
 import { Commands } from "./commands";
+import { Compare } from "./compare";
 import { Connection } from "./connection";
 import { byId } from "./dom";
 import { engine } from "./engine";
@@ -8,8 +9,9 @@ import { FirmwarePanel } from "./firmware_panel";
 import { Follow } from "./follow";
 import { HelpPanel } from "./help_panel";
 import { Holding } from "./holding";
-import { setUpLanguage, t } from "./i18n";
+import { numberText, setUpLanguage, t } from "./i18n";
 import { parseInputs } from "./inputs_text";
+import { setLimits, speedLimit, tooFast, type TooFast } from "./limits";
 import { Link } from "./link";
 import { LiveView } from "./live";
 import { Log } from "./log";
@@ -33,17 +35,24 @@ setUpLanguage(byId("language", HTMLSelectElement));
 
 const plan: Plan = new Plan(() => programs.texts());
 const programs: Programs = new Programs({
-    edit: () => plan.programsChanged(),
+    edit: () => {
+        plan.programsChanged();
+        compare.forget();
+    },
     check: () => plan.programsChecked(),
     replace: () => plan.programReplaced(),
     example: (example) => plan.setInputs(example.inputs ?? []),
 });
 plan.follow(programs);
 const log = new Log(link, (motor, text) => programs.replace(motor, text));
-const commands = new Commands(link, () => {
-    const motor = programs.shown.value;
-    return { motor, text: programs.text(motor) };
-});
+const commands = new Commands(
+    link,
+    () => {
+        const motor = programs.shown.value;
+        return { motor, text: programs.text(motor) };
+    },
+    (wanted, send) => void sendAllowed(wanted, send),
+);
 new AllPrograms(
     commands,
     () => programs.texts(),
@@ -78,6 +87,7 @@ machine.content.watch((content) => {
     programs.setNames((content?.motors ?? []).map(({ name }) => name ?? ""));
     live.setNames(content?.input_names, content?.output_names);
     scale.setMachine(content);
+    setLimits(content);
 });
 
 stop.onPress(() => commands.forgetReset());
@@ -87,6 +97,7 @@ const commission = new Commission(link, presence, {
     stop: () => stop.press(),
 });
 stop.onPress(() => commission.stopped());
+const compare = new Compare(link, () => programs.texts());
 new HelpPanel((example) => programs.take(example));
 new FirmwarePanel();
 link.onRefused((message) => {
@@ -123,6 +134,29 @@ link.isOpen.onChange((isOpen) => {
     }
 });
 plan.programsChanged();
+
+/** A program or a speed beyond the machine's limit is not sent; where there is no limit nothing is waited for. */
+async function sendAllowed(wanted: [motor: number, text: string][], send: () => void): Promise<void> {
+    const limited = wanted.filter(([motor]) => speedLimit(motor) < Infinity);
+    let found: TooFast | null;
+    try {
+        found = limited.length === 0 ? null : await tooFast(limited);
+    } catch {
+        log.say("send", { cause: t("limits.unknown"), next: "" });
+        return;
+    }
+    if (found === null) {
+        send();
+        return;
+    }
+    const { line, column } = found;
+    log.say("send", { cause: t("limits.speed", { ...found, limit: numberText(found.limit) }), next: t("limits.next") });
+    if (wanted.some(([motor, text]) => motor === found.motor && text === programs.text(motor))) {
+        programs.shown.set(found.motor);
+        programs.goTo(line, column);
+    }
+}
+
 if (engine !== null) {
     document.body.dataset.alone = engine.hasUnit ? "unit" : "programs";
 }

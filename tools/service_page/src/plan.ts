@@ -8,6 +8,7 @@ import { formatInputs, parseInputs, type InputChange } from "./inputs_text";
 import { OutputRows } from "./outputs";
 import type { Programs } from "./programs";
 import { MOTORS, type Curve, type CurveRequest, type MotorCurve } from "./protocol";
+import { beyondWords, onLimits } from "./limits";
 import { keep, recall } from "./storage";
 import { inUnits, isLeftOut, isScaled, onScale, positionWords, speedWords } from "./scale";
 import { Stepping } from "./stepping";
@@ -65,6 +66,7 @@ export class Plan {
         byId("zoom-reset", HTMLButtonElement).addEventListener("click", () => this.#zoom.reset());
         language.onChange(() => this.#draw());
         onScale(() => this.#draw());
+        onLimits(() => this.#draw());
         new ResizeObserver(() => this.#drawOutputs()).observe(this.#root);
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#drawOutputs());
     }
@@ -229,8 +231,8 @@ export class Plan {
         for (const [motor, words] of this.#legend) {
             const one = (seconds === null ? this.#curve : this.#drawn)?.motors[motor];
             words.replaceChildren(...(one ? this.#lines(motor, one, seconds) : []).map((line) => make("span", {}, line)));
-            words.classList.toggle("is-bad", one?.error != null);
-            words.title = one ? this.#hint(one) : "";
+            words.classList.toggle("is-bad", one !== undefined && (one.error !== null || beyondWords(motor, one) !== null));
+            words.title = one ? this.#hint(motor, one) : "";
         }
     }
 
@@ -255,16 +257,16 @@ export class Plan {
         if (seconds === null) {
             const peak = t("plan.peak", { speed: speedWords(motor, one.peak) });
             const pulses = t("plan.pulses", { pulses: numberText(one.pulses) });
-            return [one.error ?? pulses, isLeftOut(motor) ? t("scale.none") : peak];
+            return [one.error ?? beyondWords(motor, one) ?? pulses, isLeftOut(motor) ? t("scale.none") : peak];
         }
         const speed = valueAt(one, "speed", seconds) ?? 0;
         const position = valueAt(one, "position", seconds);
         return [speedWords(motor, speed), position === null ? "–" : positionWords(motor, position)];
     }
 
-    #hint(one: MotorCurve): string {
+    #hint(motor: number, one: MotorCurve): string {
         const moves = t("plan.moves", { moves: numberText(one.moves) });
-        return [moves, one.error ?? one.state_text ?? ""].filter((part) => part !== "").join("; ");
+        return [moves, one.error ?? one.state_text ?? "", beyondWords(motor, one) ?? ""].filter((part) => part !== "").join("; ");
     }
 
     /** A legend of the motors, which also switches them on and off. */

@@ -31,6 +31,12 @@ export function speedWords(motor: number, steps_per_s: number): string {
         : `${numberText(steps_per_s / scale.steps, DIGITS)} ${scale.unit}/s`;
 }
 
+/** What the field of a value of a motor says beside it in the unit of the machine; empty: the motor has none, or it is no number. */
+export function besideWords(motor: number, value: number, per: "" | "/s" | "/s²"): string {
+    const scale = scales.value.get(motor);
+    return scale === undefined || Number.isNaN(value) ? "" : `= ${numberText(value / scale.steps, DIGITS)} ${scale.unit}${per}`;
+}
+
 /** A position as a number, with its unit if that is not the step. */
 export function positionNumber(motor: number, steps: number): string {
     const scale = scales.value.get(motor);
@@ -104,8 +110,7 @@ export class ScaleSwitch {
             const words = isScaled() ? t(scaled, { units: names.join(", ") }) : t(steps);
             document.querySelectorAll(`h3[data-t="${steps}"]`).forEach((heading) => (heading.textContent = words));
         }
-        const value = this.#speed.valueAsNumber;
-        const isShown = scales.value.has(this.#motor.value) && !Number.isNaN(value);
-        byId("speed-scaled", HTMLElement).textContent = isShown ? `= ${speedWords(this.#motor.value, value)}` : "";
+        const words = besideWords(this.#motor.value, this.#speed.valueAsNumber, "/s");
+        byId("speed-scaled", HTMLElement).textContent = words;
     }
 }

@@ -1,6 +1,6 @@
 import type { Bytes } from "./program_host";
 import { instantiated, ns } from "./unit_module";
-import { LineTrouble, Refusal, type Place, type Wait } from "./unit_place";
+import { BROADCAST, LineTrouble, ONCE, Refusal, type Place, type Wait } from "./unit_place";
 
 /** What the module rkm04-unit exports of a line; see tools/simulator/wasm/wasm_line.h. */
 interface Exports {
@@ -166,6 +166,14 @@ export class SerialLine implements Place {
     #copied(place: number, length: number): Bytes {
         return new Uint8Array(this.#exports.memory.buffer, place, length).slice();
     }
+}
+
+/** The bytes of a request to all units, which have no number and are executed at any time. */
+export function broadcastFrame(bytes: Bytes, baud: number, request: Bytes): Bytes {
+    let frame: Bytes = new Uint8Array();
+    const line = new SerialLine(bytes, "", baud, (data) => (frame = data));
+    void line.ask(BROADCAST, request, ONCE);
+    return frame;
 }
 
 function ended(end: number, where: string): LineTrouble {

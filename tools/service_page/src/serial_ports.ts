@@ -1,4 +1,4 @@
-import { t } from "./i18n";
+import type { SerialWords } from "./common/serial_words";
 import type { Bytes } from "./program_host";
 import type { Port, Trouble } from "./protocol";
 import type { PortNews, PortOrder } from "./unit_runner";
@@ -11,8 +11,15 @@ interface SerialPort extends EventTarget {
     readonly readable: ReadableStream<Bytes> | null;
     readonly writable: WritableStream<Bytes> | null;
     getInfo(): { usbVendorId?: number; usbProductId?: number };
-    open(options: { baudRate: number; bufferSize?: number }): Promise<void>;
+    open(options: SerialForm & { bufferSize?: number }): Promise<void>;
     close(): Promise<void>;
+}
+
+/** Rate and form of characters; what is left out is 8N1. */
+export interface SerialForm {
+    baudRate: number;
+    parity?: "none" | "even" | "odd";
+    stopBits?: 1 | 2;
 }
 
 interface Serial {
@@ -28,6 +35,8 @@ export const hasSerial = serial !== undefined;
 /** Lets the browser ask which port; every other name is of one that the user has allowed. */
 const CHOOSE = "serial";
 const BUFFER_BYTES = 65_536;
+/** So often last words are written: a unit that answers meanwhile disturbs the first of them. */
+const LAST_WORDS = 8;
 
 /** A port that is open. */
 interface Open {
@@ -37,6 +46,7 @@ interface Open {
     writer: WritableStreamDefaultWriter<Bytes> | null;
     reading: Promise<void>;
     isClosing: boolean;
+    lastWords: Bytes | null;
 }
 
 /** It was not opened; the trouble is why, and what to do. */
@@ -55,18 +65,26 @@ export class NotOpened extends Error {
  */
 export class SerialPorts {
     readonly #tell: (news: PortNews) => void;
+    readonly #t: SerialWords;
+    /** Whether somebody holds a button on which a motor runs. */
+    isHeld = false;
     #ports: { port: SerialPort; name: string }[] = [];
     #open: Open | null = null;
 
-    constructor(tell: (news: PortNews) => void) {
+    constructor(tell: (news: PortNews) => void, t: SerialWords) {
         this.#tell = tell;
+        this.#t = t;
+        // Ahead of what lets the button go, which needs the worker, and so comes too late.
+        for (const kind of ["beforeunload", "pagehide"]) {
+            window.addEventListener(kind, (event) => this.#leave(event), { capture: true });
+        }
     }
 
     /** Those that the user has allowed before, and the choice of another one. */
     async list(): Promise<Port[]> {
         (await serial?.getPorts())?.forEach((port) => this.#nameOf(port));
         const known = this.#ports.map(({ name }) => ({ port: name, label: name }));
-        return hasSerial ? [...known, { port: CHOOSE, label: t("port.choose") }] : [];
+        return hasSerial ? [...known, { port: CHOOSE, label: this.#t("port.choose") }] : [];
     }
 
     isOpen(name: string): boolean {
@@ -74,22 +92,23 @@ export class SerialPorts {
     }
 
     /** Opens a port by its name, and returns that; must be called while the user presses something. */
-    async open(name: string, baud: number): Promise<string> {
+    async open(name: string, form: SerialForm): Promise<string> {
         const known = this.#ports.find((each) => each.name === name)?.port;
         const port = known ?? (await this.#chosen());
         const found = this.#nameOf(port);
         await this.#close();
+        this.isHeld = false;
         try {
-            await port.open({ baudRate: baud, bufferSize: BUFFER_BYTES });
+            await port.open({ ...form, bufferSize: BUFFER_BYTES });
         } catch (error) {
-            const cause = t("serial.notOpened", { port: found, cause: words(error) });
-            throw new NotOpened("PortBusy", cause, t("serial.notOpenedNext"));
+            const cause = this.#t("serial.notOpened", { port: found, cause: words(error) });
+            throw new NotOpened("PortBusy", cause, this.#t("serial.notOpenedNext"));
         }
         const writer = port.writable?.getWriter() ?? null;
-        const open: Open = { port, name: found, reader: null, writer, reading: Promise.resolve(), isClosing: false };
+        const open: Open = { port, name: found, reader: null, writer, reading: Promise.resolve(), isClosing: false, lastWords: null };
         this.#open = open;
-        port.addEventListener("disconnect", () => this.#lose(port, t("serial.unplugged")));
-        this.#tell({ kind: "opened", port: found, baud });
+        port.addEventListener("disconnect", () => this.#lose(port, this.#t("serial.unplugged")));
+        this.#tell({ kind: "opened", port: found, baud: form.baudRate });
         open.reading = this.#read(open);
         return found;
     }
@@ -100,17 +119,35 @@ export class SerialPorts {
             return;
         }
         const { port, writer } = this.#open ?? {};
+        if (order.kind === "lastWords") {
+            Object.assign(this.#open ?? {}, { lastWords: order.data });
+            return;
+        }
         writer?.write(order.data).catch((error: unknown) => port && this.#lose(port, words(error)));
+    }
+
+    /** The page is being closed. The browser asks whether it is to be, which gives the last words the time to go out. */
+    #leave(event: Event): void {
+        const { writer, lastWords } = this.#open ?? {};
+        if (!this.isHeld || !writer || !lastWords) {
+            return;
+        }
+        event.preventDefault();
+        const data = new Uint8Array(LAST_WORDS * lastWords.length);
+        for (let at = 0; at < data.length; at += lastWords.length) {
+            data.set(lastWords, at);
+        }
+        writer.write(data).catch(() => undefined);
     }
 
     async #chosen(): Promise<SerialPort> {
         try {
             if (serial === undefined) {
-                throw new Error(t("serial.none"));
+                throw new Error(this.#t("serial.none"));
             }
             return await serial.requestPort();
         } catch (error) {
-            throw new NotOpened("", t("serial.notChosen", { cause: words(error) }), t("serial.notChosenNext"));
+            throw new NotOpened("", this.#t("serial.notChosen", { cause: words(error) }), this.#t("serial.notChosenNext"));
         }
     }
 
@@ -161,7 +198,7 @@ export class SerialPorts {
             return;
         }
         void this.#close();
-        this.#tell({ kind: "lost", cause: t("serial.lost", { port: open.name, cause }), next: t("serial.lostNext") });
+        this.#tell({ kind: "lost", cause: this.#t("serial.lost", { port: open.name, cause }), next: this.#t("serial.lostNext") });
     }
 
     async #close(): Promise<void> {

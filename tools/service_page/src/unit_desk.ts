@@ -226,10 +226,11 @@ export class UnitDesk {
         this.#orders.forget();
         this.#asked = "id" in order ? order.id : 0;
         this.#isStill = false;
+        const wasAway = this.#state.now.error !== null;
         this.#state.change({ busy: nameOf(order) });
         const got = await tried(() => this.#obeyed(order));
         this.#note(got);
-        if (got instanceof LineTrouble) {
+        if (got instanceof LineTrouble || wasAway) {
             this.#giveUp(UNSENT);
         }
         this.#state.change({ busy: null });

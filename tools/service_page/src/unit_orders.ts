@@ -169,8 +169,8 @@ export class UnitOrders {
         for (const [motor, plan] of plans) {
             await this.#requireRoom(motor, plan);
         }
-        if (together) {
-            await this.#requireNoOtherWaits(plans.map(([motor]) => motor));
+        if (together && plans.length > 1) {
+            await this.#requireOthersEmpty(plans.map(([motor]) => motor));
         }
         const total = plans.reduce((sum, [, plan]) => sum + plan.texts.length, 0);
         let [overflow, done] = [false, 0];
@@ -205,13 +205,16 @@ export class UnitOrders {
         }
     }
 
-    /** `]` for all motors would let a motor start that waits after `[` of another program. */
-    async #requireNoOtherWaits(motors: number[]): Promise<void> {
+    /** `]` for all motors would be stored in their programs, and let one start that waits. */
+    async #requireOthersEmpty(motors: number[]): Promise<void> {
         for (const each of MOTORS.filter((motor) => !motors.includes(motor))) {
-            const brackets = (await this.#held(each)).filter((command) => command === HOLD || command === RELEASE);
-            if (brackets.at(-1) === HOLD) {
+            const held = await this.#held(each);
+            const brackets = held.filter((command) => command === HOLD || command === RELEASE);
+            if (held.length > 0 && (brackets.length < held.length || brackets.at(-1) === HOLD)) {
                 throw new Refusal(
-                    `motor ${each} waits at [ in another program and would start too`,
+                    brackets.at(-1) === HOLD
+                        ? `motor ${each} waits at [ in another program and would start too`
+                        : `motor ${each} holds another program, and ] to all motors would be added to it`,
                     "nothing was sent to any motor; reset it, or send without starting together",
                 );
             }
@@ -230,7 +233,7 @@ export class UnitOrders {
                 await pause(POLL_MS);
             }
         }
-        await this.#command(ALL_MOTORS, RELEASE);
+        await this.#command(motors.length > 1 ? ALL_MOTORS : (motors[0] ?? ALL_MOTORS), RELEASE);
     }
 
     /** Refuses to overwrite what is in the memory and may not have run. */

@@ -1,12 +1,13 @@
 import type { Bytes } from "./program_host";
 import { GREETING } from "./protocol";
-import { SerialLine } from "./serial_line";
+import { SerialLine, broadcastFrame } from "./serial_line";
 import type { Simulator } from "./simulator";
 import type { Asked } from "./unit_answer";
 import { UnitDesk } from "./unit_desk";
 import type { StatusNames } from "./unit_messages";
 import { LineTrouble } from "./unit_place";
 import { UnitProgram } from "./unit_program";
+import { STOP } from "./unit_stop";
 
 const STEP_MS = 8;
 /** So long the unit may catch up before the page is heard again. */
@@ -18,8 +19,11 @@ export type PortNews =
     | { kind: "heard"; data: Bytes }
     | { kind: "lost"; cause: string; next: string };
 
-/** What is to be done with that port; all else that is said to the page is text. */
-export type PortOrder = { kind: "write"; data: Bytes } | { kind: "close" };
+/**
+ * What is to be done with that port; all else that is said to the page is text. `lastWords` are what it writes itself if
+ * it is closed while a button is held.
+ */
+export type PortOrder = { kind: "write" | "lastWords"; data: Bytes } | { kind: "close" };
 
 /**
  * Runs the unit beside the clock of the worker, and the line of a serial port, and hears the page in between. A fault of
@@ -63,6 +67,7 @@ export class UnitRunner {
             const write = (data: Bytes): void => this.#order({ kind: "write", data });
             this.#line = new SerialLine(this.#bytes, news.port, news.baud, write);
             this.#desk.offer(this.#line);
+            this.#order({ kind: "lastWords", data: broadcastFrame(this.#bytes, news.baud, STOP) });
         } else if (news.kind === "heard") {
             this.#line?.hear(news.data);
         } else if (this.#line !== null) {

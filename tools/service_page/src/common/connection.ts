@@ -11,6 +11,8 @@ const OTHER = "";
 export interface ConnectionOptions {
     quiet?: () => string | null;
     keeps?: () => boolean;
+    /** Of a page that needs no service: how a port of the browser is to be opened. There are no other ports. */
+    form?: (() => object) | undefined;
 }
 
 /** Port and, where the page has one, address, and the state of the connection. Only the button connects. */
@@ -43,7 +45,12 @@ export class Connection {
         unit.link.isOpen.onChange((isOpen) => isOpen && unit.link.send({ type: "ports" }));
         language.watch(() => this.#showPorts());
         unit.watch(() => this.#show());
-        language.onChange(() => this.#show());
+        language.onChange(() => {
+            this.#show();
+            if (unit.link.isOpen.value) {
+                unit.link.send({ type: "ports" }); // their labels have words, too
+            }
+        });
     }
 
     get #isWanted(): boolean {
@@ -61,7 +68,7 @@ export class Connection {
             this.#other.focus();
             return;
         }
-        const wanted = { type: "connect", port, ...(this.#node === null ? {} : { node: Number(this.#node.value) }) };
+        const wanted = { type: "connect", port, ...(this.#node === null ? {} : { node: Number(this.#node.value) }), ...this.#options.form?.() };
         this.#unit.link.send(wanted);
     }
 
@@ -84,7 +91,7 @@ export class Connection {
         this.#port.replaceChildren(
             make("option", { value: VIRTUAL }, this.#t("port.virtual")),
             ...this.#ports.map(({ port, label }) => make("option", { value: port }, label || port)),
-            make("option", { value: OTHER }, this.#t("port.other")),
+            ...(this.#options.form === undefined ? [make("option", { value: OTHER }, this.#t("port.other"))] : []),
         );
         this.#choosePort(chosen);
     }

@@ -1,6 +1,8 @@
+import { pagesCs } from "./pages";
 import type { en } from "./en";
 
 export const cs: Record<keyof typeof en, string> = {
+    ...pagesCs,
     "page.language": "Jazyk",
     "loud.seen": "Beru na vědomí",
     "loud.silent": "JEDNOTKA NEODPOVÍDÁ",

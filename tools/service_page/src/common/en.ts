@@ -1,5 +1,8 @@
+import { pagesEn } from "./pages";
+
 /** Words that the pages of several units share. */
 export const en = {
+    ...pagesEn,
     "page.language": "Language",
     "loud.seen": "Noted",
     "loud.silent": "THE UNIT DOES NOT ANSWER",

@@ -2,6 +2,7 @@ import { byId, make } from "../dom";
 import { language } from "../language";
 import type { Trouble } from "../protocol";
 import type { Answer, Known } from "./known";
+import { answerWords } from "./outside";
 import { troubleText, type CommonWords } from "./words";
 
 const KEPT_MAX = 200;
@@ -9,7 +10,7 @@ const KEPT_MAX = 200;
 interface Entry {
     at: Date;
     message: string;
-    words: string;
+    words: () => string;
     isBad: boolean;
 }
 
@@ -39,11 +40,11 @@ export class Log {
     }
 
     #add({ message, text, error }: Answer): void {
-        const entry = { at: new Date(), message, words: error === null ? text : troubleText(error), isBad: error !== null };
+        const entry = { at: new Date(), message, words: () => (error === null ? answerWords(text) : troubleText(error)), isBad: error !== null };
         this.#entries.unshift(entry);
         this.#entries.length = Math.min(this.#entries.length, KEPT_MAX);
         this.#showAll();
-        byId("spoken", HTMLElement).textContent = `${this.#titleOf(message)}: ${entry.words}`;
+        byId("spoken", HTMLElement).textContent = `${this.#titleOf(message)}: ${entry.words()}`;
     }
 
     #showAll(): void {
@@ -51,7 +52,7 @@ export class Log {
         const shown = this.#entries.map(({ at, message, words, isBad }) => {
             const time = make("time", {}, at.toLocaleTimeString(language.value, { hour12: false }));
             const head = make("div", { class: "log-head" }, time, make("b", {}, this.#titleOf(message)));
-            const item = make("li", { class: "log-item", "data-message": message }, head, make("div", { class: "log-words" }, words));
+            const item = make("li", { class: "log-item", "data-message": message }, head, make("div", { class: "log-words" }, words()));
             item.classList.toggle("is-bad", isBad);
             return item;
         });

@@ -1,8 +1,9 @@
+import { alone } from "./alone/page";
 import { troubleText } from "./i18n";
-import type { FileText, Trouble } from "./protocol";
+import { Refused } from "./refused";
+import type { FileText, MachineText, Trouble } from "./protocol";
 
-/** The service has answered that it does not do this; the message is why. */
-export class Refused extends Error {}
+export { Refused };
 
 async function fetched(path: string, init: RequestInit = {}): Promise<Response> {
     const response = await fetch(path, init);
@@ -15,22 +16,33 @@ async function fetched(path: string, init: RequestInit = {}): Promise<Response> 
 
 /** Has a file or a machine file opened; all pages are told of it. */
 export async function openFile(kind: "file" | "machine", file: File): Promise<void> {
+    if (alone !== null) {
+        return alone.open(kind, file);
+    }
     await fetched(`/api/${kind}?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
 }
 
+/** The machine file that is open, as it is written. */
+export async function fetchMachine(): Promise<MachineText> {
+    return alone?.machine ?? (await (await fetched("/api/machine")).json()) as MachineText;
+}
+
 export async function openExample(name: string): Promise<void> {
+    if (alone !== null) {
+        return alone.openExample(name);
+    }
     await fetched("/api/example", { method: "POST", body: JSON.stringify({ name }) });
 }
 
 export async function fetchExamples(): Promise<string[]> {
-    return (await (await fetched("/api/examples")).json()) as string[];
+    return alone?.examples ?? ((await (await fetched("/api/examples")).json()) as string[]);
 }
 
 export async function fetchText(number: number): Promise<FileText> {
-    return (await (await fetched(`/api/file?number=${number}`)).json()) as FileText;
+    return alone?.file(number) ?? ((await (await fetched(`/api/file?number=${number}`)).json()) as FileText);
 }
 
 /** Rows of x, y, z in pulses, seconds, line. */
 export async function fetchCourse(number: number): Promise<Float32Array> {
-    return new Float32Array(await (await fetched(`/api/course?number=${number}`)).arrayBuffer());
+    return alone?.file(number).rows ?? new Float32Array(await (await fetched(`/api/course?number=${number}`)).arrayBuffer());
 }

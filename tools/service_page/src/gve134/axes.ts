@@ -1,7 +1,9 @@
+import type { Danger } from "../danger";
 import { byId, make } from "../dom";
 import { language, numberText, t } from "./i18n";
 import { isOpen } from "./job";
 import { AXES, FLAG, type Live, type MachineAxis } from "./protocol";
+import { Reach } from "./reach";
 import type { Unit } from "./unit";
 
 const NOT_KNOWN = "–";
@@ -19,23 +21,31 @@ interface Card {
     speed: HTMLElement;
     steps: HTMLElement;
     bar: HTMLElement;
-    acts: HTMLButtonElement[];
+    jogs: HTMLButtonElement[];
+    zero: HTMLButtonElement;
     home: HTMLButtonElement;
 }
 
-/** Where the axes are, how fast, and how they are moved by hand. */
+/** Where the axes are, how fast, and how they are moved by hand; `refuse` tells why that was not done. */
 export class Axes {
     readonly #unit: Unit;
+    readonly #danger: Danger;
+    readonly #refuse: (words: string) => void;
+    readonly #reach: Reach;
     readonly #cards = AXES.map((_, axis) => this.#card(axis));
     readonly #step = byId("jog-step", HTMLSelectElement);
     readonly #speed = byId("jog-speed", HTMLInputElement);
     readonly #homeAll = byId("home-all", HTMLButtonElement);
     #kind: keyof typeof STEPS | null = null;
 
-    constructor(unit: Unit) {
+    constructor(unit: Unit, danger: Danger, refuse: (words: string) => void) {
         this.#unit = unit;
+        this.#danger = danger;
+        this.#refuse = refuse;
+        this.#reach = new Reach(unit);
         this.#homeAll.addEventListener("click", () => this.#home(null));
         unit.watch(() => this.#show());
+        danger.isConfirmed.onChange(() => this.#show());
         language.onChange(() => {
             this.#kind = null;
             this.#cards.forEach((card, axis) => this.#name(card, axis));
@@ -56,12 +66,14 @@ export class Axes {
         state.textContent = t(`is.${doing}`);
         state.dataset.kind = BAD.includes(doing) ? "bad" : WARN.includes(doing) ? "warn" : "good";
         byId("live-more", HTMLElement).textContent = now === null ? "" : moreOf(now);
-        const mayMove = doing === "rest" && !isOpen(this.#unit.state.value?.job ?? null);
+        const mayChange = doing === "rest" && !isOpen(this.#unit.state.value?.job ?? null);
+        const mayMove = mayChange && this.#danger.isConfirmed.value;
         this.#homeAll.disabled = !mayMove || !AXES.some((_, axis) => this.#machineAxis(axis)?.homes === true);
         this.#cards.forEach((card, axis) => {
             this.#showCard(card, axis, now, last.value);
             const isThere = !this.#unit.state.value?.machine || this.#machineAxis(axis) !== null;
-            card.acts.forEach((act) => (act.disabled = !mayMove || !isThere));
+            card.jogs.forEach((jog) => (jog.disabled = !mayMove || !isThere));
+            card.zero.disabled = !mayChange || !isThere;
             card.home.hidden = this.#machineAxis(axis)?.homes !== true;
             card.home.disabled = !mayMove;
         });
@@ -114,7 +126,15 @@ export class Axes {
         const wanted = of === null ? Number(this.#speed.value) : (Number(this.#speed.value) / SECONDS_A_MINUTE) * of.steps_per_unit;
         const speed = Math.round(Math.min(Math.max(wanted, SPEED_MIN), of?.speed ?? SPEED_MAX));
         const parts = AXES.map((_, index) => (index === axis ? sign * step : 0));
-        this.#unit.link.send({ type: "jog", id: this.#unit.link.nextId(), parts, speed });
+        const obstacle = this.#reach.obstacle(axis, sign * step, of);
+        if (obstacle !== null) {
+            this.#refuse(obstacle);
+            return;
+        }
+        const id = this.#unit.link.nextId();
+        if (this.#unit.link.send({ type: "jog", id, parts, speed })) {
+            this.#reach.note(id, axis, sign * step);
+        }
     }
 
     #home(axis: string | null): void {
@@ -132,18 +152,19 @@ export class Axes {
             made.addEventListener("click", act);
             return made;
         };
-        const zero = (): void => {
+        const setZero = (): void => {
             this.#unit.link.send({ type: "typed", id: this.#unit.link.nextId(), text: `N${name}0` });
         };
-        const acts = [button(() => this.#jog(axis, -1)), button(() => this.#jog(axis, 1)), button(zero)];
+        const jogs = [button(() => this.#jog(axis, -1)), button(() => this.#jog(axis, 1))];
+        const zero = button(setZero);
         const home = button(() => this.#home(name));
         const head = make("div", { class: "card-head" }, make("span", { class: "card-name" }, make("i", { class: "led" }), name), speed);
         const root = make(
             "div", { class: "card", style: `--c: var(--motor-${axis + 1})` },
-            head, position, steps, make("span", { class: "card-bar" }, bar), make("div", { class: "card-acts" }, ...acts, home),
+            head, position, steps, make("span", { class: "card-bar" }, bar), make("div", { class: "card-acts" }, ...jogs, zero, home),
         );
         byId("axes", HTMLElement).append(root);
-        const card = { root, position, speed, steps, bar, acts, home };
+        const card = { root, position, speed, steps, bar, jogs, zero, home };
         this.#name(card, axis);
         return card;
     }
@@ -152,7 +173,7 @@ export class Axes {
         const name = AXES[axis] ?? "";
         const texts = [`${name}−`, `${name}+`, t("jog.zero"), t("jog.home")];
         const labels = [t("jog.minus", { axis: name }), t("jog.plus", { axis: name }), t("jog.zeroLabel", { axis: name }), `${name}: ${t("jog.homeLabel")}`];
-        [...card.acts, card.home].forEach((button, index) => {
+        [...card.jogs, card.zero, card.home].forEach((button, index) => {
             button.textContent = texts[index] ?? "";
             button.title = labels[index] ?? "";
             button.setAttribute("aria-label", `${texts[index]} ${labels[index]}`);
@@ -163,11 +184,12 @@ export class Axes {
 const fixed = (value: number, digits: number): string =>
     value.toLocaleString(language.value === "cs" ? "cs-CZ" : "en-GB", { minimumFractionDigits: digits, maximumFractionDigits: digits }).replace("-", "−");
 
-function moreOf({ causes, flags, late }: Live): string {
+function moreOf({ causes, flags, late, stood_s = 0 }: Live): string {
     const found = [
         causes.length > 0 ? t("live.stoppedBy", { causes: causes.join(", ") }) : "",
         flags & FLAG.full ? t("live.full") : "",
         late ? t("live.late", { count: late }) : "",
+        stood_s >= 1 ? t("live.stood", { seconds: numberText(stood_s) }) : "",
     ];
     return found.filter((words) => words !== "").join(" · ");
 }

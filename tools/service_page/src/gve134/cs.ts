@@ -1,8 +1,15 @@
 import { cs as common } from "../common/cs";
+import { machineCs } from "../common/machine_words";
+import { serialCs } from "../common/serial_words";
+import { dangerCs } from "../danger_words";
 import type { Dictionary } from "./i18n";
 
 export const cs: Dictionary = {
     ...common,
+    ...serialCs,
+    ...machineCs,
+    ...dangerCs("HALT"),
+    "danger.first": "{command} uvádí osy do pohybu: nejdříve nad nimi potvrďte, že jste nebezpečí četli; nic nebylo odesláno",
     "page.title": "GVE134 servis",
     "halt.name": "HALT",
     "halt.key": "Esc",
@@ -19,6 +26,14 @@ export const cs: Dictionary = {
     "machine.none": "žádný: polohy v pulsech",
     "machine.open": "Otevřít …",
     "machine.openLabel": "Otevřít soubor stroje (.rkm): pulsy na mm, meze, referenční spínače",
+    "machine.edit": "Upravit …",
+    "machine.editLabel": "Upravit soubor stroje; nic z toho neplatí, dokud není převzato",
+    "machine.file": "Soubor stroje",
+    "machine.take": "Převzít",
+    "machine.takeLabel": "Zkontrolovat a od teď podle něj počítat; soubor na disku zůstane",
+    "machine.save": "Uložit …",
+    "machine.saveLabel": "Zapsat do souboru",
+    "machine.close": "Zavřít",
     "job.title": "Práce",
     "job.examples": "Příklady",
     "job.open": "Otevřít …",
@@ -59,6 +74,7 @@ export const cs: Dictionary = {
     "path.zoomOut": "Zmenšit",
     "path.fit": "Vše",
     "path.canvas": "Plánovaná dráha, vykonaná dráha a místo os; polohy jsou níže",
+    "path.every": "z {every} rohů plánu je nakreslen jeden",
     "path.grid": "mřížka {size}",
     "live.outputs": "Výstupy",
     "live.allOff": "Vše vypnout",
@@ -71,6 +87,7 @@ export const cs: Dictionary = {
     "live.spindle": "Vřeteno %",
     "live.set": "Nastavit",
     "live.late": "opožděné pulsy: {count}",
+    "live.stood": "její čas stál {seconds} s",
     "live.stoppedBy": "zastavil: {causes}",
     "live.full": "fronta plná",
     "live.speed": "{speed} {unit}/s",
@@ -106,6 +123,9 @@ export const cs: Dictionary = {
     "jog.plus": "{axis} o krok vpřed",
     "jog.zero": "= 0",
     "jog.zeroLabel": "{axis} je zde 0 (N)",
+    "jog.beyond":
+        "nic se nepohnulo: {axis} by jela na {target} {unit}, za svou mez v souboru stroje, {limit} {unit}; není-li její poloha "
+        + "správná, najeďte referenci, nebo napište správnou do konzoly, například N{axis}1000",
     "jog.home": "Ref",
     "jog.homeAll": "Reference všech",
     "jog.homeLabel": "Referenční jízda podle souboru stroje",
@@ -122,5 +142,22 @@ export const cs: Dictionary = {
     "message.override": "Rychlost",
     "message.output": "Výstup",
     "message.spindle": "Vřeteno",
+    "connection.rate": "Rychlost, Bd",
+    "serial.none":
+        "Tento prohlížeč nedosáhne na sériové porty, proto je zde jen virtuální jednotka. Pro skutečnou jednotku otevřete "
+        + "stránku v Chrome, Edge, Opeře nebo Firefoxu 153 na počítači, ze souboru nebo přes https; nebo použijte tools/gve134 service.",
+    "alone.hint":
+        "Virtuální jednotka je v této stránce: nehýbe žádným strojem a po novém načtení stránky začíná znovu. Když stránka "
+        + "nebo počítač spí, její čas stojí. Co potřebuje tools/gve134 service: G-kód, porty po síti, více oken na jednu "
+        + "jednotku.",
+    "alone.gcode":
+        "{name}: G-kód převádí tools/gve134 gcode (nebo jej otevře tools/gve134 service); zde otevřete soubor .gve, který vytvoří",
+    "alone.noPart": "chybí část gve134, která říká, jaké jsou osy; jednu ukazuje tools/examples/gve/mill.rkm",
+    "alone.noScale": "motor {motor} je osa {axis} a potřebuje {wanted}",
+    "alone.large": "{name}: soubor je větší než 10 MB",
+    "alone.noText": "{name}: to není text, tedy ani soubor vektorů (.gve)",
+    "alone.noWebAssembly":
+        "Tento prohlížeč nemá WebAssembly, ve kterém zde běží jednotka i kontrola. Vezměte jiný, nebo tools/gve134 service.",
+    "alone.failed": "Čtení souborů v této stránce selhalo; otevřete soubor znovu, nebo načtěte stránku znovu.",
     "message.typed": "Příkaz",
 };

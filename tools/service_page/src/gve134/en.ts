@@ -1,7 +1,14 @@
 import { en as common } from "../common/en";
+import { machineEn } from "../common/machine_words";
+import { serialEn } from "../common/serial_words";
+import { dangerEn } from "../danger_words";
 
 export const en = {
     ...common,
+    ...serialEn,
+    ...machineEn,
+    ...dangerEn("HALT"),
+    "danger.first": "{command} sets axes in motion: first confirm above them that the danger was read; nothing was sent",
     "page.title": "GVE134 service",
     "halt.name": "HALT",
     "halt.key": "Esc",
@@ -18,6 +25,14 @@ export const en = {
     "machine.none": "none: positions in pulses",
     "machine.open": "Open …",
     "machine.openLabel": "Open a machine file (.rkm): pulses per mm, limits, reference switches",
+    "machine.edit": "Edit …",
+    "machine.editLabel": "Edit the machine file; nothing of it counts before it is taken over",
+    "machine.file": "Machine file",
+    "machine.take": "Take over",
+    "machine.takeLabel": "Check it, and count with it from now on; the file on the disk stays as it was",
+    "machine.save": "Save …",
+    "machine.saveLabel": "Write it to a file",
+    "machine.close": "Close",
     "job.title": "Job",
     "job.examples": "Examples",
     "job.open": "Open …",
@@ -59,6 +74,7 @@ export const en = {
     "path.fit": "All of it",
     "path.canvas": "The path that is planned, the one made, and where the axes are; the positions stand below",
     "path.grid": "grid {size}",
+    "path.every": "of {every} corners of the plan one is drawn",
     "live.outputs": "Outputs",
     "live.allOff": "All off",
     "live.allOffLabel": "Switch all outputs off; the unit does not tell which are on, so this makes them known",
@@ -70,6 +86,7 @@ export const en = {
     "live.spindle": "Spindle %",
     "live.set": "Set",
     "live.late": "late pulses: {count}",
+    "live.stood": "its time stood for {seconds} s",
     "live.stoppedBy": "stopped by {causes}",
     "live.full": "queue full",
     "live.speed": "{speed} {unit}/s",
@@ -105,6 +122,9 @@ export const en = {
     "jog.plus": "{axis} a step on",
     "jog.zero": "= 0",
     "jog.zeroLabel": "{axis} is 0 here (N)",
+    "jog.beyond":
+        "nothing was moved: {axis} would go to {target} {unit}, beyond its limit in the machine file, {limit} {unit}; where its "
+        + "position is not true, home it, or write the true one in the console, such as N{axis}1000",
     "jog.home": "Home",
     "jog.homeAll": "Home all",
     "jog.homeLabel": "Reference run, as the machine file has it",
@@ -122,4 +142,21 @@ export const en = {
     "message.output": "Output",
     "message.spindle": "Spindle",
     "message.typed": "Command",
+    "connection.rate": "Rate, Bd",
+    "serial.none":
+        "This browser does not reach serial ports, so there is only the virtual unit. For a real unit open this page in "
+        + "Chrome, Edge, Opera or Firefox 153 on a computer, from a file or over https; or take tools/gve134 service.",
+    "alone.hint":
+        "The virtual unit is in this page: it moves no machine, and begins anew when the page is loaded again. While the page "
+        + "or the computer sleeps its time stands. What needs tools/gve134 service: G-code, ports over a network, several windows "
+        + "on one unit.",
+    "alone.gcode":
+        "{name}: G-code is turned by tools/gve134 gcode (or opened by tools/gve134 service); open here the file .gve that it makes",
+    "alone.noPart": "its part gve134 is missing, which says what the axes are; tools/examples/gve/mill.rkm shows one",
+    "alone.noScale": "motor {motor} is axis {axis} and needs {wanted}",
+    "alone.large": "{name}: it is larger than 10 MB",
+    "alone.noText": "{name}: that is no text, so it is no vector file (.gve)",
+    "alone.noWebAssembly":
+        "This browser has no WebAssembly, in which the unit and the parser run here. Take one that has it, or tools/gve134 service.",
+    "alone.failed": "What reads files in this page has failed; open the file again, or load the page again.",
 };

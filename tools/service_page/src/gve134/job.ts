@@ -1,3 +1,4 @@
+import type { Danger } from "../danger";
 import { byId, make } from "../dom";
 import { Refused, fetchExamples, openExample, openFile } from "./api";
 import { clockText, language, numberText, t, troubleText } from "./i18n";
@@ -15,13 +16,16 @@ export const isOpen = (job: Job | null): boolean => isUnderWay(job) || job?.phas
 /** The file, its start and its end, and the speed of all of it. */
 export class JobPanel {
     readonly #unit: Unit;
+    readonly #danger: Danger;
     readonly #trouble = byId("file-trouble", HTMLElement);
     readonly #slider = byId("override", HTMLInputElement);
     readonly #words = byId("job-words", HTMLElement);
     #slid_ms = -Infinity;
 
-    constructor(unit: Unit) {
+    constructor(unit: Unit, danger: Danger) {
         this.#unit = unit;
+        this.#danger = danger;
+        danger.isConfirmed.onChange(() => this.#show());
         this.#listenToFiles("file", "open", "file");
         this.#listenToFiles("machine", "machine-open", "machine-file");
         const examples = byId("examples", HTMLSelectElement);
@@ -110,7 +114,9 @@ export class JobPanel {
         const set = (id: string, enabled: boolean): void => void (byId(id, HTMLButtonElement).disabled = !enabled);
         const isNoted = state?.restarted !== true;
         set("start", state?.file?.ok === true && doing === "rest" && !isOpen(job) && isNoted);
-        set("go", !isUnderWay(job) && (doing === "waits" || (doing === "stopped" && job?.phase === "held")));
+        const isHeld = job?.phase === "held";
+        const mayGo = isHeld || this.#danger.isConfirmed.value; // else it is the rest of a motion by hand
+        set("go", !isUnderWay(job) && mayGo && (doing === "waits" || (doing === "stopped" && isHeld)));
         set("delete", !isUnderWay(job) && ["waits", "stopped", "fault"].includes(doing));
         set("open", !isOpen(job));
         set("machine-open", !isOpen(job));

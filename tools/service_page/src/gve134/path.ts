@@ -1,11 +1,11 @@
 import { byId, styleValue } from "../dom";
 import { fetchCourse } from "./api";
+import { cornersOf, thinned, type Corners } from "./corners";
 import { language, numberText, t } from "./i18n";
 import { isOpen } from "./job";
 import type { Unit } from "./unit";
 import { View, type Place } from "./view";
 
-const COLUMNS = 5;
 const LEVELS = 16;
 const ZOOM = 1.4;
 const GRID_PX = 60;
@@ -16,7 +16,7 @@ export class PathView {
     readonly #unit: Unit;
     readonly #canvas = byId("canvas", HTMLCanvasElement);
     readonly #view = new View();
-    #rows: Float32Array = new Float32Array();
+    #planned: Corners = { corners: [], every: 1 };
     #plan: Path2D[] = [];
     #made: Place[] = [];
     #madePath = new Path2D();
@@ -34,7 +34,7 @@ export class PathView {
             this.#made = places.map(placeOf);
             this.#rebuild();
         });
-        unit.link.on("live", ({ made }) => this.#go(made.map(placeOf)));
+        unit.link.on("live", ({ made }) => this.#goOn(made.map(placeOf)));
         unit.watch(() => this.#show());
         language.onChange(() => this.#draw());
         new ResizeObserver(() => this.#resize()).observe(byId("canvas-box", HTMLElement));
@@ -132,10 +132,20 @@ export class PathView {
     async #load(number: number): Promise<void> {
         const rows = await fetchCourse(number).catch(() => new Float32Array());
         if (number === this.#number) {
-            this.#rows = rows;
+            this.#planned = cornersOf(rows, this.#unit.state.value?.file?.absolute_from ?? []);
             this.#isMoved = false;
             this.#rebuild();
             this.#fit();
+        }
+    }
+
+    /** A way that has become long is thinned out. */
+    #goOn(places: Place[]): void {
+        this.#go(places);
+        const kept = thinned(this.#made);
+        if (kept !== this.#made) {
+            [this.#made, this.#madePath] = [[], new Path2D()];
+            this.#go(kept);
         }
     }
 
@@ -156,17 +166,10 @@ export class PathView {
         return [x / a, y / b, z / c];
     }
 
-    /** Rows of the plan as places, with seconds: NaN where no way leads to it. */
+    /** The corners of the plan, with seconds: NaN where no way leads to it. */
     *#ways(): Generator<[place: Place, seconds: number]> {
-        const from = this.#unit.state.value?.file?.absolute_from ?? [];
-        let vectors = 0;
-        for (let at = 0; at < this.#rows.length; at += COLUMNS) {
-            const seconds = this.#rows[at + 3] ?? NaN;
-            const parts = [0, 1, 2].map((axis) => {
-                const isRelative = vectors < (from[axis] ?? Infinity);
-                return (this.#rows[at + axis] ?? 0) + (isRelative ? (this.#base[axis] ?? 0) : 0);
-            });
-            vectors += Number.isNaN(seconds) ? 0 : 1;
+        for (const { at, isRelative, seconds } of this.#planned.corners) {
+            const parts = at.map((part, axis) => part + (isRelative[axis] ? (this.#base[axis] ?? 0) : 0));
             yield [this.#scaled(placeOf(parts)), seconds];
         }
     }
@@ -286,7 +289,9 @@ export class PathView {
         }
         context.globalAlpha = 1;
         const unit = this.#unit.state.value?.machine ? "mm" : t("jog.pulses");
-        label.textContent = t("path.grid", { size: `${numberText(step, 6)} ${unit}` });
+        const { every } = this.#planned;
+        const more = every > 1 ? ` · ${t("path.every", { every: numberText(every) })}` : "";
+        label.textContent = t("path.grid", { size: `${numberText(step, 6)} ${unit}` }) + more;
     }
 
     /** Which way the axes go. */

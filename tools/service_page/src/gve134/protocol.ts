@@ -92,6 +92,8 @@ export interface Live {
     inputs: number[];
     causes: string[];
     late: number | null;
+    /** For how long in all the time of the unit in the page has stood; a service does not tell it. */
+    stood_s?: number;
     progress: Progress | null;
     made: number[][];
 }
@@ -101,6 +103,11 @@ export type FromService =
     | ({ type: "state" } & UnitState)
     | ({ type: "live" } & Live)
     | { type: "made"; places: number[][] };
+
+export interface MachineText {
+    name: string;
+    text: string;
+}
 
 export interface Problem {
     severity: "error" | "warning";

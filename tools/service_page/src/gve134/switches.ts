@@ -13,6 +13,8 @@ export class Switches {
     readonly #outputs = OUTPUTS.map((_, bit) => this.#lamp("outputs", () => this.#toggleOutput(bit)));
     readonly #off = byId("outputs-off", HTMLButtonElement);
     readonly #spindle = byId("spindle", HTMLInputElement);
+    /** Inputs of the virtual unit that were set in a reference run, in which it tells none. */
+    readonly #set = new Map<number, 0 | 1>();
 
     constructor(unit: Unit) {
         this.#unit = unit;
@@ -39,10 +41,13 @@ export class Switches {
         const state = this.#unit.state.value;
         const now = this.#unit.now;
         const isConnected = now !== null;
+        if (this.#unit.doing !== "reference") {
+            this.#set.clear();
+        }
         this.#inputs.forEach((lamp, index) => {
-            const level = now?.inputs[index];
+            const level = now?.inputs[index] ?? this.#set.get(index);
             const [, name] = INPUTS[index] ?? INPUTS[0];
-            lamp.disabled = state?.virtual !== true || level === undefined;
+            lamp.disabled = state?.virtual !== true || this.#level(index) === undefined;
             const words = t(level === undefined ? "live.unknown" : level === 0 ? "live.closed" : "live.open");
             const more = lamp.disabled ? "" : `; ${t("live.toggle")}`;
             showLamp(lamp, t(`input.${name}`), level === undefined ? null : level === 0, `${words}${more}`);
@@ -58,11 +63,22 @@ export class Switches {
         byId("spindle-now", HTMLElement).textContent = spindle === null ? "–" : `${numberText(spindle / 10, 1)} %`;
     }
 
+    /** What an input is toggled from; undefined: that is not known. */
+    #level(index: number): number | undefined {
+        const before = this.#unit.doing === "reference" ? this.#unit.last.value?.inputs[index] : undefined;
+        return this.#set.get(index) ?? this.#unit.now?.inputs[index] ?? before;
+    }
+
     #toggleInput(index: number): void {
-        const level = this.#unit.now?.inputs[index];
+        const before = this.#level(index);
         const [input] = INPUTS[index] ?? INPUTS[0];
-        if (level !== undefined) {
-            this.#unit.link.send({ type: "input", input, level: level === 1 ? 0 : 1 });
+        if (before === undefined) {
+            return;
+        }
+        const level = before === 1 ? 0 : 1;
+        if (this.#unit.link.send({ type: "input", input, level }) && this.#unit.doing === "reference") {
+            this.#set.set(index, level);
+            this.#show();
         }
     }
 

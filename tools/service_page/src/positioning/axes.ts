@@ -1,3 +1,4 @@
+import type { Danger } from "../danger";
 import { byId } from "../dom";
 import { Card } from "./card";
 import { language } from "./i18n";
@@ -6,8 +7,8 @@ import type { Unit } from "./unit";
 
 /** The cards of all axes. */
 export class Axes {
-    constructor(unit: Unit) {
-        const cards = AXES.map((axis) => new Card(unit, axis));
+    constructor(unit: Unit, danger: Danger) {
+        const cards = AXES.map((axis) => new Card(unit, danger, axis));
         const show = (): void => {
             byId("live", HTMLElement).dataset.fresh = String(unit.now !== null);
             cards.forEach((card) => card.show());
@@ -15,6 +16,7 @@ export class Axes {
         byId("axes", HTMLElement).append(...cards.map(({ root }) => root));
         unit.watch(show);
         unit.settings.onChange(show);
+        danger.isConfirmed.onChange(show);
         language.onChange(() => {
             cards.forEach((card) => card.name());
             show();

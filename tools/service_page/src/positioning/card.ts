@@ -1,3 +1,4 @@
+import type { Danger } from "../danger";
 import { make } from "../dom";
 import { numberText } from "../language";
 import { FeedField } from "./feed";
@@ -20,6 +21,7 @@ type Acts = "hold" | "go" | "take" | "release" | "move" | "measure" | "home" | "
 /** An axis: what it does, and what may be done with it. */
 export class Card {
     readonly #unit: Unit;
+    readonly #danger: Danger;
     readonly #axis: number;
     readonly #parts: Record<"name" | "state" | "position" | "steps" | "target" | "speed" | "asked" | "bits" | "trouble" | "captured", HTMLElement>;
     readonly #acts: Record<Acts, HTMLButtonElement>;
@@ -32,8 +34,9 @@ export class Card {
     readonly #more: HTMLElement;
     readonly root: HTMLElement;
 
-    constructor(unit: Unit, axis: number) {
+    constructor(unit: Unit, danger: Danger, axis: number) {
         this.#unit = unit;
+        this.#danger = danger;
         this.#axis = axis;
         const part = (tag: "span" | "output" | "p" | "div", name: string): HTMLElement => make(tag, { class: `card-${name}`, id: `${name}-${axis}` });
         this.#parts = {
@@ -157,21 +160,25 @@ export class Card {
         const canMove = hasRoom || (isFree && live !== null && !moves(live));
         const isNoted = this.#unit.state.value?.restarted !== true;
         hold.disabled = !this.#unit.link.isOpen.value || isFree;
-        go.disabled = live === null || !isNoted || !["WAITING", "READY", "MOVING"].includes(live.state);
+        const mayMove = isNoted && this.#danger.isConfirmed.value;
+        go.disabled = live === null || !mayMove || !["WAITING", "READY", "MOVING"].includes(live.state);
         take.disabled = live === null || !isNoted;
         release.disabled = live === null || isFree;
-        move.disabled = home.disabled = !canMove || !isNoted;
-        measure.disabled = !hasRoom || !isNoted;
+        move.disabled = home.disabled = !canMove || !mayMove;
+        measure.disabled = !hasRoom || !mayMove;
         capture.disabled = live === null;
         const kind = live === null || !(live.status & STATUS.DISP) ? "take" : live.status & STATUS.ERR ? "clear" : isUnderWay(live) ? "drop" : "take";
         label(take, `axis.${kind}`, this.#axis);
         take.classList.toggle("danger", kind === "clear");
     }
 
-    /** In other states the unit takes no feed: it goes with the next motion. */
+    /**
+     * In other states the unit takes no feed: it goes with the next motion. So does one that speeds an axis up before the danger
+     * was confirmed; a lower one is sent at once.
+     */
     #setFeed(feed: number): void {
         const live = this.#unit.axis(this.#axis);
-        if (live !== null && WITH_FEED.includes(live.state)) {
+        if (live !== null && WITH_FEED.includes(live.state) && (this.#danger.isConfirmed.value || feed < live.feed)) {
             this.#unit.link.send({ type: "control", id: this.#unit.link.nextId(), axis: this.#axis, feed });
         }
     }

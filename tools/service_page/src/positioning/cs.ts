@@ -1,8 +1,12 @@
 import { cs as common } from "../common/cs";
+import { serialCs } from "../common/serial_words";
+import { dangerCs } from "../danger_words";
 import type { Dictionary } from "./i18n";
 
 export const cs: Dictionary = {
     ...common,
+    ...serialCs,
+    ...dangerCs("STOP"),
     "page.title": "Polohovací jednotka: servis",
     "halt.name": "STOP",
     "halt.key": "Esc",
@@ -113,6 +117,26 @@ export const cs: Dictionary = {
     "fact.frames": "dobrých rámců: {count}",
     "fact.late": "PULSY PŘIŠLY POZDĚ: {count}",
     "fact.others": "této jednotky se ptá i jiný master: {rate} dotazů/s",
+    "fact.stood": "její čas stál {seconds} s",
+    "file.large": "je větší než 100 000 bajtů, není to tedy záloha",
+    "file.json": "není to JSON",
+    "file.kind": "je jiného druhu",
+    "file.version": "je jiné verze jednotky nebo této stránky",
+    "file.parts": "nemá právě nastavení jednotky a jejích čtyř os {which}",
+    "file.value": "{which} nemá hodnotu ze svého rozsahu",
+    "file.none": "nic se nezapsalo",
+    "connection.rate": "Rychlost, Bd",
+    "connection.format": "Formát",
+    "serial.none":
+        "Tento prohlížeč nedosáhne na sériové porty, proto je zde jen virtuální jednotka. Pro skutečnou jednotku otevřete "
+        + "stránku v Chrome, Edge, Opeře nebo Firefoxu 153 na počítači, ze souboru nebo přes https; nebo použijte "
+        + "tools/positioning service.",
+    "alone.hint":
+        "Virtuální jednotka je v této stránce: nehýbe žádným strojem a po novém načtení stránky začíná znovu, s dodaným "
+        + "nastavením. Když stránka nebo počítač spí, její čas stojí. Co potřebuje tools/positioning service: Modbus TCP, porty "
+        + "po síti, více oken na jedné jednotce.",
+    "alone.noWebAssembly":
+        "Tento prohlížeč nemá WebAssembly, ve kterém zde jednotka běží. Použijte jiný, nebo tools/positioning service.",
     "fact.notStored": "nastavení se liší od uložených",
     "cause.0": "napájení",
     "cause.1": "ručně",
@@ -146,6 +170,36 @@ export const cs: Dictionary = {
     "settings.openLabel": "Ukázat, v čem se soubor liší; nic se zatím nezapíše",
     "settings.taken": "Osa {axes} je převzata nebo jede a její nastavení čekají: nejprve ji vraťte.",
     "settings.changed": "Změněno a nezapsáno: {where}.",
+    "script.title": "Skript",
+    "script.hint":
+        "Skript přehraje firmware v této stránce, od svého startu a ve virtuálním čase: nic se nepohybuje a jednotky nahoře se nikdo "
+        + "neptá. Je to totéž jako tools/positioning sim.",
+    "script.example": "Příklady",
+    "script.examples": "příklady …",
+    "script.open": "Otevřít soubor",
+    "script.openLabel": "Otevřít skript: řádky ms,osa,instrukce,hodnoty",
+    "script.seconds": "Končí po, s",
+    "script.play": "Přehrát",
+    "script.playLabel": "Přehrát skript ve virtuálním čase; žádné jednotky se nikdo neptá",
+    "script.text": "Řádky ms,osa,instrukce,hodnoty; # začíná poznámku",
+    "script.inputs": "Vstupy v čase: řádky ms,vstup,úroveň",
+    "script.speed": "Rychlost, kroky/s",
+    "script.position": "Poloha, kroky",
+    "script.playing": "Přehrává se …",
+    "script.idle": "{seconds} s, řádků {lines}: skript skončil a osy stojí",
+    "script.limit": "ukončeno po {seconds} s, provedeno řádků: {lines}",
+    "script.real": "po {seconds} s času jednotky vzdáno, protože výpočet trvá příliš dlouho",
+    "script.large": "skript je příliš dlouhý; nejvýše 1 000 000 znaků",
+    "script.axis": "Osa {axis}: {mm} mm, {steps} kroků; pohybů: {moves}, pulzů: {pulses}, nejvýše {peak} kroků/s; {state}",
+    "script.read": "řádek {line}: osa {axis}: {mm} mm, {state}",
+    "script.refused": "řádek {line}: {instruction} osy {axis} odmítnuto: {words}",
+    "script.setting": "řádek {line}: SETTING odmítnuto: {words}",
+    "script.more": "a ještě {count}",
+    "script.old": "Od přehrání se změnil",
+    "exception.2": "takový registr není, nebo jej nelze zapsat",
+    "exception.3": "hodnota je mimo rozsah",
+    "exception.4": "STORE se nezdařil",
+    "exception.6": "ne, dokud je osa, které se to týká, převzata nebo se pohybuje",
     "log.title": "Odpovědi",
     "message.halt": "STOP",
     "message.hold": "Stůj",

@@ -1,7 +1,11 @@
 import { en as common } from "../common/en";
+import { serialEn } from "../common/serial_words";
+import { dangerEn } from "../danger_words";
 
 export const en = {
     ...common,
+    ...serialEn,
+    ...dangerEn("STOP"),
     "page.title": "Positioning unit service",
     "halt.name": "STOP",
     "halt.key": "Esc",
@@ -112,6 +116,25 @@ export const en = {
     "fact.frames": "{count} good frames",
     "fact.late": "PULSES CAME TOO LATE: {count}",
     "fact.others": "another master asks this unit, too: {rate} requests/s",
+    "fact.stood": "its time stood for {seconds} s",
+    "file.large": "it is larger than 100 000 bytes, so it is no backup",
+    "file.json": "it is no JSON",
+    "file.kind": "it is of another kind",
+    "file.version": "it is of another version of the unit or of this page",
+    "file.parts": "it does not have just the settings of the unit and of its four axes {which}",
+    "file.value": "{which} has no value of its range",
+    "file.none": "nothing was written",
+    "connection.rate": "Rate, Bd",
+    "connection.format": "Format",
+    "serial.none":
+        "This browser does not reach serial ports, so there is only the virtual unit. For a real unit open this page in "
+        + "Chrome, Edge, Opera or Firefox 153 on a computer, from a file or over https; or take tools/positioning service.",
+    "alone.hint":
+        "The virtual unit is in this page: it moves no machine, and begins anew, with delivered settings, when the page is "
+        + "loaded again. While the page or the computer sleeps its time stands. What needs tools/positioning service: Modbus TCP, "
+        + "ports over a network, several windows on one unit.",
+    "alone.noWebAssembly":
+        "This browser has no WebAssembly, in which the unit runs here. Take one that has it, or tools/positioning service.",
     "fact.notStored": "settings are not as stored",
     "cause.0": "power",
     "cause.1": "by hand",
@@ -145,6 +168,36 @@ export const en = {
     "settings.openLabel": "Show what a file of settings has otherwise; nothing is written yet",
     "settings.taken": "Axis {axes} is taken or moves, and its settings wait: give it back first.",
     "settings.changed": "Changed and not written: {where}.",
+    "script.title": "Script",
+    "script.hint":
+        "A script is played by the firmware in this page, from its start on and in virtual time: nothing moves, and the unit above is "
+        + "not asked. It is the same as tools/positioning sim.",
+    "script.example": "Examples",
+    "script.examples": "examples …",
+    "script.open": "Open file",
+    "script.openLabel": "Open a script: lines ms,axis,instruction,values",
+    "script.seconds": "Ends after, s",
+    "script.play": "Play",
+    "script.playLabel": "Play the script in virtual time; no unit is asked",
+    "script.text": "Lines ms,axis,instruction,values; # begins a remark",
+    "script.inputs": "Inputs over time: lines ms,input,level",
+    "script.speed": "Speed, steps/s",
+    "script.position": "Position, steps",
+    "script.playing": "It is played …",
+    "script.idle": "{seconds} s, {lines} lines: the script is over and the axes stand",
+    "script.limit": "ended after {seconds} s, {lines} lines were done",
+    "script.real": "given up after {seconds} s of the unit's time, as it takes too long to compute",
+    "script.large": "the script is too long; 1 000 000 characters are the most",
+    "script.axis": "Axis {axis}: {mm} mm, {steps} steps; moves: {moves}, pulses: {pulses}, at most {peak} steps/s; {state}",
+    "script.read": "line {line}: axis {axis}: {mm} mm, {state}",
+    "script.refused": "line {line}: {instruction} of axis {axis} was refused: {words}",
+    "script.setting": "line {line}: SETTING was refused: {words}",
+    "script.more": "and {count} more",
+    "script.old": "Changed since it was played",
+    "exception.2": "there is no such register, or it cannot be written",
+    "exception.3": "the value is out of its range",
+    "exception.4": "STORE has failed",
+    "exception.6": "not while an axis that it concerns is taken or moves",
     "log.title": "Answers",
     "message.halt": "STOP",
     "message.hold": "Hold",

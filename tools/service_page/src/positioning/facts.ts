@@ -65,6 +65,9 @@ function factsOf({ unit }: Live): Fact[] {
     if ((unit.others ?? 0) > 0) {
         found.push({ words: t("fact.others", { rate: numberText(unit.others ?? 0, 1) }), isBad: true });
     }
+    if (of("stood_s") >= 1) {
+        found.push({ words: t("fact.stood", { seconds: numberText(of("stood_s")) }) });
+    }
     if (of("condition") & CONDITION.notStored) {
         found.push({ words: t("fact.notStored") });
     }

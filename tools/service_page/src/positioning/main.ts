@@ -2,10 +2,12 @@ import { Connection } from "../common/connection";
 import { Halt } from "../common/halt";
 import { Log } from "../common/log";
 import { Loud } from "../common/loud";
+import { Danger } from "../danger";
 import { byId } from "../dom";
 import { Link } from "../link";
 import { Presence } from "../presence";
 import { ServiceLine } from "../service_line";
+import { alone } from "./alone/page";
 import { Axes } from "./axes";
 import { Curves } from "./curves";
 import { Facts } from "./facts";
@@ -18,15 +20,17 @@ import { Unit } from "./unit";
  * Puts the parts together; each sees the unit, and none of them another. Nothing on this page acts on a unit except
  * what the user presses.
  */
-const link = new Link<FromService, ToService>(() => new ServiceLine());
+const link = new Link<FromService, ToService>(() => alone?.line() ?? new ServiceLine());
 setUpLanguage(byId("language", HTMLSelectElement));
 const presence = new Presence(link.isOpen);
 link.on("state", (state) => presence.setState(state));
 link.on("live", () => presence.look(unit.state.value?.node));
 
 const unit = new Unit(link, presence);
+const danger = new Danger("danger-confirm");
+unit.state.watch((state) => danger.setPlace(state));
 new Halt(unit, t);
-new Connection(unit, t);
+new Connection(unit, t, { form: alone?.form });
 new Loud(unit, t, {
     didMove: () => unit.didMove,
     isTold: () => unit.now !== null,
@@ -35,12 +39,14 @@ new Loud(unit, t, {
 });
 new Log(unit, t, (message) => named("message", message));
 new Facts(unit);
-new Axes(unit);
+new Axes(unit, danger);
 new Curves(unit);
 new SettingsPanel(unit);
 const top = byId("top", HTMLElement);
 new ResizeObserver(() => document.body.style.setProperty("--top", `${top.clientHeight}px`)).observe(top);
-link.open();
+if (alone === null || alone.begin(unit)) {
+    link.open();
+}
 
 /** What must not be overlooked of a unit that answers, or that nobody asks any more. */
 function alsoLoud(): string {

@@ -17,11 +17,14 @@ export type Part = "unit" | "axis1" | "axis2" | "axis3" | "axis4";
 export type Values = Partial<Record<Part, Record<string, number>>>;
 export type Method = 19 | 21 | 37;
 
+/** One of several types that need no more than this. */
+type Plain<Type, More = object> = Type extends string ? { type: Type } & More : never;
+
 export type ToService =
     | { type: "connect"; port: string; node: number }
-    | { type: "disconnect" | "ports" }
-    | { type: "halt" | "seen" | "settings" | "store" | "deliver"; id: number }
-    | { type: "hold" | "take" | "release" | "capture"; id: number; axis: number }
+    | Plain<"disconnect" | "ports">
+    | Plain<"halt" | "seen" | "settings" | "store" | "deliver", { id: number }>
+    | Plain<"hold" | "take" | "release" | "capture", { id: number; axis: number }>
     | { type: "control"; id: number; axis: number; feed?: number; permitted?: boolean }
     | { type: "measure"; id: number; axis: number; um: number; accel: number; absolute: boolean; feed?: number }
     | { type: "home"; id: number; axis: number; method: Method; um: number; accel: number; feed: number }

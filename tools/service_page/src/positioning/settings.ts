@@ -1,10 +1,12 @@
 import { byId, make } from "../dom";
 import { numberText } from "../language";
 import type { Trouble } from "../protocol";
+import { settingWords } from "../common/outside";
 import { troubleText } from "../common/words";
-import { language, t } from "./i18n";
+import { isAlone, language, t } from "./i18n";
 import { feedOf, feedValue } from "./numbers";
 import { AXES, FEED_PER_MM_MIN, STATUS, type Part, type Row, type Values } from "./protocol";
+import { readText, type AllSettings } from "./settings_file";
 import type { Unit } from "./unit";
 
 const FEED_UNIT = "mm/min/65536";
@@ -71,9 +73,9 @@ export class SettingsPanel {
             const field = CHOICES[row.name] ? make("select", {}, ...choices(row.name)) : make("input", { type: "number", class: "number", ...limits(row), required: "" });
             field.id = `setting-${row.name}`;
             field.addEventListener("input", () => this.#edit(row, field));
-            const unit = UNITS[row.unit] ?? row.unit;
+            const unit = UNITS[row.unit] ?? settingWords(row.unit, row.unit);
             const range = CHOICES[row.name] ? "" : rangeText(row);
-            const about = make("small", {}, [unit, range, row.text].filter((each) => each !== "").join(" · "));
+            const about = make("small", {}, [unit, range, settingWords(row.name, row.text)].filter((each) => each !== "").join(" · "));
             const root = make("div", { class: "setting" }, make("label", { for: field.id }, row.name), field, about);
             this.#fields.set(row.name, { row, field, root });
             return root;
@@ -204,19 +206,31 @@ export class SettingsPanel {
         }
         this.#trouble = "";
         try {
-            const answer = await fetch(`/api/settings?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
-            const told = (await answer.json()) as Required<Values> & { error?: Trouble };
-            if (answer.ok) {
+            const told = await (isAlone ? this.#readHere(file) : readByService(file));
+            if (typeof told === "string") {
+                this.#trouble = told;
+            } else {
                 this.#forget();
                 PARTS.forEach((part) => Object.entries(told[part]).forEach(([name, value]) => this.#put(part, name, value)));
-            } else {
-                this.#trouble = told.error ? troubleText(told.error) : t("state.notSent");
             }
         } catch {
             this.#trouble = t("state.notSent");
         }
         this.#show();
     }
+
+    /** The settings of a file, or what is wrong with it. */
+    async #readHere(file: File): Promise<AllSettings | string> {
+        const told = readText(await file.text(), this.#all);
+        return "trouble" in told ? `${file.name}: ${t(told.trouble, { which: told.which })}; ${t("file.none")}` : told;
+    }
+}
+
+/** Likewise, as the service reads it. */
+async function readByService(file: File): Promise<AllSettings | string> {
+    const answer = await fetch(`/api/settings?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
+    const told = (await answer.json()) as AllSettings & { error?: Trouble };
+    return answer.ok ? told : told.error ? troubleText(told.error) : t("state.notSent");
 }
 
 const partName = (part: Part): string => (part === "unit" ? t("settings.unit") : t("axis.name", { axis: PARTS.indexOf(part) }));

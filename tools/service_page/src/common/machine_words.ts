@@ -1,0 +1,73 @@
+import type { Translate } from "../language";
+
+/** What is wrong with a machine file, for the pages of all units. */
+export const machineEn = {
+    "machine.motor": "motor {motor}",
+    "machine.notOpened": "not opened, what is here stays",
+    "machine.tooLarge": "{name}: larger than {bytes} bytes, so it is no machine file; not opened",
+    "machine.notUtf8": "this is not UTF-8, so it is no machine file",
+    "machine.notJson": "this is not JSON, perhaps it was cut off",
+    "machine.twice": "a name stands there twice, and one of the two values would be lost",
+    "machine.half": "a text has half a character",
+    "machine.notMachine": "this is no machine file (.rkm)",
+    "machine.later": "this was written by later tools; take a later page",
+    "machine.wrong": "",
+    "machine.limitsCrossed": "position_min_steps is above position_max_steps",
+    "machine.noText": "the program is not a text",
+    "machine.inputs": "lines of milliseconds,input,level are wanted, such as 500,3,1",
+    "machine.rule.string": "must be a text",
+    "machine.rule.number": "must be a number",
+    "machine.rule.integer": "must be a whole number",
+    "machine.rule.object": "must be an object",
+    "machine.rule.array": "must be a list",
+    "machine.rule.boolean": "must be true or false",
+    "machine.rule.required": "lacks {name}",
+    "machine.rule.additionalProperties": "nothing is known of {name}",
+    "machine.rule.minimum": "{value} is too small; {limit} is the least",
+    "machine.rule.maximum": "{value} is too large; {limit} is the most",
+    "machine.rule.exclusiveMinimum": "{value} must be more than {limit}",
+    "machine.rule.minLength": "must not be empty",
+    "machine.rule.maxLength": "is too long; {limit} characters are the most",
+    "machine.rule.minItems": "must be a list of {limit}, one for each motor",
+    "machine.rule.maxItems": "must be a list of {limit}, one for each motor",
+    "machine.rule.not": "has both steps_per_mm and steps_per_degree; keep one",
+    "machine.rule.other": "is not as it should be",
+};
+
+export const machineCs: Record<keyof typeof machineEn, string> = {
+    "machine.motor": "motor {motor}",
+    "machine.notOpened": "neotevřeno, co je zde, zůstává",
+    "machine.tooLarge": "{name}: větší než {bytes} bajtů, takže to není soubor stroje; neotevřeno",
+    "machine.notUtf8": "není to UTF-8, takže to není soubor stroje",
+    "machine.notJson": "není to JSON, možná je soubor useknutý",
+    "machine.twice": "jeden název je tam dvakrát a jedna z hodnot by se ztratila",
+    "machine.half": "v textu je půl znaku",
+    "machine.notMachine": "není to soubor stroje (.rkm)",
+    "machine.later": "soubor zapsaly novější nástroje; použijte novější stránku",
+    "machine.wrong": "",
+    "machine.limitsCrossed": "position_min_steps je nad position_max_steps",
+    "machine.noText": "program není text",
+    "machine.inputs": "čekají se řádky milisekundy,vstup,úroveň, například 500,3,1",
+    "machine.rule.string": "musí být text",
+    "machine.rule.number": "musí být číslo",
+    "machine.rule.integer": "musí být celé číslo",
+    "machine.rule.object": "musí být objekt",
+    "machine.rule.array": "musí být seznam",
+    "machine.rule.boolean": "musí být true nebo false",
+    "machine.rule.required": "chybí {name}",
+    "machine.rule.additionalProperties": "{name} není známo",
+    "machine.rule.minimum": "{value} je příliš málo; nejméně {limit}",
+    "machine.rule.maximum": "{value} je příliš mnoho; nejvýše {limit}",
+    "machine.rule.exclusiveMinimum": "{value} musí být více než {limit}",
+    "machine.rule.minLength": "nesmí být prázdné",
+    "machine.rule.maxLength": "je příliš dlouhé; nejvýše {limit} znaků",
+    "machine.rule.minItems": "musí být seznam o délce {limit}, jeden pro každý motor",
+    "machine.rule.maxItems": "musí být seznam o délce {limit}, jeden pro každý motor",
+    "machine.rule.not": "má steps_per_mm i steps_per_degree; ponechte jedno",
+    "machine.rule.other": "není, jak má být",
+};
+
+export type MachineKey = keyof typeof machineEn;
+export type MachineWords = Translate<MachineKey>;
+
+export const isMachineKey = (name: string): name is MachineKey => name in machineEn;
