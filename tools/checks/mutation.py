@@ -96,7 +96,10 @@ MODULES = (
     ),
     Module(
         "path", "engine/path",
-        ("path_divide.c", "path_fixed.c", "path_segment.c", "path_vector.c"), (),
+        (
+            "path.c", "path_divide.c", "path_fixed.c", "path_lay.c", "path_look.c", "path_root.c",
+            "path_segment.c", "path_vector.c",
+        ), (),
         ("unit/engine/path", "system/group"),
     ),
     Module("axis", "engine/axis", ("axis.c", "axis_state.c", "axis_stop.c"), ()),

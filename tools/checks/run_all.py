@@ -27,13 +27,11 @@ from types import MappingProxyType
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
 FUZZ_SECONDS = 10  # of exploration, each fuzzer
-FUZZ_SEED = (
-    1  # a run of some minutes tries the same inputs as the last one; a long one tries others
-)
+FUZZ_SEED = 1  # the same inputs in each run of some minutes; a long one tries others
 LONG_MINUTES = 4  # the same with --long
 SOAK_MINUTES = 24 * 60  # of unit time, with --long
 NICENESS = 10  # of what runs beside the Python tests
-TRIED_AGAIN = 3  # Python tests that may have failed for a busy machine; more is no accident
+TRIED_AGAIN = 6  # Python tests that may have failed for a busy machine; more is no accident
 SWEEPS = {"RKM04_LONG": "1", "RKM04_PROGRAMS": "11000", "RKM04_JOB": "100000"}  # with --long
 
 UNITY_SUMMARY = re.compile(r"^(\d+) Tests (\d+) Failures (\d+) Ignored", re.MULTILINE)

@@ -37,7 +37,9 @@ HOST = (
     "tools/simulator/*.c",
     "tools/simulator/wasm/*.c",
     "tools/gve134_host/*.c",
+    "tools/gve134_host/wasm/*.c",
     "tools/positioning_host/*.c",
+    "tools/positioning_host/wasm/*.c",
     "tools/vboard/*.c",
 )
 ARM = ("hal/stm32/*.c",)
