@@ -323,7 +323,8 @@ uint64_t positioning_serve(struct pos_unit *unit)
     if (hear(unit)) {
         return hal_time_now();
     }
-    uint64_t wake = modbus_poll(&unit->server, hal_time_now());
+    uint64_t now = hal_time_now(); /* before the look at the line, as that is to hold for it */
+    uint64_t wake = modbus_poll(&unit->server, now, hal_line_is_quiet());
     bool served = serve(unit);
     send(unit);
     return served ? hal_time_now() : wake;

@@ -142,6 +142,12 @@ bool hal_line_read_run(struct hal_line_run *run, uint8_t last)
     return true;
 }
 
+bool hal_line_is_quiet(void)
+{
+    const struct host_machine *machine = host_current();
+    return machine->line.heard_count == 0 && script_tick(machine) - machine->now >= machine->line.byte_ticks;
+}
+
 bool hal_line_write(uint8_t byte)
 {
     struct host_machine *machine = host_current();

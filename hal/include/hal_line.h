@@ -49,6 +49,10 @@ bool hal_line_read(struct hal_line_byte *byte);
  * False: there is none, or what there is came after the bytes of the call before it. */
 bool hal_line_read_run(struct hal_line_run *run, uint8_t last);
 
+/* Whether there is nothing to read, and no start bit has come since the last byte either: what has been read is all so
+ * far. Half duplex. Always false where the backend cannot tell. */
+bool hal_line_is_quiet(void);
+
 /* Gives a byte to be sent; false if there is no room now: then main gets a pass when there is. */
 bool hal_line_write(uint8_t byte);
 

@@ -1,3 +1,4 @@
+#include "stm32_edge.h"
 #include "stm32_line_private.h"
 
 enum {
@@ -22,6 +23,7 @@ static void receive(uint32_t status)
     uint32_t value = USART_DR(STM32_LINE_BASE) & UINT8_MAX; /* also ends the errors, RM0090 30.6.1 */
     bool broken = (status & (USART_SR_PE | USART_SR_FE | USART_SR_NF | USART_SR_ORE)) != 0;
     stm32_line.received_in = stm32_line_keep(stm32_line.received_in, TIM2_CNT, (uint8_t)value, broken);
+    EXTI_PR = STM32_EDGE_START; /* last: hal_line_is_quiet looks the other way round */
     if (value == (uint32_t)LAST) {
         stm32_event = true;
     }
@@ -83,6 +85,14 @@ bool hal_line_read(struct hal_line_byte *byte)
 bool hal_line_read_run(struct hal_line_run *run, uint8_t last)
 {
     return stm32_line_take_run(run, last);
+}
+
+/* A start bit that comes before the interrupt of the last byte is not seen, but its byte is complete long before a
+ * silence matters. */
+bool hal_line_is_quiet(void)
+{
+    bool begun = STM32_EDGE_START == 0U || (EXTI_PR & STM32_EDGE_START) != 0;
+    return !begun && stm32_line.received_out == stm32_line.received_in;
 }
 
 /* Serves the transmitter too, so that a byte goes out where the transmitter raises no interrupts (an emulator). */

@@ -145,3 +145,35 @@ def test_an_order_in_virtual_time_that_makes_no_sense_ends_the_run(program, buil
 
     assert done.returncode == 1
     assert "`until MS`" in done.stdout + done.stderr
+
+
+def falls_and_rises(run) -> list[float]:
+    """Bits from the first edge of a byte to each; levels must alternate, and end high."""
+    edges = run.result[: run.result[30]]
+    assert [edge & 1 for edge in edges] == [0, 1] * (len(edges) // 2)
+    return [(edge >> 1) / 8 for edge in edges]
+
+
+@pytest.mark.parametrize(
+    ("line", "form", "bits"),
+    [
+        ("55", "8N1", [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]),
+        ("00", "8N1", [0, 9]),
+        ("80", "8N2", [0, 8]),
+        ("FF", "8E1", [0, 1, 9, 10]),
+        ("FF!", "8E1", [0, 1]),
+        ("01", "8O1", [0, 1, 2, 10]),
+        ("FF00", "8N1", [0, 1, 10, 19]),
+    ],
+)
+def test_each_bit_is_to_be_seen_at_the_pin_of_the_receiver(run_image, line, form, bits):
+    options = ("--baud", "115200", "--format", form)
+    run = run_image("line_levels", *options, pins="line USART1\n", line=f"1 {line}\n")
+
+    assert falls_and_rises(run) == pytest.approx(bits, abs=0.2)
+
+
+def test_a_wrong_stop_bit_is_low_up_to_its_middle(run_image):
+    run = run_image("line_levels", "--baud", "115200", pins="line USART1\n", line="1 00*\n")
+
+    assert falls_and_rises(run) == pytest.approx([0, 9.5], abs=0.2)

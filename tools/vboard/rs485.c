@@ -21,11 +21,24 @@ static uint64_t half_bits_ps(const struct rs485 *line, uint64_t half_bits)
     return vtime_scale(half_bits, VTIME_PS_PER_SECOND / 2U, line->wires.baud);
 }
 
-/* From the start to the middle of the first stop bit. */
-static uint64_t half_bits_to_stop(const struct rs485 *line)
+/* The number of the first stop bit, that of the start bit being 0. */
+static unsigned stop_bit(const struct rs485 *line)
 {
     bool parity = line->wires.format == USART_8E1 || line->wires.format == USART_8O1;
-    return parity ? 21 : 19;
+    return parity ? 10 : 9;
+}
+
+/* The level of a bit of the byte on the bus. */
+static bool bit_level(const struct rs485 *line, unsigned bit)
+{
+    const struct rs485_byte *byte = &line->byte[line->next];
+    if (bit == stop_bit(line)) {
+        return (byte->damage & USART_FRAMING) == 0;
+    }
+    if (bit == 9) {
+        return usart_ninth_bit(line->wires.format, byte->value) != ((byte->damage & USART_PARITY) != 0);
+    }
+    return bit != 0 && (byte->value >> (bit - 1U) & 1) != 0;
 }
 
 static bool append(struct rs485 *line, struct rs485_byte byte)
@@ -178,16 +191,38 @@ static bool driver_is_on(const struct rs485 *line)
     return has_driver(line) && line->driver_on;
 }
 
-static void on_rs485_event(void *model, uint64_t cycle)
+static void set_level(const struct rs485 *line, bool level, uint64_t cycle)
 {
-    struct rs485 *line = model;
-    const struct rs485_byte *byte = &line->byte[line->next];
-    if (!line->arriving) {
-        line->arriving = true;
-        line->disturbed = driver_is_on(line);
-        clock_set_ps(line->wires.clock, EVENT_LINE, line->arrival_ps + half_bits_ps(line, half_bits_to_stop(line)));
-        return;
+    if (!line->disturbed) {
+        usart_set_level(line->wires.usart, level, cycle);
     }
+}
+
+static void begin_byte(struct rs485 *line, uint64_t cycle)
+{
+    line->arriving = true;
+    line->disturbed = driver_is_on(line);
+    line->bit = 0;
+    set_level(line, true, cycle); /* as the bus has been since the last byte */
+}
+
+/* A bit begins; next comes the one that differs, or the middle of the stop bit. */
+static void show_bit(struct rs485 *line, uint64_t cycle)
+{
+    unsigned stop = stop_bit(line);
+    bool level = bit_level(line, line->bit);
+    set_level(line, level, cycle);
+    do {
+        line->bit++;
+    } while (line->bit <= stop && bit_level(line, line->bit) == level);
+    uint64_t half_bits = line->bit <= stop ? UINT64_C(2) * line->bit : UINT64_C(2) * stop + 1U;
+    clock_set_ps(line->wires.clock, EVENT_LINE, line->arrival_ps + half_bits_ps(line, half_bits));
+}
+
+static void end_byte(struct rs485 *line, uint64_t cycle)
+{
+    const struct rs485_byte *byte = &line->byte[line->next];
+    set_level(line, true, cycle);
     if (line->disturbed) {
         line->collisions++;
     } else {
@@ -198,6 +233,19 @@ static void on_rs485_event(void *model, uint64_t cycle)
     line->free_ps = line->arrival_ps + half_bits_ps(line, UINT64_C(2) * usart_bits(line->wires.format));
     line->next++;
     plan(line);
+}
+
+static void on_rs485_event(void *model, uint64_t cycle)
+{
+    struct rs485 *line = model;
+    if (!line->arriving) {
+        begin_byte(line, cycle);
+    }
+    if (line->bit <= stop_bit(line)) {
+        show_bit(line, cycle);
+    } else {
+        end_byte(line, cycle);
+    }
 }
 
 static void on_begin(void *model)
@@ -251,6 +299,7 @@ void rs485_note_driver(struct rs485 *line, bool on, uint64_t cycle)
 {
     line->driver_on = on;
     if (on) {
+        usart_set_level(line->wires.usart, true, cycle); /* the receiver of the bus is off */
         line->disturbed = true;
         return;
     }

@@ -1,7 +1,7 @@
 /*
  * The line outside the unit: a half-duplex RS-485 bus at the transceiver of one USART. What a script or a client says
- * comes in byte by byte in virtual time; what the unit says goes out if its driver was on all the while. While the
- * unit drives the bus it hears nothing.
+ * comes in byte by byte in virtual time, and bit by bit at the pin of the receiver; what the unit says goes out if its
+ * driver was on all the while. While the unit drives the bus it hears nothing.
  *
  * A script has lines `ms bytes`: the time at which the first start bit begins, and bytes in hexadecimal, back to back,
  * blanks between them or not. After a byte, `*` makes its stop bit wrong (framing error), `!` its parity, and `~`
@@ -47,6 +47,7 @@ struct rs485 {
     size_t room;
     size_t next;
     bool arriving;  /* byte[next] is on the bus */
+    unsigned bit;   /* of it, that is to be shown next; after the first stop bit: none */
     bool disturbed; /* while the unit's driver was on */
     uint64_t arrival_ps;
     uint64_t free_ps; /* the bus is free for the next byte */

@@ -67,6 +67,16 @@ static bool is_connected(const struct usart *usart, const struct pin pins[PINS])
     return false;
 }
 
+void usart_set_level(struct usart *usart, bool level, uint64_t cycle)
+{
+    for (unsigned i = 0; i < PINS; i++) {
+        struct pin pin = receive_pins[usart->wires.number][i];
+        if (pin.port != NO_PORT && gpio_has_function(usart->wires.gpio, pin, GPIO_AF_USART1_TO_3)) {
+            gpio_set_outside(usart->wires.gpio, pin, level, cycle);
+        }
+    }
+}
+
 static uint64_t pclk_divider(const struct usart *usart)
 {
     return usart->wires.number == 0 ? usart->wires.conditions->pclk2_divider : usart->wires.conditions->pclk1_divider;
@@ -224,7 +234,7 @@ static bool is_odd(uint8_t value)
 }
 
 /* The level of the first bit after the eight in a format: parity, or a stop bit. */
-static bool ninth_of(enum usart_format format, uint8_t value)
+bool usart_ninth_bit(enum usart_format format, uint8_t value)
 {
     if (format == USART_8E1 || format == USART_8O1) {
         return is_odd(value) == (format == USART_8E1);
@@ -236,9 +246,9 @@ static bool ninth_of(enum usart_format format, uint8_t value)
  * parity is awaited and there is none, the next start bit may come where the stop bit should be. */
 static unsigned misread(enum usart_format own, enum usart_format format, uint8_t value)
 {
-    bool ninth = ninth_of(format, value);
+    bool ninth = usart_ninth_bit(format, value);
     if (own == USART_8E1 || own == USART_8O1) {
-        unsigned damage = ninth != ninth_of(own, value) ? USART_PARITY : 0U;
+        unsigned damage = ninth != usart_ninth_bit(own, value) ? USART_PARITY : 0U;
         return format == USART_8N1 ? damage | USART_FRAMING : damage;
     }
     return ninth ? 0U : USART_FRAMING;
@@ -296,7 +306,7 @@ static uint32_t read_data(struct usart *usart)
     usart->sr &= ~(usart->status_read & (SR_PE | SR_FE | SR_NF | SR_ORE | SR_IDLE));
     usart->sr &= ~(uint32_t)SR_RXNE;
     usart->status_read &= SR_TC;
-    bool parity = (usart->cr1 & CR1_M) != 0 && ninth_of(usart_format(usart), usart->received);
+    bool parity = (usart->cr1 & CR1_M) != 0 && usart_ninth_bit(usart_format(usart), usart->received);
     return usart->received | (uint32_t)parity << PARITY_BIT;
 }
 

@@ -61,7 +61,7 @@ struct usart_wires {
     struct report *report;
     struct nvic *nvic;
     const struct conditions *conditions;
-    const struct gpio *gpio;
+    struct gpio *gpio;
     struct requests *requests; /* null: none that is modelled */
 };
 
@@ -93,6 +93,13 @@ void usart_init(struct usart *usart, struct usart_wires wires);
 void usart_reset(struct usart *usart);
 bool usart_read(void *model, uint32_t offset, uint32_t *value);
 bool usart_write(void *model, uint32_t offset, uint32_t value, uint32_t mask);
+
+/* The level at the pins that the receiver is connected to; for who looks at the pins, as the receiver itself is told
+ * whole bytes. */
+void usart_set_level(struct usart *usart, bool level, uint64_t cycle);
+
+/* The ninth bit of a byte after the start bit: the parity, or a stop bit. */
+bool usart_ninth_bit(enum usart_format format, uint8_t value);
 
 /* The middle of the first stop bit of a byte that came with this rate and format. `damage` is a set of enum
  * usart_damage. */

@@ -240,13 +240,13 @@ static void begin_sending(struct modbus *server, uint64_t now_ticks)
     }
 }
 
-uint64_t modbus_poll(struct modbus *server, uint64_t now_ticks)
+uint64_t modbus_poll(struct modbus *server, uint64_t now_ticks, bool quiet)
 {
-    see(server, modbus_receiver_wait(&server->receiver, now_ticks));
+    see(server, modbus_receiver_wait(&server->receiver, now_ticks, quiet));
     if (server->state == (uint8_t)STATE_READY) {
         begin_sending(server, now_ticks);
     }
-    return modbus_receiver_wake(&server->receiver);
+    return modbus_receiver_wake(&server->receiver, now_ticks);
 }
 
 const struct modbus_request *modbus_next(struct modbus *server)

@@ -70,8 +70,8 @@ void modbus_init(struct modbus *server, const struct modbus_setup *setup);
 void modbus_take(struct modbus *server, const struct hal_line_byte *byte);
 
 /* Sees silence, and begins an answer that is due. Returns when to call again at the latest; TICK_NEVER: not before the
- * next byte or answer. All bytes that have come must have been taken. */
-uint64_t modbus_poll(struct modbus *server, uint64_t now_ticks);
+ * next byte or answer. All bytes that have come must have been taken; quiet: none has begun since. */
+uint64_t modbus_poll(struct modbus *server, uint64_t now_ticks, bool quiet);
 
 /* The request that is to be executed; NULL: there is none. To be asked after each modbus_take and each modbus_poll. It
  * holds until the next call of those. Who still has the one before must not answer that any more. */

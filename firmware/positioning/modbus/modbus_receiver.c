@@ -18,10 +18,6 @@ enum {
 #define FAST_SILENCE_TICKS (TICKS_PER_US * UINT32_C(1750))
 #define FAST_PAUSE_TICKS (TICKS_PER_US * UINT32_C(750))
 
-/* A byte that is on its way may have begun within T, which is known when it is complete. Who has a whole frame waits
- * no longer for that than this, as a request must act within 1 ms. */
-#define GOOD_WAIT_TICKS_MAX (TICKS_PER_US * UINT32_C(750))
-
 /* The ticks of some halves of a character; no product passes 2^32. */
 static uint32_t halves_ticks(uint32_t rate_bd, uint32_t character_bits, uint32_t halves)
 {
@@ -73,24 +69,20 @@ enum modbus_received modbus_receiver_wait_byte(struct modbus_receiver *receiver,
     return silent ? see_silence(receiver) : MODBUS_RECEIVED_NOTHING;
 }
 
-/* When the silence after the last byte is known to be T. What is not a good frame may still go on. */
-static uint64_t end_tick(const struct modbus_receiver *receiver)
+/* A byte that is on its way may have begun within T, which is known when it is complete. */
+enum modbus_received modbus_receiver_wait(struct modbus_receiver *receiver, uint64_t now_ticks, bool quiet)
 {
-    uint32_t later = receiver->character_ticks;
-    if (later > GOOD_WAIT_TICKS_MAX && judge(receiver) == MODBUS_RECEIVED_FRAME) {
-        later = GOOD_WAIT_TICKS_MAX;
+    uint64_t end_tick = silent_tick(receiver, quiet ? 0U : receiver->character_ticks);
+    return now_ticks >= end_tick ? see_silence(receiver) : MODBUS_RECEIVED_NOTHING;
+}
+
+uint64_t modbus_receiver_wake(const struct modbus_receiver *receiver, uint64_t now_ticks)
+{
+    if (receiver->state != (uint8_t)STATE_INSIDE) {
+        return TICK_NEVER;
     }
-    return silent_tick(receiver, later);
-}
-
-enum modbus_received modbus_receiver_wait(struct modbus_receiver *receiver, uint64_t now_ticks)
-{
-    return now_ticks >= end_tick(receiver) ? see_silence(receiver) : MODBUS_RECEIVED_NOTHING;
-}
-
-uint64_t modbus_receiver_wake(const struct modbus_receiver *receiver)
-{
-    return receiver->state == (uint8_t)STATE_INSIDE ? end_tick(receiver) : TICK_NEVER;
+    uint64_t tick = silent_tick(receiver, 0);
+    return now_ticks < tick ? tick : silent_tick(receiver, receiver->character_ticks);
 }
 
 static void begin_frame(struct modbus_receiver *receiver)

@@ -3,7 +3,7 @@
  *
  * Silence ends a frame, and only that: T, 3.5 characters up to 19 200 Bd and 1.75 ms above. There is no clock inside.
  * A byte has the tick of its end, so up to a character before that tick all silence is known; who waits says what time
- * it is. Main only. 288 bytes.
+ * it is, and whether a byte may be on its way. Main only. 288 bytes.
  */
 #ifndef MODBUS_RECEIVER_H
 #define MODBUS_RECEIVER_H
@@ -42,11 +42,12 @@ void modbus_receiver_init(struct modbus_receiver *receiver, uint32_t rate_bd, ui
 /* What silence up to the beginning of this byte means. To be called before modbus_receiver_take. */
 enum modbus_received modbus_receiver_wait_byte(struct modbus_receiver *receiver, const struct hal_line_byte *byte);
 
-/* What silence up to this tick means. All bytes that have come must have been taken. */
-enum modbus_received modbus_receiver_wait(struct modbus_receiver *receiver, uint64_t now_ticks);
+/* What silence up to this tick means. All bytes that have come must have been taken; quiet: none has begun since. */
+enum modbus_received modbus_receiver_wait(struct modbus_receiver *receiver, uint64_t now_ticks, bool quiet);
 
-/* When silence will mean something at the earliest; TICK_NEVER: not before the next byte. */
-uint64_t modbus_receiver_wake(const struct modbus_receiver *receiver);
+/* When silence will mean something at the earliest, after this tick has been waited for; TICK_NEVER: not before the
+ * next byte. */
+uint64_t modbus_receiver_wake(const struct modbus_receiver *receiver, uint64_t now_ticks);
 
 /* Takes one byte. */
 void modbus_receiver_take(struct modbus_receiver *receiver, const struct hal_line_byte *byte);

@@ -70,7 +70,7 @@ static inline void rig_start(uint32_t rate_bd, uint32_t character_bits)
 static inline uint64_t rig_poll_in(uint64_t ticks)
 {
     rig_tick += ticks;
-    return modbus_poll(&server, rig_tick);
+    return modbus_poll(&server, rig_tick, false);
 }
 
 /* T of silence, and a character in which a byte could still have come. */

@@ -76,9 +76,9 @@ static inline void pos_bench_take(struct pos_bench *bench, const struct hal_line
 /* What is due begins to be sent. */
 static inline void pos_bench_poll(struct pos_bench *bench, uint64_t now_ticks)
 {
-    (void)modbus_poll(&bench->server, now_ticks);
+    (void)modbus_poll(&bench->server, now_ticks, true);
     pos_bench_serve(bench);
-    (void)modbus_poll(&bench->server, now_ticks);
+    (void)modbus_poll(&bench->server, now_ticks, true);
 }
 
 #endif

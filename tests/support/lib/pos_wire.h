@@ -1,8 +1,7 @@
 /*
  * More for tests of the whole positioning unit, after pos_rig.h: frames byte by byte, whole or damaged, with any times
  * between the bytes; and what a unit at rest is, so that it can be seen that nothing has changed.
- *
- * Bytes take less time than RATE says, which the unit does not mind. To be included by one test program alone.
+ * To be included by one test program alone.
  */
 #ifndef POS_WIRE_H
 #define POS_WIRE_H
@@ -11,9 +10,9 @@
 #include "pos_rig.h"
 
 enum {
-    WIRE_BYTE_TICKS = 1000,
     WIRE_CHARACTER_TICKS = 48125,
     WIRE_SILENCE_TICKS = 168437, /* T, at 19 200 Bd */
+    WIRE_ANSWER_MS = 200,        /* of the longest one, and more */
     WIRE_ROOM = 600,
     WIRE_NONE = -1,
 };
@@ -46,11 +45,6 @@ struct wire_state {
 static struct wire_state wire_kept;
 static uint32_t wire_counts[MODBUS_COUNTS_TOTAL];
 
-static inline void wire_quick(void)
-{
-    host_machine_set_byte_ticks(&machine, WIRE_BYTE_TICKS);
-}
-
 static inline void wire_seal(struct wire_frame *frame)
 {
     uint16_t crc = MODBUS_CRC_START;
@@ -80,7 +74,7 @@ static inline void wire_begin(void)
 /* A byte after so many ticks of silence. */
 static inline void wire_put(uint8_t value, uint64_t silence_ticks, bool broken)
 {
-    wire_tick += silence_ticks + (silence_ticks != 0 ? WIRE_CHARACTER_TICKS : WIRE_BYTE_TICKS);
+    wire_tick += silence_ticks + WIRE_CHARACTER_TICKS;
     wire_script[wire_length++] = (struct host_line_byte){.tick = wire_tick, .value = value, .broken = broken};
 }
 
@@ -92,12 +86,13 @@ static inline void wire_put_frame(const struct wire_frame *frame, int broken)
     }
 }
 
-/* All of it comes, then T of silence and the byte that could be under way, and what is answered goes out. */
+/* All of it comes, then T of silence, and what is answered goes out. */
 static inline void wire_end(void)
 {
     host_machine_set_line(&machine, wire_script, wire_length);
-    rig_run_ticks(wire_tick - machine.now + WIRE_SILENCE_TICKS + WIRE_CHARACTER_TICKS + 2U * WIRE_BYTE_TICKS);
-    for (uint32_t i = 0; i < 20 && (modbus_is_sending(&unit.server) || machine.line.to_send_count != 0); i++) {
+    rig_run_ticks(wire_tick - machine.now + WIRE_SILENCE_TICKS + WIRE_CHARACTER_TICKS);
+    for (uint32_t i = 0; i < WIRE_ANSWER_MS && (modbus_is_sending(&unit.server) || machine.line.to_send_count != 0);
+         i++) {
         rig_run_ms(1);
     }
 }

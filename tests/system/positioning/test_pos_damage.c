@@ -41,7 +41,6 @@ void setUp(void)
 {
     trials = 0;
     rig_set_up();
-    wire_quick();
     rig_run_ms(10);
     put_axes();
     wire_keep();

@@ -22,11 +22,11 @@ static void move(void)
 }
 
 /* Runs until a request that is sent now is answered with what is so `ms` after the first tick of the motion: it has
- * come with T after it, and that is known a character later. */
+ * come with T after it. */
 static void run_until(uint64_t ms, uint32_t bytes)
 {
     uint64_t start = unit.axes[0].start_tick - machine.epoch;
-    uint64_t request = bytes * (uint64_t)machine.line.byte_ticks + (9U * (uint64_t)machine.line.byte_ticks) / 2U;
+    uint64_t request = bytes * (uint64_t)machine.line.byte_ticks + (7U * (uint64_t)machine.line.byte_ticks) / 2U;
     rig_run_ticks(start + ms * TICKS_PER_MS - request - machine.now);
 }
 

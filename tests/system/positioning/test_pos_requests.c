@@ -66,7 +66,6 @@ static void make_map(void)
 void setUp(void)
 {
     rig_set_up();
-    wire_quick();
     rig_run_ms(10);
     make_map();
     TEST_ASSERT_EQUAL_INT(POS_OK, pos_init(&unit, 2, 0)); /* so there are settings that are not to be written */

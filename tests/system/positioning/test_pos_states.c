@@ -155,7 +155,6 @@ static void brake(enum situation situation)
 static void come(enum situation situation)
 {
     rig_set_up();
-    wire_quick();
     rig_run_ms(10);
     set(LIMIT_PLUS, 1);
     set(REFERENCE, 2);

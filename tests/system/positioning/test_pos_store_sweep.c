@@ -31,14 +31,12 @@ static void restart(void)
 {
     host_machine_restart(&machine);
     rig_begin();
-    wire_quick();
     rig_run_ms(20);
 }
 
 void setUp(void)
 {
     rig_set_up();
-    wire_quick();
     rig_run_ms(20);
     area_is_full = false;
     points = 0;

@@ -251,6 +251,21 @@ void test_the_line_is_idle_when_all_has_been_sent(void)
     TEST_ASSERT_TRUE(hal_line_is_idle());
 }
 
+void test_the_line_is_quiet_unless_a_byte_is_on_its_way_or_unread(void)
+{
+    struct hal_line_byte byte;
+    const uint64_t end = UINT64_C(3) * HOST_LINE_BYTE_TICKS;
+    plan(end, 0, 1);
+    run_until(end - HOST_LINE_BYTE_TICKS);
+    TEST_ASSERT_TRUE(hal_line_is_quiet());
+    run_until(end - HOST_LINE_BYTE_TICKS + 1U);
+    TEST_ASSERT_FALSE(hal_line_is_quiet());
+    run_until(end + 1U);
+    TEST_ASSERT_FALSE(hal_line_is_quiet());
+    TEST_ASSERT_TRUE(hal_line_read(&byte));
+    TEST_ASSERT_TRUE(hal_line_is_quiet());
+}
+
 void test_nobody_needs_to_listen(void)
 {
     machine.listener.line = NULL;

@@ -455,10 +455,10 @@ void test_main_is_called_when_silence_means_something(void)
     struct rig_frame frame = rig_sealed("01 06 00 64 01 01");
     TEST_ASSERT_EQUAL_UINT64(TICK_NEVER, rig_poll_in(0));
     rig_take(frame.bytes, frame.length);
-    uint64_t end = rig_tick + RIG_SILENCE_TICKS + RIG_CHARACTER_TICKS;
+    uint64_t end = rig_tick + RIG_SILENCE_TICKS;
     TEST_ASSERT_EQUAL_UINT64(end, rig_poll_in(0));
-    rig_tick = end;
-    TEST_ASSERT_EQUAL_UINT64(TICK_NEVER, rig_poll_in(0));
+    TEST_ASSERT_EQUAL_UINT64(end + RIG_CHARACTER_TICKS, rig_poll_in(RIG_SILENCE_TICKS));
+    TEST_ASSERT_EQUAL_UINT64(TICK_NEVER, rig_poll_in(RIG_CHARACTER_TICKS));
     (void)assert_next(100, 1, 0, 0);
     answer(NULL);
     TEST_ASSERT_EQUAL_UINT64(TICK_NEVER, rig_poll_in(0));

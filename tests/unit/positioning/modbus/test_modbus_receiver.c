@@ -34,7 +34,7 @@ static void begin(const struct times *times)
 {
     modbus_receiver_init(&receiver, times->rate_bd, times->bits, tick);
     tick += (uint64_t)times->character + times->silence;
-    TEST_ASSERT_EQUAL(MODBUS_RECEIVED_NOTHING, modbus_receiver_wait(&receiver, tick));
+    TEST_ASSERT_EQUAL(MODBUS_RECEIVED_NOTHING, modbus_receiver_wait(&receiver, tick, false));
 }
 
 /* A byte whose end is so long after the end of the one before. */
@@ -62,7 +62,7 @@ static void take_good(void)
 static enum modbus_received wait_in(uint64_t ticks)
 {
     tick += ticks;
-    return modbus_receiver_wait(&receiver, tick);
+    return modbus_receiver_wait(&receiver, tick, false);
 }
 
 static enum modbus_received wait_long(void)
@@ -79,7 +79,7 @@ void setUp(void)
 void tearDown(void)
 {
     TEST_ASSERT_EQUAL(MODBUS_RECEIVED_NOTHING, wait_long());
-    TEST_ASSERT_EQUAL_UINT64(TICK_NEVER, modbus_receiver_wake(&receiver));
+    TEST_ASSERT_EQUAL_UINT64(TICK_NEVER, modbus_receiver_wake(&receiver, tick));
 }
 
 void test_the_crc_of_the_check_text_is_4B37(void)
@@ -128,26 +128,32 @@ void test_a_byte_that_began_a_tick_before_T_belongs_to_the_frame_with_a_pause(vo
     }
 }
 
-void test_the_frame_that_goes_on_is_waited_for_as_long_as_a_byte_may_be_under_way(void)
+void test_a_frame_has_come_with_T_of_silence_where_no_byte_is_on_its_way(void)
 {
     for (unsigned i = 0; i < (unsigned)TIMES; i++) {
-        begin(&all_times[i]);
-        take_all(good_frame, 4);
-        uint64_t end = (uint64_t)all_times[i].character + all_times[i].silence;
-        TEST_ASSERT_EQUAL_UINT64(tick + end, modbus_receiver_wake(&receiver));
-        TEST_ASSERT_EQUAL(MODBUS_RECEIVED_NOTHING, wait_in(end - 1U));
-        TEST_ASSERT_EQUAL(MODBUS_RECEIVED_CRC, wait_in(1));
+        for (uint32_t bytes = 4; bytes <= sizeof good_frame; bytes += 4) {
+            begin(&all_times[i]);
+            take_all(good_frame, bytes);
+            uint64_t end = tick + all_times[i].silence;
+            TEST_ASSERT_EQUAL_UINT64(end, modbus_receiver_wake(&receiver, tick));
+            TEST_ASSERT_EQUAL_UINT64(end, modbus_receiver_wake(&receiver, end - 1U));
+            TEST_ASSERT_EQUAL(MODBUS_RECEIVED_NOTHING, modbus_receiver_wait(&receiver, end - 1U, true));
+            TEST_ASSERT_EQUAL(bytes == sizeof good_frame ? MODBUS_RECEIVED_FRAME : MODBUS_RECEIVED_CRC,
+                              modbus_receiver_wait(&receiver, end, true));
+            TEST_ASSERT_EQUAL_UINT64(TICK_NEVER, modbus_receiver_wake(&receiver, end));
+            tick = end;
+        }
     }
 }
 
-void test_a_whole_frame_has_come_one_character_after_T_and_750_us_at_the_latest(void)
+void test_a_byte_that_may_be_on_its_way_is_waited_for(void)
 {
     for (unsigned i = 0; i < (unsigned)TIMES; i++) {
         begin(&all_times[i]);
         take_good();
-        uint32_t later = all_times[i].character < 63000U ? all_times[i].character : 63000U;
-        uint64_t end = (uint64_t)all_times[i].silence + later;
-        TEST_ASSERT_EQUAL_UINT64(tick + end, modbus_receiver_wake(&receiver));
+        uint64_t end = (uint64_t)all_times[i].character + all_times[i].silence;
+        TEST_ASSERT_EQUAL_UINT64(tick + end, modbus_receiver_wake(&receiver, tick + all_times[i].silence));
+        TEST_ASSERT_EQUAL_UINT64(tick + end, modbus_receiver_wake(&receiver, tick + end - 1U));
         TEST_ASSERT_EQUAL(MODBUS_RECEIVED_NOTHING, wait_in(end - 1U));
         TEST_ASSERT_EQUAL(MODBUS_RECEIVED_FRAME, wait_in(1));
     }
@@ -181,7 +187,7 @@ void test_nothing_is_received_before_the_bus_has_been_silent_for_T_since_the_sta
 {
     modbus_receiver_init(&receiver, 19200, 11, tick);
     TEST_ASSERT_EQUAL(MODBUS_RECEIVED_NOTHING, wait_in(100));
-    TEST_ASSERT_EQUAL_UINT64(TICK_NEVER, modbus_receiver_wake(&receiver));
+    TEST_ASSERT_EQUAL_UINT64(TICK_NEVER, modbus_receiver_wake(&receiver, tick));
     (void)take_after((uint64_t)receiver.silence_ticks, 0x55, false);
     take_good();
     TEST_ASSERT_EQUAL(MODBUS_RECEIVED_NOTHING, wait_long());
