@@ -76,7 +76,7 @@ export class Plan {
         const stepping = new Stepping(programs, (range) => this.#request(range));
         this.#stepping = stepping;
         stepping.setCurve(this.#curve);
-        stepping.at.onChange(() => [this.#charts.speed, this.#charts.position].forEach((chart) => chart.redraw()));
+        stepping.at.onChange(() => this.#redraw());
     }
 
     /** To be called when a program has changed; the curve follows shortly. */
@@ -87,6 +87,7 @@ export class Plan {
     /** To be called when the parser has seen a program. */
     programsChecked(): void {
         this.#stepping?.show();
+        this.#redraw();
     }
 
     /** To be called when another program has taken the place of one: all of it is to be seen. */
@@ -189,6 +190,11 @@ export class Plan {
     #zoomed(): void {
         this.#draw();
         this.#refine();
+    }
+
+    /** Draws the same again, with the marks as they are now. */
+    #redraw(): void {
+        [this.#charts.speed, this.#charts.position].forEach((chart) => chart.redraw());
     }
 
     #draw(): void {
