@@ -23,7 +23,8 @@ POLL_SECONDS = 0.05
 LISTENS = re.compile(r"WebDriver BiDi listening on (ws://\S+)")
 KEYS = {"Escape": "\ue00c", "Control": "\ue009"}
 MIDDLE = "{ block: 'center' }"
-LEFT = "was interrupted while the page was loading"  # of a socket, when its page is left
+LOST = re.compile("was interrupted while the page was loading|can’t establish a connection to")
+"""What Firefox says itself of a socket whose page is left, or whose service has ended."""
 
 
 @contextlib.contextmanager
@@ -78,7 +79,7 @@ class Firefox:
                 return told["result"]
 
     def _note(self, entry: Any) -> None:
-        if entry["type"] == "javascript" and LEFT not in entry["text"]:
+        if entry["type"] == "javascript" and not LOST.search(entry["text"]):
             self.faults.append(entry["text"])
 
     def open(self, url: str, script: str = "") -> None:

@@ -61,7 +61,6 @@ def test_a_kill_at_any_moment_leaves_the_old_program_or_the_new_one(serve, tmp_p
         talker.ask(b"\x021\\W%d" % count)
         if not seconds:
             seconds = seconds_of_storing(talker)
-            found = b"W%d" % count
         talker.send(frame(1, 99, b"\x031"))
         time.sleep(rng.uniform(0.0, 2 * seconds))
         served.end(signal.SIGKILL)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import signal
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -18,6 +19,7 @@ from typing import Any
 ENDED_BEFORE = "the tool was ended before the unit had confirmed the stop"
 TWICE_SECONDS = 0.3
 """A second signal before that is the same wish: the stop has gone out by then."""
+NUDGE_SECONDS = 0.1
 SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT")
 # Letters of five rows and five columns, a row a number, the left column its highest bit.
 LETTERS = {
@@ -87,6 +89,34 @@ class Stopper:
         if time.monotonic() >= self._at_once_from:
             raise KeyboardInterrupt
         self._asked = self._at_once_from == math.inf
+
+
+@contextmanager
+def nudged() -> Iterator[None]:
+    """Inside this the main thread notices a signal soon, whatever it waits in.
+
+    One that comes just before readline waits has set a flag only, at which nothing looks until
+    a key is pressed. Here each nudge interrupts that wait, and Python looks. SIGURG is ignored
+    where nobody handles it, so one that comes late does no harm.
+    """
+    if not hasattr(signal, "SIGURG"):  # on Windows, where the wait ends by itself
+        yield
+        return
+    before = signal.signal(signal.SIGURG, lambda number, frame: None)
+    main, ended = threading.get_ident(), threading.Event()
+
+    def nudge() -> None:
+        while not ended.wait(NUDGE_SECONDS):
+            signal.pthread_kill(main, signal.SIGURG)
+
+    nudger = threading.Thread(target=nudge, daemon=True)
+    nudger.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        nudger.join()
+        signal.signal(signal.SIGURG, before)
 
 
 def shout(why: str) -> None:

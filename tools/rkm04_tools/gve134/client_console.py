@@ -20,7 +20,7 @@ from rkm04_tools.gve134.sending import LONG_SECONDS
 from rkm04_tools.gve134.stopping import halt_at_signal
 from rkm04_tools.gve134.unit import Unit, is_memory_write
 from rkm04_tools.line_errors import LineError, PortError
-from rkm04_tools.stopper import Stopper
+from rkm04_tools.stopper import Stopper, nudged
 
 TYPED = re.compile(r"(?:!7)?[\x20\x22-\x7e]+")
 PROMPT = "> "
@@ -65,7 +65,8 @@ def _line(stopper: Stopper, is_typed: bool) -> str:
         if not is_typed:
             return sys.stdin.readline()
         try:
-            return input(PROMPT) + "\n"
+            with nudged():
+                return input(PROMPT) + "\n"
         except EOFError:
             return ""
 
