@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import cos, sin
 
 CLOSING_MM = 0.005
 """What the rounding of coordinates to three decimals, or four of an inch, leaves open at most."""
@@ -48,12 +49,13 @@ class Arc:
 
     def corners(self, chords: int) -> Iterator[Point]:
         """The ends of the chords but for the last, which is the end of the arc."""
-        growth = self.end_radius - self.begin_radius
+        begin, first, turn = self.begin_radius, self.angle, self.turn
+        growth = self.end_radius - begin
         for i in range(1, chords):
             part = i / chords
-            radius = self.begin_radius + growth * part
-            angle = self.angle + self.turn * part
-            yield radius * math.cos(angle), radius * math.sin(angle)
+            radius = begin + growth * part
+            angle = first + turn * part
+            yield radius * cos(angle), radius * sin(angle)
 
 
 def arc_around(centre: Point, end: Point, clockwise: bool, closing: float) -> Arc:

@@ -52,8 +52,8 @@ class Path:
     """mm, by kind; of moves of A alone, degrees."""
     turned: float = 0.0
     slowed_arcs: int = 0
-    _scales: list[tuple[int, int]] = field(init=False)
-    """Pulses of a part, as a fraction whose denominator is even, and half of that."""
+    _scales: list[tuple[int, int, int]] = field(init=False)
+    """Pulses of a part, as a fraction, and half of its denominator, which is even."""
     _per_unit: list[float] = field(init=False)
     _is_even: bool = field(init=False)
     """X, Y and Z have pulses of one length."""
@@ -61,7 +61,9 @@ class Path:
     def __post_init__(self) -> None:
         per_unit = [axis.steps_per_unit if axis else Fraction(1) for axis in self.mill.axes]
         scales = [each / PARTS for each in per_unit]
-        self._scales = [(2 * scale.numerator, 2 * scale.denominator) for scale in scales]
+        self._scales = [
+            (2 * scale.numerator, 2 * scale.denominator, scale.denominator) for scale in scales
+        ]
         self._per_unit = [float(each) for each in per_unit]
         self._is_even = len(set(per_unit[:3])) == 1
         self.steps = [self._rounded(index) for index in AXES]
@@ -69,13 +71,9 @@ class Path:
     def line_to(self, target: list[int], pace: Pace, kind: str) -> None:
         """Go straight to a position."""
         steps = self._go(target)
-        if not any(steps):
-            return
-        if kind is RAPID:
-            self._measure(steps, kind)
-            self.writer.join(steps, 0.0, True)
-        else:
-            self.writer.join(steps, self._rate(steps, pace, kind), False)
+        if any(steps):
+            rate, extent = self._rate(steps, pace, kind)
+            self.writer.join(steps, extent, rate, kind is RAPID)
 
     def probe_to(self, target: list[int], pace: Pace) -> None:
         """Go straight to a position, where the sensor may end the way."""
@@ -83,7 +81,8 @@ class Path:
         steps = self._go(target)
         if not any(steps):
             raise OutOfReach("G38.2: the way is shorter than a pulse")
-        self.writer.probe(steps, self._rate(steps, pace, PROBE))
+        rate, extent = self._rate(steps, pace, PROBE)
+        self.writer.probe(steps, extent, rate)
         self.unknown.update(moved)
         self.homed.difference_update(moved)
 
@@ -115,25 +114,35 @@ class Path:
         self.homed.add(index)
 
     def _rounded(self, index: int) -> int:
-        numerator, denominator = self._scales[index]
-        return (numerator * self.parts[index] + denominator // 2) // denominator
+        numerator, denominator, half = self._scales[index]
+        return (numerator * self.parts[index] + half) // denominator
 
     def _go(self, target: list[int]) -> Steps:
         """Take a position; the pulses that lead there."""
         if self.homed:
             self._require_reach(target)
-        (n0, d0), (n1, d1), (n2, d2), (n3, d3) = self._scales
-        x = (n0 * target[0] + d0 // 2) // d0
-        y = (n1 * target[1] + d1 // 2) // d1
-        z = (n2 * target[2] + d2 // 2) // d2
-        a = (n3 * target[3] + d3 // 2) // d3
+        (n0, d0, h0), (n1, d1, h1), (n2, d2, h2), (n3, d3, h3) = self._scales
         x0, y0, z0, a0 = self.steps
+        now, (to_x, to_y, to_z, to_a) = self.parts, target
+        x = (n0 * to_x + h0) // d0
+        y = (n1 * to_y + h1) // d1
+        z = z0 if to_z == now[2] else (n2 * to_z + h2) // d2
+        a = a0 if to_a == now[3] else (n3 * to_a + h3) // d3
         self.parts, self.steps = target, [x, y, z, a]
         return x - x0, y - y0, z - z0, a - a0
 
-    def _rate(self, steps: Steps, pace: Pace, kind: str) -> float:
-        """Pulses/s of X, Y and Z together, or of A alone."""
-        length, extent = self._measure(steps, kind)
+    def _rate(self, steps: Steps, pace: Pace, kind: str) -> tuple[float, float]:
+        """Pulses/s of X, Y and Z together, or of A alone, and their way in pulses."""
+        x, y, z, a = steps
+        extent = sqrt(x * x + y * y + z * z)
+        length = 0.0
+        if extent:
+            x_per, y_per, z_per, _ = self._per_unit
+            length = extent / x_per if self._is_even else hypot(x / x_per, y / y_per, z / z_per)
+            self.lengths[kind] += length
+        else:
+            extent = abs(a)
+            self.turned += extent / self._per_unit[3]
         if pace.seconds:
             rate = extent / pace.seconds
         elif length:
@@ -142,20 +151,8 @@ class Path:
             rate = pace.turn * self._per_unit[3]
         if pace.cap and length and rate > (most := pace.cap * extent / length):
             self.slowed_arcs += 1
-            return most
-        return rate
-
-    def _measure(self, steps: Steps, kind: str) -> tuple[float, float]:
-        """The way of X, Y and Z in mm, and in pulses; where they rest, 0 and that of A."""
-        x, y, z, a = steps
-        extent = sqrt(x * x + y * y + z * z)
-        if not extent:
-            self.turned += abs(a) / self._per_unit[3]
-            return 0.0, abs(a)
-        x_per, y_per, z_per, _ = self._per_unit
-        length = extent / x_per if self._is_even else hypot(x / x_per, y / y_per, z / z_per)
-        self.lengths[kind] += length
-        return length, extent
+            rate = most
+        return rate, extent
 
     def _bend(self, arc: Arc, plane: tuple[int, int]) -> float:
         """The speed at which the axes' acceleration just keeps them on an arc, mm/s."""

@@ -143,12 +143,17 @@ def turn_file(
     lines: Iterable[bytes], name: str, mill: Mill, put: Callable[[str], object],
     tolerance: float = TOLERANCE_MM, start: Start = NO_START,
 ) -> Turned:  # fmt: skip
-    """Turn a program; `put` gets pieces of the vector file, lines with their ends."""
-    turning = Turning(mill, put, tolerance, start)
+    """Turn a program; `put` gets pieces of the vector file, of whole lines."""
+    pieces: list[str] = []
+    turning = Turning(mill, pieces.append, tolerance, start)
     turning.writer.begin(name)
     for line in lines:
         turning.take(line.decode("ascii") if line.isascii() else decode(line))
-    return turning.end()
+        put("".join(pieces))
+        pieces.clear()
+    turned = turning.end()
+    put("".join(pieces))
+    return turned
 
 
 def _first_column(text: str) -> int:

@@ -6,7 +6,6 @@ Lines that begin with ;@ are for the host (see the README): a unit would not tak
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import sqrt
 
 from rkm04_tools.gve134.gcode.axes import PULSES_LEAST, PULSES_TOP, Axis, Homing, Mill
 from rkm04_tools.gve134.gcode.corners import Corners, Side
@@ -51,7 +50,12 @@ class Writer:
         """B as it was written last."""
         self._held: tuple[str, Side | None] | None = None
         """A vector whose B follows from the next one."""
+        self._slowest = min(self._speeds)
+        """At most that of all axes can be kept on any way."""
         self._accels = [axis.accel if axis else ACCEL_TOP * ACCEL_UNIT for axis in mill.axes]
+        x_accel, y_accel, *_ = self._accels
+        self._flat_accel = x_accel // ACCEL_UNIT if x_accel == y_accel else 0
+        """As A has it, of ways of X and Y alone; 0: it depends on them."""
 
     def begin(self, name: str) -> None:
         """Write what holds for the whole file."""
@@ -71,13 +75,13 @@ class Writer:
             self._held = None
         self._put(f"{text}\n")
 
-    def join(self, steps: Steps, rate: float, is_rapid: bool = False) -> None:
+    def join(self, steps: Steps, extent: float, rate: float, is_rapid: bool = False) -> None:
         """Write a vector that joins the one before.
 
-        The rate is in pulses/s of X, Y and Z together, or of the longest axis if they rest; of a
-        rapid one the axes' limits alone count.
+        Extent and rate are in pulses and pulses/s of X, Y and Z together, or of A if they rest; of
+        a rapid one the axes' limits alone count.
         """
-        modal = self._pace(steps, rate, is_rapid)
+        modal = self._pace(steps, extent, rate, is_rapid)
         x, y, z, a = steps
         text = f"C{x},{y},{z},{a}\n"
         if self.line != self._told_line:
@@ -133,7 +137,7 @@ class Writer:
         self.say(f"W{axis.letter}{','.join(map(str, run))} ; line {self.line}")
         self.say(f"N{axis.letter}{homing.position_steps}")
 
-    def probe(self, steps: Steps, rate: float) -> None:
+    def probe(self, steps: Steps, extent: float, rate: float) -> None:
         """Write a vector that the tool sensor ends, and have the host go back to where it did."""
         sensor = self.mill.probe
         assert sensor is not None
@@ -141,7 +145,7 @@ class Writer:
         self.sync()
         self.wait(AT_REST_S)
         self.say(f"SW3,{bit if sensor.opens else 0:02X}\nSW1,{bit:02X}")
-        self._put(self._pace(steps, rate, False))
+        self._put(self._pace(steps, extent, rate, False))
         self.say(f"L{','.join(map(str, steps))} ; line {self.line}")
         self.say(";@probe")
         self.vectors += 1
@@ -170,20 +174,21 @@ class Writer:
             self.say(f"O0,{port:02X}")
         self.port, self._port_told = port, True
 
-    def _pace(self, steps: Steps, rate: float, is_rapid: bool) -> str:
+    def _pace(self, steps: Steps, extent: float, rate: float, is_rapid: bool) -> str:
         """V, VK or VN, and A where they change, as lines."""
         x, y, z, a = map(abs, steps)
         longest = max(x, y, z, a)
         if longest > STEPS_MAX:
             raise TooSlow(f"the way is longer than {STEPS_MAX} pulses of an axis; divide it")
-        extent = sqrt(x * x + y * y + z * z) or longest
-        v0, v1, v2, v3 = self._speeds
-        limit = extent / max(x / v0, y / v1, z / v2, a / v3)
-        if is_rapid:
-            rate = max(limit, PULSES_TOP)
-        elif rate > limit * 1.001:
-            self.slowed += 1
-        corrected = min(rate, limit) <= PULSES_TOP
+        corrected = True
+        if is_rapid or rate > self._slowest:
+            v0, v1, v2, v3 = self._speeds
+            limit = extent / max(x / v0, y / v1, z / v2, a / v3)
+            if is_rapid:
+                rate = max(limit, PULSES_TOP)
+            elif rate > limit * 1.001:
+                self.slowed += 1
+            corrected = min(rate, limit) <= PULSES_TOP
         whole = PULSES_TOP if is_rapid else round(rate if corrected else rate * longest / extent)
         if whole < PULSES_LEAST:
             raise TooSlow(f"the feed is too low: the unit makes {PULSES_LEAST} pulses/s at least")
@@ -194,9 +199,12 @@ class Writer:
         if (whole := min(whole, PULSES_TOP)) != self._rate:
             self._rate = whole
             modal += f"V{whole}\n"
-        a0, a1, a2, a3 = self._accels
-        accel = longest / max(x / a0, y / a1, z / a2, a / a3)
-        return modal + self._accel_text(int(accel * (1 + 1e-12)) // ACCEL_UNIT)
+        accel = self._flat_accel
+        if z or a or not accel:
+            a0, a1, a2, a3 = self._accels
+            least = longest / max(x / a0, y / a1, z / a2, a / a3)
+            accel = int(least * (1 + 1e-12)) // ACCEL_UNIT
+        return modal if accel == self._accel else modal + self._accel_text(accel)
 
     def _accel_text(self, accel: int) -> str:
         accel = min(accel, ACCEL_TOP)
