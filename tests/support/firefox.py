@@ -23,7 +23,7 @@ POLL_SECONDS = 0.05
 LISTENS = re.compile(r"WebDriver BiDi listening on (ws://\S+)")
 KEYS = {"Escape": "\ue00c", "Control": "\ue009"}
 MIDDLE = "{ block: 'center' }"
-LOST = re.compile("was interrupted while the page was loading|can’t establish a connection to")
+LOST = re.compile("was interrupted while the page was loading|establish a connection to the server")
 """What Firefox says itself of a socket whose page is left, or whose service has ended."""
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rkm04_tools import board, target_rows, target_run, virtual_board
+from rkm04_tools.positioning import frames
 from rkm04_tools.positioning.bench import line, loads, reactions, target
 from rkm04_tools.positioning.bench.line import Asked, Said
 from rkm04_tools.target_run import Rig
@@ -48,6 +49,16 @@ def test_a_request_changes_pulses_after_it_has_come(rig, monkeypatch):
 
 
 @on_target
+def test_a_measure_begins_after_its_request_has_come(rig, monkeypatch):
+    monkeypatch.setattr(reactions, "STARTS", 2)
+
+    figures = reactions.start(rig)
+
+    assert figures["late_start"] == 0
+    assert 100 < figures["begins_start"] < 5000
+
+
+@on_target
 def test_a_request_changes_a_slow_cruise_between_two_pulses(rig, monkeypatch):
     monkeypatch.setattr(reactions, "SLOW_ROUNDS", 1)
 
@@ -78,7 +89,7 @@ def test_a_limit_input_changes_pulses_after_its_edge(rig, monkeypatch):
 
 
 def test_a_request_has_come_when_the_silence_of_its_rate_is_over():
-    text = line.read(0, 1)
+    text = frames.read(0, 1)
 
     assert Asked(10.0, text).come_ms == pytest.approx(10 + 8 * 11 / 115.2 + 1.75)
     assert Asked(10.0, text, 19_200).come_ms == pytest.approx(10 + (8 + 3.5) * 11 / 19.2)
@@ -97,13 +108,13 @@ def test_the_end_of_a_slow_cruise_is_found_from_the_pulses(part):
 
 
 def test_frames_have_the_sum_of_the_contract():
-    assert line.write(0x64, [0x0101])[:3] == bytes([1, 16, 0])
-    assert line.sealed(bytes.fromhex("03 00 00 00 01")) == bytes.fromhex("010300000001840A")
+    assert frames.write(0x64, [0x0101])[:3] == bytes([1, 16, 0])
+    assert frames.sealed(bytes.fromhex("03 00 00 00 01")) == bytes.fromhex("010300000001840A")
 
 
 def test_a_request_without_its_answer_is_counted():
-    asked = [Asked(15.0 * i, line.read(0, 1)) for i in range(4)]
-    answer = line.sealed(bytes([3, 2, 0, 1]))
+    asked = [Asked(15.0 * i, frames.read(0, 1)) for i in range(4)]
+    answer = frames.sealed(bytes([3, 2, 0, 1]))
     said = [
         Said(asked[0].end_ms + 3, answer),
         Said(asked[1].end_ms + 3, answer[:-1] + b"?"),

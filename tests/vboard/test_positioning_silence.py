@@ -1,4 +1,4 @@
-"""When the positioning unit's image on the virtual board takes a frame: with T of silence, not before.
+"""When the positioning unit's image on the virtual board takes a frame: with T of silence.
 
 As delivered the line has 19 200 Bd and 8E1. The first frame is for another unit, the second is the
 request; who joins them has neither.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from rkm04_tools import board, completion
+from rkm04_tools import board, completion, sim_target
 from rkm04_tools.cli import (
     Commands,
     Parser,
@@ -18,6 +18,7 @@ from rkm04_tools.positioning import check, listing, serve
 from rkm04_tools.positioning.client_options import (
     FORMAT,
     RATE,
+    RATES,
     add_client_commands,
     add_line_options,
 )
@@ -43,6 +44,15 @@ The lines may come in any order; of two at the same time the later one acts last
 
 The simulation ends when the script is over and the axes stand, or at the limit of time. Steps,
 trace and waveforms are those of rkm04 sim, with motors 1 to 4 for axes 1 to 4.
+
+--target stm32 plays FILE to the image of a board on the virtual board (modelled, not measured), as
+a master over its line, and tells its load and its late steps. Each line of FILE is a request, which
+goes out at its time, or later, when the one before it is answered; POS_CONTROL of the same time for
+axes that follow each other is one for all of them. At 115200 Bd, which are stored before, a request
+acts 3 to 5 ms after it begins, and takes the line for 8 ms at most; --baud 19200 is the line as it
+is delivered. There is no --trace and --plot. Times in FILE and INPUTS count from 50 ms after
+power-on, those in the files that are written from power-on. WATCHDOG counts from request to
+request there, on the simulator from the start.
 """
 BENCH_NOTES = """\
 --target stm32 runs the image of the reference board on the virtual board (modelled, not measured):
@@ -167,7 +177,8 @@ def _add_sim(commands: Commands) -> None:
     title = "play a script of instructions to the simulated unit, in virtual time"
     example = (
         "positioning sim moves.csv --plot moves.svg\n"
-        "  positioning sim moves.csv --inputs inputs.csv --for 10 --vcd moves.vcd"
+        "  positioning sim moves.csv --inputs inputs.csv --for 10 --vcd moves.vcd\n"
+        "  positioning sim moves.csv --target stm32 --steps board.csv"
     )
     notes = f"{SCRIPT_NOTES}\n{SIM_NOTES.rstrip()}"
     command = add_command(commands, "sim", _sim, title, f"{example}\n\n{notes}")
@@ -178,6 +189,11 @@ def _add_sim(commands: Commands) -> None:
     )  # fmt: skip
     for flag, metavar, text in SIM_OPTIONS:
         command.add_argument(flag, metavar=metavar, help=text)
+    sim_target.add_arguments(command, NAME)
+    command.add_argument(
+        "--baud", type=int, choices=RATES, metavar="BD",
+        help=f"with {sim_target.TARGET}: the rate of the line (default: {RATES[-1]})",
+    )  # fmt: skip
 
 
 def _add_registers(commands: Commands) -> None:

@@ -48,13 +48,10 @@ def line_text(told: Mapping[str, Any]) -> str:
 def summary(answer: Mapping[str, Any], limit: str) -> str:
     """The table of the axes, the times, and why the simulation ended."""
     rows = [_row(axis) for axis in answer["axes"]]
-    lines = [table([HEAD, *rows], "rrrrrrrl"), "", times(answer), _end(answer, limit)]
+    lines = [table([HEAD, *rows], "rrrrrrrl"), "", times(answer), end_text(answer, limit)]
     if answer["late_steps"]:
         lines.append(f"{thousands(answer['late_steps'])} pulses came too late")
-    if (left := answer["lines"] - answer["executed"]) > 0:
-        are = "line of the script was" if left == 1 else "lines of the script were"
-        lines.append(f"{thousands(left)} {are} not due")
-    return "\n".join(lines)
+    return "\n".join([*lines, *lines_notes(answer)])
 
 
 def _row(axis: Mapping[str, Any]) -> tuple[str, ...]:
@@ -70,7 +67,17 @@ def _row(axis: Mapping[str, Any]) -> tuple[str, ...]:
     )
 
 
-def _end(answer: Mapping[str, Any], limit: str) -> str:
+def end_text(answer: Mapping[str, Any], limit: str) -> str:
+    """Why it ended."""
     if answer["ended"] == "idle":
         return "ended because the script is over and the axes stand"
     return f"ended at the limit of {limit} s; --for SECONDS sets another one"
+
+
+def lines_notes(answer: Mapping[str, Any]) -> list[str]:
+    """What has become of lines that were not executed."""
+    left = answer["lines"] - answer["executed"]
+    if left <= 0:
+        return []
+    are = "line of the script was" if left == 1 else "lines of the script were"
+    return [f"{thousands(left)} {are} not due"]

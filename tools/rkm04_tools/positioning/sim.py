@@ -9,7 +9,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from rkm04_tools.failure import DONE, NOT_SO
+from rkm04_tools.failure import DONE, NOT_SO, Failure
 from rkm04_tools.plot import draw
 from rkm04_tools.positioning import host
 from rkm04_tools.positioning.check import checked
@@ -27,6 +27,7 @@ from rkm04_tools.sim_files import (
     require_outputs,
     require_seconds,
 )
+from rkm04_tools.sim_target import TARGET, is_board, require_no
 from rkm04_tools.source import Source, named
 
 SHOWN_MAX = 50
@@ -40,13 +41,42 @@ def run(options: Namespace) -> int:
     require_seconds(options.seconds)
     require_inputs(inputs)
     require_outputs(outputs, [file, *([inputs] if inputs else [])])
+    on_board = _is_on_board(options, outputs)
     host.program_path()
     source = read_source(options.file)
     with TemporaryDirectory(prefix="positioning-") as folder:
         script, _ = checked(source, Path(folder))
         inputs = plain(inputs, Path(folder))
+        if on_board:
+            return _on_board(source, script, inputs, outputs, options)
         answer = _play(source, script, inputs, outputs, options.seconds)
     return _report(source.name, answer, options)
+
+
+def _is_on_board(options: Namespace, outputs: Outputs) -> bool:
+    """Whether the image of a board is meant; refuse what goes with one of the two only."""
+    if is_board(options):
+        require_no({"trace": outputs.trace, "plot": outputs.plot})
+        return True
+    if options.baud is not None:
+        raise Failure(f"--baud needs {TARGET}")
+    return False
+
+
+def _on_board(
+    source: Source, script: Path, inputs: Path | None, outputs: Outputs, options: Namespace
+) -> int:
+    """Play the script to the image of a board, and report."""
+    from rkm04_tools.positioning import sim_board
+
+    simulated, played = sim_board.simulate(source, script, inputs, outputs, options)
+    told = sim_board.course(simulated, played)
+    if options.json:
+        print(sim_board.as_json(source.name, simulated, played, options))
+    else:
+        _show_lines(source.name, told)
+        print(sim_board.summary(simulated, played, options.seconds))
+    return NOT_SO if has_failed(told) else DONE
 
 
 def _play(
@@ -77,10 +107,15 @@ def _report(name: str, answer: dict[str, Any], options: Namespace) -> int:
     if options.json:
         print(json.dumps({"file": name, **answer}, indent=2))
     else:
-        for each in answer["told"][:SHOWN_MAX]:
-            stream = sys.stderr if is_refused(each) else sys.stdout
-            print(f"{name}:{each['line']}: {line_text(each)}", file=stream)
-        if (more := len(answer["told"]) - SHOWN_MAX) > 0:
-            print(f"{name}: and {more} more; --json has them")
+        _show_lines(name, answer)
         print(summary(answer, options.seconds))
     return NOT_SO if has_failed(answer) else DONE
+
+
+def _show_lines(name: str, answer: dict[str, Any]) -> None:
+    """What READ has found on standard output, refusals on standard error."""
+    for each in answer["told"][:SHOWN_MAX]:
+        stream = sys.stderr if is_refused(each) else sys.stdout
+        print(f"{name}:{each['line']}: {line_text(each)}", file=stream)
+    if (more := len(answer["told"]) - SHOWN_MAX) > 0:
+        print(f"{name}: and {more} more; --json has them")

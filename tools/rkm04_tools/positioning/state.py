@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from rkm04_tools.positioning.table import bits
+from rkm04_tools.positioning.table import bits, registers
 
 FEED_PER_MM_MIN = 65_536
 UM_PER_MM = 1000
@@ -46,6 +46,15 @@ CONDITIONS = {
     4: "settings are not as stored",
 }
 START_CAUSES = ("power", "by hand", "the processor's watchdog", "a fault of the processor")
+IN_FIRST = 10
+IN_NUMBERS = range(IN_FIRST, 28)
+"""The registers of an axis that tell what it does."""
+NAMES = {  # of AxisState: registers
+    "status": "STATUS", "error": "ERROR", "done": "DONE", "result": "RESULT", "flags": "FLAGS",
+    "captures": "CAPTURES", "position_um": "POSITION", "way_left_um": "WAY_LEFT",
+    "speed": "SPEED", "position_steps": "POSITION_STEPS", "captured_um": "CAPTURED",
+    "captured_steps": "CAPTURED_STEPS",
+}  # fmt: skip
 FLAG_WORDS = {2: "limit -", 4: "limit +", 8: "reference", 16: "capture"}
 """Inputs of an axis that are active."""
 
@@ -67,7 +76,7 @@ def mm_text(um: int) -> str:
 
 @dataclass(frozen=True)
 class AxisState:
-    """What an axis tells at one moment: registers +10 to +27.
+    """What an axis tells at one moment: registers +10 to +27, or those of them that an image has.
 
     Ways in µm, `speed` in 1/65 536 mm/min.
     """
@@ -78,11 +87,11 @@ class AxisState:
     flags: int
     captures: int
     position_um: int
-    way_left_um: int
-    speed: int
-    position_steps: int
-    captured_um: int
-    captured_steps: int
+    way_left_um: int = 0
+    speed: int = 0
+    position_steps: int = 0
+    captured_um: int = 0
+    captured_steps: int = 0
     done: int = 0
     result: int = 0
 
@@ -180,6 +189,17 @@ class AxisState:
             "done": self.done,
             "result": self.result,
         }
+
+
+def axis_state(axis: int, numbers: Sequence[int], words: Sequence[int]) -> AxisState:
+    """What an axis tells by the registers of these numbers, counted from its first one."""
+    told = dict(zip(numbers, words, strict=True))
+    values = {}
+    for field, name in NAMES.items():
+        row = registers()[name]
+        if row.number in told:
+            values[field] = row.of_words([told[row.number + i] for i in range(row.words)])
+    return AxisState(axis=axis, **values)
 
 
 @dataclass(frozen=True)

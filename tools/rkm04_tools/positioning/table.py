@@ -194,8 +194,27 @@ def bits() -> dict[str, int]:
     return {name: 1 << int(bit) for name, _, bit, _ in found}
 
 
+@cache
+def images() -> dict[str, Image]:
+    """All images by their names."""
+    return {image.name: image for image in read_images(TABLE.read_text(encoding="utf-8"))}
+
+
 def read_image(name: str) -> tuple[int, int]:
     """The first number of an image, and how many registers of each axis it has."""
-    images = read_images(TABLE.read_text(encoding="utf-8"))
-    image = next(image for image in images if image.name == name)
+    image = images()[name]
     return image.first, len(image.numbers)
+
+
+def register_at(number: int) -> Register | None:
+    """The register that has this number on the line, in an image too; None: there is none."""
+    scope, place = ("A", number % AXIS_STEP) if number >= AXIS_STEP else ("U", number)
+    if number >= AXIS_STEP * (AXES + 1):
+        places = {
+            image.first + i: image.numbers[i % len(image.numbers)]
+            for image in images().values()
+            for i in range(len(image.numbers) * AXES)
+        }
+        place = places.get(number, -1)
+    rows = (row for row in registers().values() if row.scope == scope)
+    return next((row for row in rows if row.number <= place < row.number + row.words), None)

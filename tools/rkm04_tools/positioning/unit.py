@@ -32,9 +32,12 @@ from rkm04_tools.positioning.line_errors import (
 )
 from rkm04_tools.positioning.state import (
     FEED_PER_MM_MIN,
+    IN_FIRST,
+    IN_NUMBERS,
     UM_PER_MM,
     AxisState,
     UnitState,
+    axis_state,
     mm_text,
 )
 from rkm04_tools.positioning.table import (
@@ -51,7 +54,6 @@ from rkm04_tools.positioning.wire import FORMAT, RATE, Wire, open_wire
 PRODUCT = "POS4"
 LAYOUT = 1
 CONTROL, FEED = 5, 6
-IN_FIRST, IN_WORDS = 10, 18
 UNIT_WORDS = 28
 NUMBERS = 256
 SPACES = range(7)
@@ -69,12 +71,6 @@ MM_MAX = (CLOCK_HALF - 1) / UM_PER_MM
 FEED_MAX = (1 << 32) - 1
 Tell = Callable[[AxisState], None] | None
 """What is called with each look at an axis that is waited for."""
-NAMES = {  # of AxisState: registers
-    "status": "STATUS", "error": "ERROR", "done": "DONE", "result": "RESULT", "flags": "FLAGS",
-    "captures": "CAPTURES", "position_um": "POSITION", "way_left_um": "WAY_LEFT",
-    "speed": "SPEED", "position_steps": "POSITION_STEPS", "captured_um": "CAPTURED",
-    "captured_steps": "CAPTURED_STEPS",
-}  # fmt: skip
 
 
 def open_unit(port: str, node: int = 1, rate: int = RATE, form: str = FORMAT) -> Unit:
@@ -215,7 +211,7 @@ class Axis:
     def read(self) -> AxisState:
         """What it tells at this moment."""
         self.unit.require_known()
-        return self._state(self.unit.wire.read(self._base + IN_FIRST, IN_WORDS))
+        return self._state(self.unit.wire.read(self._base + IN_FIRST, len(IN_NUMBERS)))
 
     # ---- instructions ----
 
@@ -369,7 +365,7 @@ class Axis:
         number = ((before.done >> 8) + 1) % NUMBERS
         word = number << 8 | instructions()[name]
         found, repeated = self.unit.wire.write_and_read(
-            self._base, [word, *parameters], self._base + IN_FIRST, IN_WORDS
+            self._base, [word, *parameters], self._base + IN_FIRST, len(IN_NUMBERS)
         )
         if repeated:
             self.unit.require_same_start(executed=True)
@@ -414,12 +410,7 @@ class Axis:
                 return state
 
     def _state(self, words: Sequence[int]) -> AxisState:
-        values = {}
-        for field, name in NAMES.items():
-            row = registers()[name]
-            at = row.number - IN_FIRST
-            values[field] = row.of_words(words[at : at + row.words])
-        return AxisState(axis=self.number, **values)
+        return axis_state(self.number, IN_NUMBERS, words)
 
 
 def _words(value: int) -> list[int]:

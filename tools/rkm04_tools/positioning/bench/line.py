@@ -2,58 +2,27 @@
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from rkm04_tools.failure import NOT_SO, Failure
+from rkm04_tools.positioning import board_line
+from rkm04_tools.positioning.frames import GAP_MS_MIN, byte_ms, exchange, gap_ms, sealed, write
 from rkm04_tools.target_run import Ran, Rig
 
-BAUD, DELIVERED_BAUD = 115_200, 19_200
-BYTE_BITS = 11
-PAUSE_MS = 1.75
-"""Ends an answer, and above 19 200 Bd a request."""
-FORMAT = ("--format", "8E1")
+BAUD = 115_200
 CYCLE_MS = 15.0
 AXES = range(1, 5)
-RATE, STORE, FULL_OUT, FAST_OUT, FAST_IN, FAST_IN_WORDS = 31, 40, 600, 500, 520, 16
-STORE_MS = 3000.0
+FULL_OUT, FAST_OUT, FAST_IN, FAST_IN_WORDS = 600, 500, 520, 16
 TAKE, MODE = 1, 2
-LOG, FLASH = "log.txt", "flash.bin"
-
-
-def sealed(text: bytes) -> bytes:
-    """A frame of unit 1 with its CRC."""
-    frame = bytes([1]) + text
-    rest = 0xFFFF
-    for byte in frame:
-        rest ^= byte
-        for _ in range(8):
-            rest = (rest >> 1) ^ 0xA001 if rest & 1 else rest >> 1
-    return frame + struct.pack("<H", rest)
-
-
-def words_of(words: Sequence[int]) -> bytes:
-    """Their number of bytes, and they."""
-    return struct.pack(f">B{len(words)}H", 2 * len(words), *words)
-
-
-def write(first: int, words: Sequence[int]) -> bytes:
-    """Function 16."""
-    return sealed(struct.pack(">BHH", 16, first, len(words)) + words_of(words))
-
-
-def read(first: int, count: int) -> bytes:
-    """Function 3."""
-    return sealed(struct.pack(">BHH", 3, first, count))
+LOG = "log.txt"
 
 
 def cycle(feeds: Sequence[int], permitted: int = 1) -> bytes:
     """Function 23 with the fast image: a feed for each axis."""
     words = [word for feed in feeds for word in (permitted, feed >> 16, feed & 0xFFFF)]
-    head = struct.pack(">BHHHH", 23, FAST_IN, FAST_IN_WORDS, FAST_OUT, len(words))
-    return sealed(head + words_of(words))
+    return exchange(FAST_OUT, words, FAST_IN, FAST_IN_WORDS)
 
 
 def measures(ways: Sequence[int], accel: int, feeds: Sequence[int]) -> list[bytes]:
@@ -77,19 +46,14 @@ class Asked:
     baud: int = BAUD
 
     @property
-    def byte_ms(self) -> float:
-        """How long a byte takes."""
-        return 1000 * BYTE_BITS / self.baud
-
-    @property
     def end_ms(self) -> float:
         """When its last byte is over."""
-        return self.ms + len(self.data) * self.byte_ms
+        return self.ms + len(self.data) * byte_ms(self.baud)
 
     @property
     def come_ms(self) -> float:
         """When it has come, as the contract says."""
-        return self.end_ms + max(PAUSE_MS, 3.5 * self.byte_ms)
+        return self.end_ms + gap_ms(self.baud)
 
 
 @dataclass(frozen=True)
@@ -100,16 +64,6 @@ class Said:
     data: bytes
 
 
-def stored(rig: Rig) -> Path:
-    """A flash in which the line has its highest rate; the image does not know it from elsewhere."""
-    path = rig.folder / FLASH
-    if not path.exists():
-        asks = [(50.0, write(RATE, [BAUD // 100])), (120.0, write(STORE, [1]))]
-        line = "".join(f"{ms:.6f} {data.hex()}\n" for ms, data in asks)
-        rig.run((asks[-1][0] + STORE_MS) / 1000, line, "", *FORMAT, flash=path)
-    return path
-
-
 def play(
     rig: Rig, asked: Sequence[Asked], seconds: float, *options: str, inputs: str = ""
 ) -> tuple[Ran, list[Said]]:
@@ -117,9 +71,8 @@ def play(
     baud = asked[0].baud
     line = "".join(f"{each.ms:.6f} {each.data.hex()}\n" for each in asked)
     log = rig.folder / LOG
-    options = ("--baud", str(baud), *FORMAT, "--line-log", str(log), *options)
-    flash = None if baud == DELIVERED_BAUD else stored(rig)
-    ran = rig.run(seconds, line, inputs, *options, steps=True, flash=flash)
+    told = [*board_line.options(rig, baud), "--line-log", str(log), *options]
+    ran = rig.run(seconds, line, inputs, *told, steps=True)
     return ran, said_in(log)
 
 
@@ -132,7 +85,7 @@ def said_in(log: Path) -> list[Said]:
         if byte.endswith("*"):
             raise Failure("the image has sent a byte that nobody could read", NOT_SO)
         ms, data = float(text), bytes.fromhex(byte)
-        if found and ms - last < PAUSE_MS:
+        if found and ms - last < GAP_MS_MIN:
             found[-1] = Said(found[-1].ms, found[-1].data + data)
         else:
             found.append(Said(ms, data))

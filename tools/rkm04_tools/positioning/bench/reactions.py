@@ -13,17 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from rkm04_tools.failure import NOT_SO, Failure
-from rkm04_tools.positioning.bench.line import (
-    AXES,
-    BAUD,
-    DELIVERED_BAUD,
-    Asked,
-    cycle,
-    play,
-    write,
-)
+from rkm04_tools.positioning.bench.line import AXES, BAUD, Asked, cycle, measures, play
 from rkm04_tools.positioning.bench.loads import BEGIN_MS, RAMP_MS, SEED, SPACE_MS, TOP, begin
-from rkm04_tools.positioning.table import AXIS_STEP
+from rkm04_tools.positioning.board_line import DELIVERED_BAUD
+from rkm04_tools.positioning.frames import write
+from rkm04_tools.positioning.table import AXIS_STEP, registers
 from rkm04_tools.target_figures import Figures
 from rkm04_tools.target_reactions import TICK_HZ, braking
 from rkm04_tools.target_run import TICKS_PER_MS, Ran, Rig
@@ -39,6 +33,7 @@ PHASE_MS = 1.0
 DELIVERED_ROUNDS, DELIVERED_MS = 8, 120.0
 """A request to all axes and its answer take 88 ms at 19 200 Bd."""
 
+STARTS, START_MS, WAY_UM = 12, 45.0, 3000
 INPUT, LIMIT_PLUS = 3, 47
 LIMIT_ROUNDS, LEVEL_MS, STAND_MS = 8, 10.0, 60.0
 
@@ -102,6 +97,32 @@ def hold(rig: Rig) -> Figures:
     ran, _ = play(rig, [*first, *asked], at / 1000)
     come = [each.come_ms for each in asked[::2]]
     return _figures("hold", ran, come, [TOP_TICKS] * len(come), AXES)
+
+
+def start(rig: Rig) -> Figures:
+    """A measure and its feed of all axes, again and again; its first pulse has the interval of the
+    feed."""
+    chance = random.Random(SEED)
+    number = registers()["START_FEED"].number
+    feed = [TOP >> 16, TOP & 0xFFFF]
+    asked = [
+        Asked(BEGIN_MS + i * SPACE_MS, write(AXIS_STEP * axis + number, feed))
+        for i, axis in enumerate(AXES)
+    ]
+    at, come = asked[-1].ms + SPACE_MS, []
+    for _ in range(STARTS):
+        for frame in measures([WAY_UM] * len(AXES), STEEP, [TOP] * len(AXES)):
+            asked.append(Asked(at, frame))
+            at += START_MS + chance.uniform(0, PHASE_MS)
+        come.append(asked[-1].come_ms)
+    ran, _ = play(rig, asked, at / 1000)
+    firsts = [
+        ticks[np.searchsorted(ticks, each * TICKS_PER_MS)] / TICKS_PER_MS - each
+        for ticks in ran.ticks().values()
+        for each in come
+    ]
+    begins = 1000 * (float(max(firsts)) - TOP_TICKS / TICKS_PER_MS)
+    return {"begins_start": begins, "late_start": ran.late, "stack_used": ran.stack_used}
 
 
 def _limits(rig: Rig, name: str, moved: Collection[int]) -> Figures:
