@@ -51,7 +51,7 @@ class Writer:
         self._held: tuple[str, Side | None] | None = None
         """A vector whose B follows from the next one."""
         self._slowest = min(self._speeds)
-        """At most that of all axes can be kept on any way."""
+        """A rate up to that can be kept on any way of X, Y and Z."""
         self._accels = [axis.accel if axis else ACCEL_TOP * ACCEL_UNIT for axis in mill.axes]
         x_accel, y_accel, *_ = self._accels
         self._flat_accel = x_accel // ACCEL_UNIT if x_accel == y_accel else 0
@@ -181,7 +181,7 @@ class Writer:
         if longest > STEPS_MAX:
             raise TooSlow(f"the way is longer than {STEPS_MAX} pulses of an axis; divide it")
         corrected = True
-        if is_rapid or rate > self._slowest:
+        if is_rapid or a or rate > self._slowest:
             v0, v1, v2, v3 = self._speeds
             limit = extent / max(x / v0, y / v1, z / v2, a / v3)
             if is_rapid:
