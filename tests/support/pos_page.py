@@ -43,8 +43,10 @@ class PosPage(UnitPage):
         self.at(f"move-{axis}").click()
 
     def mm(self, axis: int = 1) -> float:
-        """The position of an axis."""
-        text = self.at(f"position-{axis}").inner_text().replace("\N{MINUS SIGN}", "-")
+        """The position of an axis, once it is known."""
+        place = self.at(f"position-{axis}")
+        expect(place).to_have_text(re.compile(r"\d"))
+        text = place.inner_text().replace("\N{MINUS SIGN}", "-")
         return float(re.sub(r"[^\d.-]", "", text))
 
     def beyond(self, mm: float, axis: int = 1) -> None:
