@@ -51,7 +51,7 @@ def test_a_program_for_all_motors_is_held_against_the_limits_of_each(page):
 
 
 def test_a_speed_above_the_limit_is_not_sent_to_a_motor_in_motion(page):
-    opened(page, "\\ C100 S100 V200 G400 R")
+    opened(page, "\\ C100 S100 V200 G400")
     page.send()
     page.page.locator("#speed").fill("1001")
     page.page.locator("#speed-form button").click()

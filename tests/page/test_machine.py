@@ -3,57 +3,12 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
-from typing import Any
 
 import pytest
+from machine_page import CLAMP, FEED, content, open_bytes, open_machine, save
 from page_looks import AXE, CUT, OUTSIDE, OVER, SIZES, VIOLATIONS
-from playwright.sync_api import FilePayload, expect
-from rkm04_tools.machine.machine import parse_machine
-from service_page import ServicePage, shown
-
-FEED = "{ feed, žlutý }\r\n\\ C100 O03\r\nF400 R\r\n"
-CLAMP = "\\ C100 F50 R"
-INPUTS = "# the door\n500,3,1\n"
-
-
-def content(**more: Any) -> dict[str, Any]:
-    limits = {"position_max_steps": 60_000, "speed_max_steps_per_s": 1000}
-    return {
-        "format": "rkm04-machine",
-        "version": 1,
-        "name": "Podavač",
-        "notes": "grease it",
-        "motors": [
-            {"name": "feed", "program": FEED, "steps_per_mm": 200.5, "limits": limits},
-            {"program": CLAMP},
-            {"program": "{ nothing yet }"},
-            {"program": ""},
-        ],
-        "inputs": INPUTS,
-        "input_names": {"3": "door"},
-        "output_names": {"1": "lamp"},
-        **more,
-    }
-
-
-def open_bytes(page: ServicePage, data: bytes, name: str = "a.rkm") -> None:
-    file: FilePayload = {"name": name, "mimeType": "application/json", "buffer": data}
-    page.page.locator("#machine-file").set_input_files(file)
-
-
-def open_machine(page: ServicePage, told: dict[str, Any]) -> None:
-    open_bytes(page, json.dumps(told).encode())
-    expect(page.page.locator("#machine-shown")).to_have_text(told["name"])
-
-
-def save(page: ServicePage) -> tuple[str, dict[str, Any]]:
-    """Save the machine; return name and content of the file."""
-    page.page.evaluate("() => { delete window.showSaveFilePicker; }")
-    with page.page.expect_download() as download:
-        page.page.locator("#machine-save").click()
-    data = Path(download.value.path()).read_bytes()
-    return download.value.suggested_filename, parse_machine(data, "saved")
+from playwright.sync_api import expect
+from service_page import shown
 
 
 def test_a_machine_brings_its_programs_inputs_and_names(page):
@@ -68,8 +23,9 @@ def test_a_machine_brings_its_programs_inputs_and_names(page):
     page.expect_pulses(450)
     page.page.locator("#machine summary").click()
     expect(page.page.locator("#machine-notes")).to_have_value("grease it")
-    facts = page.page.locator("#machine-facts")
-    expect(facts).to_contain_text("Motor 1: feed, 200.5 steps per mm, highest position 60,000")
+    shown = {"1-name": "feed", "1-scale": "200.5", "1-unit": "mm", "1-highest": "60000"}
+    for name, value in {**shown, "1-lowest": "", "input-3": "door", "output-1": "lamp"}.items():
+        expect(page.page.locator(f"#machine-{name}")).to_have_value(value)
     page.page.locator("#tab-2").click()
     assert page.text() == CLAMP
 
@@ -186,7 +142,9 @@ def test_long_names_cut_nothing_off_and_axe_finds_nothing_serious(page):
     names = {str(number): f"input of a long name {number}" for number in range(1, 9)}
     open_machine(page, content(input_names=names, output_names=names))
     page.page.locator("#machine summary").click()
-    expect(page.page.locator("#machine-facts")).to_be_visible()
+    page.page.locator("#machine-1-lowest").fill("70000")
+    page.page.keyboard.press("Tab")
+    expect(page.page.locator("#machine-1-lowest-trouble")).to_be_visible()
     page.page.evaluate(AXE.read_text())
     assert page.page.evaluate(VIOLATIONS) == []
     for width, height in SIZES:

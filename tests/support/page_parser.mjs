@@ -5,10 +5,12 @@
 // Bytes among the arguments are {"hex"}. Prints the list of results; {"refused": kind} is one that was thrown.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
+import { resolve } from "node:path";
 
 const [esbuild, source] = process.argv.slice(2);
 const { build } = createRequire(import.meta.url)(esbuild);
-const made = await build({ entryPoints: [source], bundle: true, format: "esm", write: false });
+const nodePaths = [resolve(esbuild, "../../..")]; // the packages of the page, which stand apart from its sources
+const made = await build({ entryPoints: [source], bundle: true, format: "esm", write: false, nodePaths });
 const code = Buffer.from(made.outputFiles[0].contents).toString("base64");
 const messages = await import(`data:text/javascript;base64,${code}`);
 

@@ -127,7 +127,8 @@ class ServicePage:
         return self.page.locator(f"#position-{motor}")
 
     def steps(self, motor: int = 1) -> int:
-        """The live position of a motor."""
+        """The live position of a motor, once it is known."""
+        expect(self.position(motor)).to_have_text(re.compile(r"\d"))
         text = self.position(motor).inner_text().replace("\N{MINUS SIGN}", "-")
         return int(re.sub(r"[^\d-]", "", text))
 

@@ -15,6 +15,5 @@ export class AllPrograms {
             const each = Object.entries(programs).map(([motor, text]): [number, string] => [Number(motor), text]);
             commands.sendPrograms(each, "send_all", ALL_MOTORS, { texts: programs, together: together.checked });
         });
-        byId("store-all", HTMLButtonElement).addEventListener("click", () => commands.request("store", ALL_MOTORS));
     }
 }

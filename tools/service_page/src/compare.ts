@@ -1,115 +1,79 @@
-import { checkProgram } from "./api";
 import { byId, make } from "./dom";
 import { language, t } from "./i18n";
 import type { Link } from "./link";
-import { MOTORS, type Answer } from "./protocol";
+import { differences, shownDifference } from "./machine_diff";
+import type { MachineContent } from "./machine_file";
+import { Memories } from "./memories";
+import { foundWords } from "./memory_words";
 
-const [HOLD, RELEASE] = ["[", "]"];
-/** What may change the memories. */
-const CHANGE = ["send", "send_all", "reset", "connect", "disconnect"];
+/** What this part needs of the others. */
+export interface Compared {
+    /** Texts of the motors that have a program. */
+    texts: () => Record<string, string>;
+    /** All that is here, as it would be saved. */
+    machine: () => MachineContent;
+    /** A machine of a file; null: it is none, which was told. */
+    read: (file: File) => Promise<MachineContent | null>;
+}
 
-/** What came of a motor: null as long as its answer is awaited. */
-type Found = { kind: "same" | "none" | "refused" } | { kind: "other"; ordinal: number; line: number | null; here: string; there: string };
-
-/** Compares the programs that are here with those in the memories of the unit, which are only read. */
+/** Compares what is here with the memories of the unit, which are only read, or with another machine file. */
 export class Compare {
-    readonly #link: Link;
-    readonly #texts: () => Record<string, string>;
+    readonly #memories: Memories;
+    readonly #parts: Compared;
+    readonly #with = byId("compare-with", HTMLSelectElement);
+    readonly #input = byId("compare-file", HTMLInputElement);
     readonly #list = byId("compared", HTMLElement);
-    readonly #asked = new Map<number, number>();
-    #here: Record<string, string> = {};
-    #found = new Map<number, Found | null>();
+    readonly #differences = byId("differences", HTMLElement);
+    #file: { name: string; here: MachineContent; there: MachineContent } | null = null;
 
-    constructor(link: Link, texts: () => Record<string, string>) {
-        this.#link = link;
-        this.#texts = texts;
+    constructor(link: Link, parts: Compared) {
+        this.#memories = new Memories(link);
+        this.#parts = parts;
         byId("machine-compare", HTMLButtonElement).addEventListener("click", () => this.#ask());
-        link.on("answer", (answer) => void this.#hear(answer));
+        this.#input.addEventListener("change", () => void this.#read());
+        this.#memories.found.onChange(() => this.#show());
         language.onChange(() => this.#show());
     }
 
     /** What was found is not so any more. */
     forget(): void {
-        if (this.#found.size > 0) {
-            this.#asked.clear();
-            this.#found.clear();
-            this.#show();
-        }
+        this.#file = null;
+        this.#memories.forget();
+        this.#show();
     }
 
     #ask(): void {
         this.forget();
-        this.#here = this.#texts();
-        for (const motor of MOTORS) {
-            const id = this.#link.nextId();
-            this.#asked.set(id, motor);
-            const isSent = this.#link.send({ type: "request", id, message: "program", motor });
-            this.#found.set(motor, isSent ? null : { kind: "refused" });
+        if (this.#with.value === "file") {
+            this.#input.click();
+        } else {
+            this.#memories.ask(this.#parts.texts());
         }
-        this.#show();
     }
 
-    async #hear({ id, from, message, error, values }: Answer): Promise<void> {
-        if (CHANGE.includes(message)) {
+    async #read(): Promise<void> {
+        const file = this.#input.files?.[0];
+        const there = file === undefined ? null : await this.#parts.read(file);
+        this.#input.value = "";
+        if (file !== undefined && there !== null) {
             this.forget();
-        }
-        const motor = id !== null && (from === undefined || from === this.#link.client) ? this.#asked.get(id) : undefined;
-        if (motor === undefined || id === null) {
-            return;
-        }
-        const found = error === null ? await this.#compared(motor, values?.program ?? "") : ({ kind: "refused" } as const);
-        if (this.#asked.delete(id)) {
-            this.#found.set(motor, found);
+            this.#file = { name: file.name, here: this.#parts.machine(), there };
             this.#show();
         }
     }
 
-    async #compared(motor: number, told: string): Promise<Found> {
-        const here = await listed(this.#here[motor] ?? "");
-        const there = await listed(told);
-        if (here === null || there === null) {
-            return { kind: "refused" };
-        }
-        const [ours, theirs] = [here.map(([, , text]) => text), unbracketed(there.map(([, , text]) => text), here.length)];
-        const first = Array.from({ length: Math.max(ours.length, theirs.length) }, (_, index) => index)
-            .find((index) => ours[index] !== theirs[index]);
-        if (first === undefined) {
-            return { kind: ours.length === 0 ? "none" : "same" };
-        }
-        return { kind: "other", ordinal: first + 1, line: here[first]?.[0] ?? null, here: ours[first] ?? "", there: theirs[first] ?? "" };
-    }
-
     #show(): void {
-        const words = [...this.#found].map(([motor, found]) => `${t("motor.one", { motor })}: ${foundWords(found)}`);
+        const found = this.#file === null ? [] : differences(this.#file.here, this.#file.there);
+        const unit = [...this.#memories.found.value].map(([motor, each]) => foundWords(motor, each));
+        const words = this.#file === null ? unit : fileWords(this.#file.name, found.map(({ title }) => title));
         this.#list.replaceChildren(...words.map((each) => make("li", {}, each)));
         this.#list.hidden = words.length === 0;
+        this.#differences.replaceChildren(...found.flatMap(shownDifference));
+        this.#differences.hidden = found.length === 0;
     }
 }
 
-function foundWords(found: Found | null): string {
-    if (found === null) {
-        return t("compare.asked");
-    }
-    if (found.kind !== "other") {
-        return t(`compare.${found.kind}`);
-    }
-    const { ordinal, line, here, there } = found;
-    const nothing = t("compare.nothing");
-    const place = line === null ? t("compare.command", { ordinal }) : t("compare.line", { ordinal, line });
-    return t("compare.other", { place, here: here || nothing, there: there || nothing });
-}
-
-/** The commands that are stored of a program; null: it has errors. */
-async function listed(text: string): Promise<[number, number, string][] | null> {
-    if (text.trim() === "") {
-        return [];
-    }
-    const { listing = [], problems } = await checkProgram(text);
-    return problems.some(({ severity }) => severity === "error") ? null : listing;
-}
-
-/** What is sent in several messages has `[` and `]` around it. */
-function unbracketed(commands: string[], wanted: number): string[] {
-    const isHeld = commands.length === wanted + 2 && commands[0] === HOLD && commands.at(-1) === RELEASE;
-    return isHeld ? commands.slice(1, -1) : commands;
+function fileWords(name: string, titles: string[]): string[] {
+    const rest = titles.length === 0 ? [t("compare.sameFile", { name })] : [t("compare.rest"), t("compare.signs", { name })];
+    return [...titles.map((title) => `${title}: ${t("compare.differs")}`), ...rest];
 }

@@ -3,6 +3,7 @@ import { firmwareCs } from "./firmware_cs";
 import { pagesCs } from "./common/pages";
 import { helpCs } from "./help_cs";
 import { machineCs } from "./common/machine_words";
+import { machinePanelCs } from "./machine_panel_cs";
 import { serialCs } from "./common/serial_words";
 import type { Dictionary } from "./i18n";
 
@@ -14,6 +15,7 @@ export const cs: Dictionary = {
     ...pagesCs,
     ...serialCs,
     ...machineCs,
+    ...machinePanelCs,
     "page.title": "Servis RKM04",
     "page.language": "Jazyk",
 
@@ -121,7 +123,7 @@ export const cs: Dictionary = {
     "all.together": "spustit společně",
     "all.togetherLabel": "Programy na sebe počkají a začnou ve stejném okamžiku, pokud mají ostatní motory prázdnou paměť; jinak běží každý hned",
     "all.store": "Uložit všechny",
-    "all.storeLabel": "Store Flash všech čtyř motorů: každý si uchová program z paměti, i když je prázdná",
+    "all.storeLabel": "Store Flash všech čtyř motorů: každý si uchová program z paměti, i když je prázdná. Nejprve ji přečte; zeptá se, není-li v ní to, co je zde vidět",
     "all.empty": "Žádný motor zde nemá program: nic se neposlalo",
     "send.toOne": "Níže zobrazený program se odešle do motoru {motor} a hned se vykoná.",
     "send.toAll": "Níže zobrazený program motoru {program} se odešle do všech čtyř motorů a hned se vykoná.",
@@ -136,43 +138,6 @@ export const cs: Dictionary = {
     "speed.field": "Rychlost V",
     "speed.label": "Rychlost v krocích/s: změní probíhající pohyb zvoleného motoru, do jeho konce",
     "speed.set": "Nastavit",
-
-    "machine.title": "Stroj",
-    "machine.none": "žádný není otevřen",
-    "machine.unnamed": "Stroj",
-    "machine.open": "Otevřít .rkm",
-    "machine.openLabel": "Otevře soubor stroje (.rkm): čtyři programy, názvy a poznámky. Zpět v každém programu vrátí ten původní",
-    "machine.save": "Uložit .rkm",
-    "machine.saveLabel": "Uloží čtyři programy, vstupy, názvy a poznámky do jednoho souboru (.rkm)",
-    "machine.print": "Tisk",
-    "machine.printLabel": "Vytisknout stroj nebo z něj udělat PDF: poznámky, zapojení, meze, programy, vstupy, křivky",
-    "print.inputs": "Vstupy v simulaci: ms, vstup, úroveň",
-    "print.noCurve": "Křivka není: některý program má chyby, nebo tu žádný není.",
-    "compare.name": "Porovnat",
-    "compare.label": "Porovná tyto programy s těmi v paměti jednotky, která se jen čte (Get Command)",
-    "compare.asked": "ptá se …",
-    "compare.same": "zde a v jednotce stejný",
-    "compare.none": "zde ani v jednotce není žádný program",
-    "compare.refused": "neporovnáno: jednotka svůj program neřekla, nebo má zdejší chyby",
-    "compare.other": "NENÍ STEJNÝ: {place}: zde {here}, v jednotce {there}",
-    "compare.command": "příkaz {ordinal}",
-    "compare.line": "příkaz {ordinal}, řádek {line}",
-    "compare.nothing": "nic",
-    "limits.speed": "motor {motor}, řádek {line}: {command} je nad mezí stroje, {limit} kroků/s",
-    "limits.next": "nic nebylo odesláno; snižte ji, nebo otevřete stroj bez této meze",
-    "limits.unknown": "Neodesláno: nebylo možné zkontrolovat, zda je v mezích stroje",
-    "limits.hand": "Nelze: S nebo V je nad mezí stroje, {limit} kroků/s.",
-    "limits.lowest": "jede až na {position}, pod svou mez",
-    "limits.highest": "jede až na {position}, nad svou mez",
-    "machine.details": "Název, poznámky, zapojení",
-    "machine.name": "Název",
-    "machine.notes": "Poznámky",
-    "machine.perMm": "{steps} kroků na mm",
-    "machine.perDegree": "{steps} kroků na stupeň",
-    "machine.lowest": "nejnižší poloha {steps}",
-    "machine.highest": "nejvyšší poloha {steps}",
-    "machine.fastest": "nejvýše {steps} kroků/s",
-    "machine.notSaved": "Neuloženo",
 
     "editor.title": "Program",
     "editor.label": "Program motoru",

@@ -3,6 +3,7 @@ import { firmwareEn } from "./firmware_en";
 import { pagesEn } from "./common/pages";
 import { helpEn } from "./help_en";
 import { machineEn } from "./common/machine_words";
+import { machinePanelEn } from "./machine_panel_en";
 import { serialEn } from "./common/serial_words";
 
 /** The words of the page in English; the keys of this dictionary are those of every other. */
@@ -13,6 +14,7 @@ export const en = {
     ...pagesEn,
     ...serialEn,
     ...machineEn,
+    ...machinePanelEn,
     "page.title": "RKM04 service",
     "page.language": "Language",
 
@@ -119,7 +121,7 @@ export const en = {
     "all.together": "start together",
     "all.togetherLabel": "The programs wait for each other and start on the same tick, if the other motors are empty; else each runs as it arrives",
     "all.store": "Store all",
-    "all.storeLabel": "Store Flash of all four motors: each keeps the program in its memory, also if it is empty",
+    "all.storeLabel": "Store Flash of all four motors: each keeps the program in its memory, also if it is empty. It is read first; asks if it is not what is shown here",
     "all.empty": "No motor has a program here: nothing was sent",
     "send.toOne": "The program shown below goes to motor {motor} and runs at once.",
     "send.toAll": "The program of motor {program}, shown below, goes to all four motors and runs at once.",
@@ -134,43 +136,6 @@ export const en = {
     "speed.field": "Speed V",
     "speed.label": "Speed in steps/s: changes the move in progress of the chosen motor, until that move ends",
     "speed.set": "Set",
-
-    "machine.title": "Machine",
-    "machine.none": "none is open",
-    "machine.unnamed": "Machine",
-    "machine.open": "Open .rkm",
-    "machine.openLabel": "Open a machine file (.rkm): four programs, names and notes. Undo in each program brings back the old one",
-    "machine.save": "Save .rkm",
-    "machine.saveLabel": "Save the four programs, the inputs, names and notes as one file (.rkm)",
-    "machine.print": "Print",
-    "machine.printLabel": "Print the machine, or make a PDF of it: notes, wiring, limits, programs, inputs, curves",
-    "print.inputs": "Inputs in the simulation: ms, input, level",
-    "print.noCurve": "There is no curve: a program has errors, or there is none.",
-    "compare.name": "Compare",
-    "compare.label": "Compare these programs with those in the unit's memory, which is only read (Get Command)",
-    "compare.asked": "asked …",
-    "compare.same": "the same here and in the unit",
-    "compare.none": "no program here, and none in the unit",
-    "compare.refused": "not compared: the unit did not tell its program, or the one here has errors",
-    "compare.other": "NOT THE SAME: {place}: here {here}, in the unit {there}",
-    "compare.command": "command {ordinal}",
-    "compare.line": "command {ordinal}, line {line}",
-    "compare.nothing": "nothing",
-    "limits.speed": "motor {motor}, line {line}: {command} is above the machine's limit, {limit} steps/s",
-    "limits.next": "nothing was sent; lower it, or open a machine without this limit",
-    "limits.unknown": "Not sent: whether it is within the machine's limits could not be checked",
-    "limits.hand": "Not possible: S or V is above the machine's limit, {limit} steps/s.",
-    "limits.lowest": "goes down to {position}, below its limit",
-    "limits.highest": "goes up to {position}, above its limit",
-    "machine.details": "Name, notes, wiring",
-    "machine.name": "Name",
-    "machine.notes": "Notes",
-    "machine.perMm": "{steps} steps per mm",
-    "machine.perDegree": "{steps} steps per degree",
-    "machine.lowest": "lowest position {steps}",
-    "machine.highest": "highest position {steps}",
-    "machine.fastest": "at most {steps} steps/s",
-    "machine.notSaved": "Not saved",
 
     "editor.title": "Program",
     "editor.label": "Program of the motor",

@@ -5,13 +5,12 @@ import { language, numberText, t } from "./i18n";
 import type { Link } from "./link";
 import { lineCounts, lineWords, motorState, unitFacts } from "./live_words";
 import type { Presence } from "./presence";
-import { MOTORS, type Live, type MotorLive, type UnitState } from "./protocol";
+import { LINES, MOTORS, type Live, type MotorLive, type UnitState } from "./protocol";
 import { inUnits, isScaled, onScale, positionNumber, speedWords } from "./scale";
 
 const SHOWN_SECONDS = 30;
 /** Looks further apart have no line between them. */
 const GAP_SECONDS = 1;
-const LINES = [1, 2, 3, 4, 5, 6, 7, 8] as const;
 const NOT_KNOWN = "–";
 
 interface Card {

@@ -1,4 +1,4 @@
-import { byId, make } from "./dom";
+import { byId } from "./dom";
 import { saveBytes } from "./files";
 import { motorForm } from "./drafts";
 import type { FileForm } from "./file_form";
@@ -12,8 +12,8 @@ import {
     toText,
     withPrograms,
     type MachineContent,
-    type MachineMotor,
 } from "./machine_file";
+import { MachineFields } from "./machine_fields";
 import { MACHINE_BYTES_MAX, troubleOf } from "./machine_words";
 import { MOTORS } from "./protocol";
 import { Cell } from "./signal";
@@ -36,7 +36,7 @@ export class Machine {
     readonly #parts: MachineParts;
     readonly #name = byId("machine-name", HTMLInputElement);
     readonly #notes = byId("machine-notes", HTMLTextAreaElement);
-    readonly #facts = byId("machine-facts", HTMLElement);
+    readonly #fields = new MachineFields(() => this.#now(), (machine) => this.#set(machine));
 
     constructor(parts: MachineParts) {
         this.#parts = parts;
@@ -55,33 +55,44 @@ export class Machine {
 
     async #open(input: HTMLInputElement): Promise<void> {
         const file = input.files?.[0];
-        if (file) {
-            const isTooLarge = file.size > MACHINE_BYTES_MAX;
-            const found = isTooLarge ? null : parseMachine(new Uint8Array(await file.arrayBuffer()));
-            if (found === null) {
-                this.#say(t("machine.tooLarge", { name: file.name, bytes: numberText(MACHINE_BYTES_MAX) }));
-            } else if (isMachine(found)) {
-                this.#take(found);
-            } else {
-                this.#say(`${file.name}: ${troubleOf(found, t)}; ${t("machine.notOpened")}`);
-            }
+        const found = file === undefined ? null : await this.read(file);
+        if (found !== null) {
+            this.#take(found);
         }
         input.value = "";
     }
 
+    /** The machine of a file; null: it is none, which is told. */
+    async read(file: File): Promise<MachineContent | null> {
+        const isTooLarge = file.size > MACHINE_BYTES_MAX;
+        const found = isTooLarge ? null : parseMachine(new Uint8Array(await file.arrayBuffer()));
+        if (found !== null && isMachine(found)) {
+            this.#say("");
+            return found;
+        }
+        const tooLarge = t("machine.tooLarge", { name: file.name, bytes: numberText(MACHINE_BYTES_MAX) });
+        this.#say(found === null ? tooLarge : `${file.name}: ${troubleOf(found, t)}; ${t("machine.notOpened")}`);
+        return null;
+    }
+
+    /** All that is here, as it would be saved. */
+    whole(): MachineContent {
+        const named = { ...this.#now(), name: this.#name.value.trim() || t("machine.unnamed") };
+        return withPrograms(named, this.#parts.programs(), this.#parts.inputs());
+    }
+
     #take(machine: MachineContent): void {
         const programs = MOTORS.map((motor) => programOf(machine, motor, motorForm(motor).name));
-        this.#say("");
         this.#set(machine);
         this.#showFields();
         this.#parts.open(programs, machine.inputs ?? "");
     }
 
     async #save(): Promise<void> {
-        const named = { ...this.#now(), name: this.#name.value.trim() || t("machine.unnamed") };
-        const found = judged(withPrograms(named, this.#parts.programs(), this.#parts.inputs()));
-        if (!isMachine(found)) {
-            this.#say(`${t("machine.notSaved")}: ${troubleOf(found, t)}`);
+        const found = judged(this.whole());
+        const trouble = this.#fields.trouble || (isMachine(found) ? "" : troubleOf(found, t));
+        if (!isMachine(found) || trouble !== "") {
+            this.#say(`${t("machine.notSaved")}: ${trouble}`);
             return;
         }
         const bytes = new TextEncoder().encode(toText(found));
@@ -94,7 +105,7 @@ export class Machine {
     }
 
     #now(): MachineContent {
-        return this.content.value ?? newMachine("");
+        return this.content.value ?? newMachine(t("machine.unnamed"));
     }
 
     /** A name that is not there yet is asked for when the machine is saved. */
@@ -112,12 +123,11 @@ export class Machine {
     #showFields(): void {
         this.#name.value = this.content.value?.name ?? "";
         this.#notes.value = this.content.value?.notes ?? "";
+        this.#fields.show(this.content.value);
     }
 
     #show(): void {
-        const machine = this.content.value;
-        byId("machine-shown", HTMLElement).textContent = machine?.name ?? t("machine.none");
-        this.#facts.replaceChildren(...(machine === null ? [] : factsOf(machine)).map((fact) => make("li", {}, fact)));
+        byId("machine-shown", HTMLElement).textContent = this.content.value?.name ?? t("machine.none");
     }
 
     #say(words: string): void {
@@ -125,28 +135,4 @@ export class Machine {
         place.textContent = words;
         place.hidden = words === "";
     }
-}
-
-/** What is wired where, how far a step goes, and what is not to be exceeded. */
-export function factsOf(machine: MachineContent): string[] {
-    const named = (key: "live.input" | "live.output", names: Record<string, string> = {}): string[] =>
-        Object.entries(names).map(([number, name]) => `${t(key, { number })}: ${name}`);
-    return [
-        ...machine.motors.flatMap((motor, index) => motorFacts(motor, index + 1)),
-        ...named("live.input", machine.input_names),
-        ...named("live.output", machine.output_names),
-    ];
-}
-
-function motorFacts({ name, steps_per_mm: mm, steps_per_degree: degree, limits = {} }: MachineMotor, motor: number): string[] {
-    const { position_min_steps: low, position_max_steps: high, speed_max_steps_per_s: speed } = limits;
-    const facts = [
-        name ?? "",
-        mm === undefined ? "" : t("machine.perMm", { steps: numberText(mm, 6) }),
-        degree === undefined ? "" : t("machine.perDegree", { steps: numberText(degree, 6) }),
-        low === undefined ? "" : t("machine.lowest", { steps: numberText(low) }),
-        high === undefined ? "" : t("machine.highest", { steps: numberText(high) }),
-        speed === undefined ? "" : t("machine.fastest", { steps: numberText(speed) }),
-    ].filter((fact) => fact !== "");
-    return facts.length === 0 ? [] : [`${t("motor.one", { motor })}: ${facts.join(", ")}`];
 }

@@ -28,11 +28,21 @@ export function ruleWords({ instancePath, keyword, params, data }: RuleError): W
     return { place, key: isMachineKey(key) ? key : "machine.rule.other", values: { name: name.slice(0, 40), limit, value } };
 }
 
+function rule(key: MachineKey, values: Words["values"], t: MachineWords): string {
+    const shown = Object.entries(values).map(([name, value]) => [name, typeof value === "number" ? numberText(value) : value]);
+    return t(key, Object.fromEntries(shown) as Record<string, string>);
+}
+
 /** In the language of the page: the place first. */
 function sentence({ place: { motor, names }, key, values }: Words, t: MachineWords): string {
     const place = [...(motor === null ? [] : [t("machine.motor", { motor })]), ...names].join(", ");
-    const shown = Object.entries(values).map(([name, value]) => [name, typeof value === "number" ? numberText(value) : value]);
-    return `${place}${place === "" ? "" : ": "}${t(key, Object.fromEntries(shown) as Record<string, string>)}`;
+    return `${place}${place === "" ? "" : ": "}${rule(key, values, t)}`;
+}
+
+/** What is wrong with a value that a machine does not take, beside the field of the value. */
+export function ruleOf({ key, problems: [first] }: NoMachine, t: MachineWords): string {
+    const { key: broken, values } = first ?? { key, values: {} };
+    return rule(broken === "machine.limitsCrossed" ? "machine.crossed" : broken, values, t);
 }
 
 /** Why a file is no machine, in the language of the page. */

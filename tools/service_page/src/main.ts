@@ -25,6 +25,7 @@ import { ScaleSwitch } from "./scale";
 import { Scan } from "./scan";
 import { ServiceLine } from "./service_line";
 import { Stop } from "./stop";
+import { StoreAll } from "./store_all";
 
 /*
  * Puts the parts together. The parts do not know each other; what one of them needs of another is handed in
@@ -33,11 +34,12 @@ import { Stop } from "./stop";
 const link = new Link(() => (engine === null ? new ServiceLine() : engine.line()));
 setUpLanguage(byId("language", HTMLSelectElement));
 
-const plan: Plan = new Plan(() => programs.texts());
+const plan: Plan = new Plan(() => programs.texts(), () => compare.forget());
 const programs: Programs = new Programs({
     edit: () => {
         plan.programsChanged();
         compare.forget();
+        storeAll.forget();
     },
     check: () => plan.programsChecked(),
     replace: () => plan.programReplaced(),
@@ -97,7 +99,13 @@ const commission = new Commission(link, presence, {
     stop: () => stop.press(),
 });
 stop.onPress(() => commission.stopped());
-const compare = new Compare(link, () => programs.texts());
+const compare: Compare = new Compare(link, {
+    texts: () => programs.texts(),
+    machine: () => machine.whole(),
+    read: (file) => machine.read(file),
+});
+machine.content.onChange(() => compare.forget());
+const storeAll = new StoreAll(link, () => programs.texts(), () => commands.request("store", ALL_MOTORS));
 new HelpPanel((example) => programs.take(example));
 new FirmwarePanel();
 link.onRefused((message) => {

@@ -49,12 +49,15 @@ export class Plan {
     #unknown: string | null = null;
     #isComputing = false;
     #isStale = false;
+    readonly #inputsChanged: () => void;
     #count = 0;
     /** The simulation command by command. */
     #stepping: Stepping | null = null;
 
-    constructor(programs: () => Record<string, string>) {
+    /** `changed` is called when the inputs are others. */
+    constructor(programs: () => Record<string, string>, changed: () => void) {
         this.#programs = programs;
+        this.#inputsChanged = changed;
         this.#legend = this.#addLegend();
         this.#charts = { speed: this.#chart("speed", false), position: this.#chart("position", true) };
         this.#inputs.value = recall("inputs", "");
@@ -114,6 +117,7 @@ export class Plan {
 
     #settingsChanged(): void {
         keep("inputs", this.#inputs.value);
+        this.#inputsChanged();
         keep("seconds", this.#seconds.value);
         this.#inputs.setAttribute("aria-invalid", String(parseInputs(this.#inputs.value) === null));
         this.#refresh();

@@ -2,7 +2,7 @@ import type { ChartData } from "./chart";
 import { toChartData, type Quantity } from "./curve";
 import { byId, make } from "./dom";
 import { numberText, t } from "./i18n";
-import { factsOf } from "./machine";
+import { factsOf } from "./machine_facts";
 import type { MachineContent } from "./machine_file";
 import { MOTORS, type Curve } from "./protocol";
 import { inUnits, isLeftOut } from "./scale";

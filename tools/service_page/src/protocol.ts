@@ -1,6 +1,8 @@
 /** What the page and the service say to each other, over HTTP and over the WebSocket. */
 
 export const MOTORS = [1, 2, 3, 4] as const;
+/** Inputs, and outputs. */
+export const LINES = [1, 2, 3, 4, 5, 6, 7, 8] as const;
 export const ALL_MOTORS = 0;
 /** What a page says to its worker when it comes or comes back; all else is an object. */
 export const GREETING = "";
