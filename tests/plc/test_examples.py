@@ -137,7 +137,7 @@ def documented(document: Path) -> str:
 
 
 def begin_documented(plc: Plc, program: str, name: str, **inputs: bool) -> Instance:
-    plc.blocks = Blocks(LIBRARY.read_text(encoding="utf-8") + program)
+    plc.blocks = Blocks(LIBRARY.read_text(encoding="utf-8"), program)
     plc.restart()
     main = plc.add(name, AXIS_1=plc.axes[0], **inputs)
     plc.run(10)

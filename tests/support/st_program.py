@@ -12,13 +12,21 @@ does it. What is not known raises Unsuitable.
 
 from __future__ import annotations
 
+import fcntl
+import pickle
+from hashlib import sha256
+from itertools import chain
+from pathlib import Path
 from typing import Any, ClassVar
 
+import blark
 from blark import transform as tree
 from blark.parse import parse_source_code
 from st_expressions import Scope, python_name
 from st_statements import body_lines
 from st_values import ELEMENTARY, Unsuitable, fitted, initial, nearest, shifted
+
+KEPT = Path(__file__).resolve().parents[2] / "build" / "structured-text"
 
 
 class Instance:
@@ -46,6 +54,24 @@ class Instance:
         raise NotImplementedError
 
 
+def items_of(source: str) -> list[Any]:
+    """What a source declares. The library takes ten seconds to parse, so one process does it for
+    all, and the others wait."""
+    digest = sha256(f"{blark.__version__}\n{source}".encode()).hexdigest()
+    KEPT.mkdir(parents=True, exist_ok=True)
+    with (KEPT / f"{digest}.pickle").open("a+b") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        file.seek(0)
+        if kept := file.read():
+            return list(pickle.loads(kept))
+        parsed = parse_source_code(source)
+        if parsed.exception is not None:
+            raise Unsuitable(str(parsed.exception))
+        items = parsed.transform().items
+        file.write(pickle.dumps(items))
+        return list(items)
+
+
 class Rise:
     """R_TRIG of the standard."""
 
@@ -58,14 +84,11 @@ class Rise:
 
 
 class Blocks:
-    """All that a source declares."""
+    """All that sources declare."""
 
-    def __init__(self, source: str) -> None:
-        parsed = parse_source_code(source)
-        if parsed.exception is not None:
-            raise Unsuitable(str(parsed.exception))
+    def __init__(self, *sources: str) -> None:
         self.declared: dict[str, Any] = {}
-        for item in parsed.transform().items:
+        for item in chain.from_iterable(map(items_of, sources)):
             inner = item.declaration if isinstance(item, tree.DataTypeDeclaration) else item
             self.declared[str(inner.name).upper()] = inner
         self.scopes = {name: self.scope(item) for name, item in self.declared.items()}

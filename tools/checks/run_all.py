@@ -155,12 +155,12 @@ def pytest(*options: str) -> Count:
 
 
 def python_tests() -> Count:
-    """One process more than there are cores, as they mostly wait.
+    """Two processes more than there are cores, as they mostly wait.
 
     Many talk to real processes against the clock. The few that fail are tried once more, one after
     the other, when the machine is less busy; pytest names them both times.
     """
-    processes = str((os.cpu_count() or 1) + 1)
+    processes = str((os.cpu_count() or 1) + 2)
     count = pytest("--numprocesses", processes, "--dist", "loadfile")
     if not 0 < count.failed <= TRIED_AGAIN:
         return count
@@ -204,7 +204,7 @@ def sweeps() -> Count:
     ]
     random = [
         *PYTHON, "pytest", "-q", "-rP", "-c", CONFIG, "--rootdir", str(ROOT),
-        "--numprocesses", "logical", "tests/property", "tests/proofs", "tests/wasm",
+        "--numprocesses", "logical", "tests/property", "tests/proofs", "tests/vboard", "tests/wasm",
     ]  # fmt: skip
     count = Count()
     for command in (stored, random):
@@ -277,11 +277,10 @@ def steps_beside() -> dict[str, Callable[[], Count]]:
             check(*PYTHON, "checks.static") + check(*PYTHON, "checks.misra")
         ),
         "Objects for Cortex-M4 (arm-check)": arm_check,
-        "C tests under sanitizers (host-asan)": lambda: c_tests_again("host-asan"),
     }
     if has_tiny_limits():
         chosen["C tests with tiny limits (tiny)"] = lambda: c_tests_again("tiny")
-    chosen["C tests from the second compiler, branches and decisions (mcdc)"] = mcdc
+    chosen["C tests from the second compiler under sanitizers, branches, decisions (mcdc)"] = mcdc
     return chosen
 
 
@@ -336,8 +335,9 @@ def steps(
     }
     if quick:
         return taken(first)
-    every = ["--all"] if fuzz_seconds > FUZZ_SECONDS else ["--minutes", "0"]
-    contracts, models = begin_proofs("prove.py", *every), begin_proofs("line_model.py")
+    every = ["--all"] if fuzz_seconds > FUZZ_SECONDS else []
+    contracts = begin_proofs("prove.py", *(every or ["--minutes", "0"]))
+    models = begin_proofs("line_model.py", *every)
     last: dict[str, Callable[[], Count]] = {"Proofs": lambda: contracts() + models()}
     if fuzz_seconds > FUZZ_SECONDS:
         last["Sweeps at every place"] = sweeps
