@@ -19,6 +19,7 @@ from rkm04_tools.service.virtual import VirtualLine
 MOMENTS = 25
 PATIENCE_SECONDS = 10.0
 AGAIN_SECONDS = 2.0
+TOOLS = Path(__file__).resolve().parents[2] / "tools"
 ENDLESS = "S2000 V16000 A60000 G+"
 
 
@@ -91,6 +92,27 @@ def test_a_simulator_ends_with_the_tool_at_whatever_moment_that_ends(write, tmp_
         wait_until_gone(str(steps))
 
     assert not steps.exists(), "half a file under its final name"
+
+
+def test_a_request_to_end_leaves_no_half_of_a_file(write, tmp_path):
+    folder = tmp_path / "made"
+    folder.mkdir()
+    command = [sys.executable, "-P", "-m", "rkm04_tools", "sim", write(ENDLESS)]
+    more = ["--for", "100000", "--steps", folder / "steps.csv"]
+    tool = subprocess.Popen(
+        [*command, *more], env={**os.environ, "PYTHONPATH": str(TOOLS), "TMPDIR": str(tmp_path)}
+    )
+    before = time.monotonic()
+    while not list(folder.iterdir()):
+        assert time.monotonic() < before + PATIENCE_SECONDS
+        time.sleep(0.02)
+
+    tool.terminate()
+
+    assert tool.wait(PATIENCE_SECONDS) == 128 + signal.SIGTERM
+    assert list(folder.iterdir()) == []
+    assert list(tmp_path.glob("rkm04-*")) == []
+    wait_until_gone(str(folder))
 
 
 def test_a_simulator_whose_tool_has_ended_before_it_begins_does_nothing(write, tmp_path):

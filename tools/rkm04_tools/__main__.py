@@ -2,12 +2,12 @@
 
 import sys
 
-from rkm04_tools.starting import hold_interrupts
+from rkm04_tools.starting import begin_signals
 
 
 def run() -> int:
     """Run the command line."""
-    hold_interrupts()
+    begin_signals()
     from rkm04_tools.cli import main
 
     return main(sys.argv[1:])

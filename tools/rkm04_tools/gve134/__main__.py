@@ -2,12 +2,12 @@
 
 import sys
 
-from rkm04_tools.starting import hold_interrupts
+from rkm04_tools.starting import begin_signals
 
 
 def run() -> int:
     """Run the command line."""
-    hold_interrupts()
+    begin_signals()
     from rkm04_tools.cli import run_tool
     from rkm04_tools.gve134.cli import make_parser
 
