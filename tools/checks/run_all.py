@@ -155,7 +155,7 @@ def pytest(*options: str) -> Count:
 
 
 def python_tests() -> Count:
-    """Two processes more than there are cores, as they mostly wait; tests/conftest.py has the order.
+    """Two processes more than there are cores, as they mostly wait; conftest.py has the order.
 
     Many talk to real processes against the clock. The few that fail are tried once more, one after
     the other, when the machine is less busy; pytest names them both times.
