@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Generator
-from pathlib import Path
 from types import FrameType
 
 import pytest
@@ -23,23 +22,6 @@ def pytest_configure() -> None:
     """
     os.environ["RKM04_SEED"] = str(SEED)
     signal.signal(signal.SIGINT, signal.default_int_handler)
-
-
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Spread the files whose tests mostly wait, those of pages, among the others.
-
-    Processes that share the tests take file after file, so that some wait while others compute.
-    """
-    files: dict[Path, list[pytest.Item]] = {}
-    for item in items:
-        files.setdefault(item.path, []).append(item)
-    pages = [path for path in files if path.parent.name == "page"]
-    others = [path for path in files if path.parent.name != "page"]
-    place = {
-        path: (at + 0.5) / len(group) for group in (pages, others) for at, path in enumerate(group)
-    }
-    order = sorted(files, key=lambda path: place[path])
-    items[:] = [item for path in order for item in files[path]]
 
 
 @pytest.hookimpl(wrapper=True)

@@ -155,13 +155,13 @@ def pytest(*options: str) -> Count:
 
 
 def python_tests() -> Count:
-    """Two processes more than there are cores, as they mostly wait; conftest.py has the order.
+    """Two processes more than there are cores, as they mostly wait.
 
     Many talk to real processes against the clock. The few that fail are tried once more, one after
     the other, when the machine is less busy; pytest names them both times.
     """
     processes = str((os.cpu_count() or 1) + 2)
-    count = pytest("--numprocesses", processes, "--dist", "loadfile", "--no-loadscope-reorder")
+    count = pytest("--numprocesses", processes, "--dist", "loadfile")
     if not 0 < count.failed <= TRIED_AGAIN:
         return count
     print(f"   {count}; what failed, once more:", flush=True)
