@@ -59,17 +59,19 @@ def items_of(source: str) -> list[Any]:
     all, and the others wait."""
     digest = sha256(f"{blark.__version__}\n{source}".encode()).hexdigest()
     KEPT.mkdir(parents=True, exist_ok=True)
-    with (KEPT / f"{digest}.pickle").open("a+b") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
-        file.seek(0)
-        if kept := file.read():
-            return list(pickle.loads(kept))
+    with (KEPT / digest).open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        kept = KEPT / f"{digest}.pickle"
+        if kept.exists():
+            return list(pickle.loads(kept.read_bytes()))
         parsed = parse_source_code(source)
         if parsed.exception is not None:
             raise Unsuitable(str(parsed.exception))
-        items = parsed.transform().items
-        file.write(pickle.dumps(items))
-        return list(items)
+        items = list(parsed.transform().items)
+        part = kept.with_suffix(".part")
+        part.write_bytes(pickle.dumps(items))
+        part.replace(kept)
+        return items
 
 
 class Rise:
