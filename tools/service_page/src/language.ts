@@ -61,11 +61,26 @@ export function setUpWords<K extends string>(chooser: HTMLSelectElement, t: Tran
 
 const LOCALES: Record<Language, string> = { en: "en-GB", cs: "cs-CZ" };
 
-/** A number as the language writes it, with at most `digits` decimal places. */
-export function numberText(value: number, digits = 0): string {
-    const text = value.toLocaleString(LOCALES[language.value], { maximumFractionDigits: digits });
-    return text === "-0" ? "0" : text.replace("-", "−");
+/** Kept, as it takes long to make one: there are many numbers in a look, and ten looks a second. */
+const formats = new Map<string, Intl.NumberFormat>();
+
+/** A number as the language writes it, with a true minus. */
+function formatted(value: number, options: Intl.NumberFormatOptions): string {
+    const key = language.value + JSON.stringify(options);
+    const format = formats.get(key) ?? new Intl.NumberFormat(LOCALES[language.value], options);
+    formats.set(key, format);
+    return format.format(value).replace("-", "−");
 }
+
+/** A number with at most `digits` decimal places. */
+export function numberText(value: number, digits = 0): string {
+    const text = formatted(value, { maximumFractionDigits: digits });
+    return text === "−0" ? "0" : text;
+}
+
+/** A number with so many decimal places, no fewer. */
+export const fixedText = (value: number, digits: number): string =>
+    formatted(value, { minimumFractionDigits: digits, maximumFractionDigits: digits });
 
 const PLAIN_BELOW = 10_000_000;
 
@@ -87,7 +102,7 @@ export function axisNumber(value: number, distance: number): string {
         Math.abs(value) < PLAIN_BELOW
             ? { maximumFractionDigits: decimalsOf(distance) }
             : { notation: "compact", maximumSignificantDigits: Math.min(Math.max(digits, 4), 21) };
-    return value.toLocaleString(LOCALES[language.value], format).replace("-", "−");
+    return formatted(value, format);
 }
 
 const MINUTE = 60;

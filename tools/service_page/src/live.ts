@@ -4,6 +4,7 @@ import { byId, make } from "./dom";
 import { language, numberText, t } from "./i18n";
 import type { Link } from "./link";
 import { lineCounts, lineWords, motorState, unitFacts } from "./live_words";
+import { Pace } from "./pace";
 import type { Presence } from "./presence";
 import { LINES, MOTORS, type Live, type MotorLive, type UnitState } from "./protocol";
 import { inUnits, isScaled, onScale, positionNumber, speedWords } from "./scale";
@@ -40,6 +41,7 @@ export class LiveView {
     readonly #inputs = LINES.map((line) => this.#lamp("button", "live-inputs", line));
     readonly #outputs = LINES.map((line) => this.#lamp("span", "live-outputs", line));
     readonly #charts: [speed: Chart, position: Chart];
+    readonly #pace = new Pace("time_s");
     #samples: Sample[] = [];
     #last: Live | null = null;
     #came_ms = 0;
@@ -101,7 +103,9 @@ export class LiveView {
         }
         this.#last = live;
         this.#came_ms = performance.now();
-        this.#show();
+        if (this.#pace.isDue(live)) {
+            this.#show();
+        }
     }
 
     #setState(state: UnitState): void {

@@ -1,4 +1,5 @@
 /** What the pages of several units know of theirs. */
+import { Pace } from "../pace";
 import type { Presence } from "../presence";
 import type { Port, Trouble } from "../protocol";
 import { Cell } from "../signal";
@@ -57,6 +58,9 @@ export class SeenUnit<Line extends CommonLink, State extends CommonState, Live> 
     readonly state = new Cell<State | null>(null);
     /** The last look, however old. */
     readonly last = new Cell<Live | null>(null);
+    readonly #news = new Cell<Live | null>(null);
+    readonly #looks = new Pace("time_s", "uptime", "frames");
+    readonly #states = new Pace("seen_ago_s");
 
     constructor(link: Line, presence: Presence) {
         this.link = link;
@@ -67,10 +71,18 @@ export class SeenUnit<Line extends CommonLink, State extends CommonState, Live> 
             if (isOther || (state.restarted && before?.restarted !== true)) {
                 this.last.set(null);
             }
-            this.state.set(state);
+            if (this.#states.isDue(state)) {
+                this.state.set(state);
+            }
+        });
+        this.last.onChange((live) => {
+            if (this.#looks.isDue(live)) {
+                this.#news.set(live);
+            }
         });
         link.isOpen.onChange((isOpen) => {
             if (!isOpen) {
+                this.#states.isDue(null);
                 this.state.set(null);
             }
         });
@@ -81,9 +93,10 @@ export class SeenUnit<Line extends CommonLink, State extends CommonState, Live> 
         return this.presence.isFresh.value ? this.last.value : null;
     }
 
+    /** Calls back at once, at every change, and each second while there is none. */
     watch(show: () => void): void {
         this.state.watch(show);
-        this.last.onChange(show);
+        this.#news.onChange(show);
         this.presence.isFresh.onChange(show);
         this.presence.seconds.onChange(show);
     }

@@ -1,5 +1,6 @@
 import type { Danger } from "../danger";
 import { byId, make } from "../dom";
+import { fixedText } from "../language";
 import { language, numberText, t } from "./i18n";
 import { isOpen } from "./job";
 import { AXES, FLAG, type Live, type MachineAxis } from "./protocol";
@@ -109,7 +110,7 @@ export class Axes {
         const before = was === undefined ? "" : t("live.was", { steps: numberText(was) });
         card.root.dataset.state = at === null ? "unknown" : "known";
         card.root.dataset.moving = String(speed !== null && speed !== 0);
-        card.position.textContent = at === null ? NOT_KNOWN : `${fixed(at / per, digits)} ${of === null ? "" : unit}`;
+        card.position.textContent = at === null ? NOT_KNOWN : `${fixedText(at / per, digits)} ${of === null ? "" : unit}`;
         card.steps.textContent = at === null ? before : t("live.steps", { steps: numberText(at) });
         const shown = speed === null ? NOT_KNOWN : numberText(speed / per, of === null ? 0 : 1);
         card.speed.textContent = at === null ? "" : t("live.speed", { speed: shown, unit });
@@ -180,9 +181,6 @@ export class Axes {
         });
     }
 }
-
-const fixed = (value: number, digits: number): string =>
-    value.toLocaleString(language.value === "cs" ? "cs-CZ" : "en-GB", { minimumFractionDigits: digits, maximumFractionDigits: digits }).replace("-", "−");
 
 function moreOf({ causes, flags, late, stood_s = 0 }: Live): string {
     const found = [

@@ -2,7 +2,7 @@ import type { Danger } from "../danger";
 import { make } from "../dom";
 import { numberText } from "../language";
 import { FeedField } from "./feed";
-import { named, t, type Key } from "./i18n";
+import { language, named, t, type Key } from "./i18n";
 import { mmText } from "./numbers";
 import { FAULTS, FEED_PER_MM_MIN, FLAG, STATUS, UM_PER_MM, type AxisLive, type Method } from "./protocol";
 import { isUnderWay, moves, type Unit } from "./unit";
@@ -32,6 +32,7 @@ export class Card {
     readonly #method: HTMLSelectElement;
     readonly #reference: HTMLInputElement;
     readonly #more: HTMLElement;
+    #look = "";
     readonly root: HTMLElement;
 
     constructor(unit: Unit, danger: Danger, axis: number) {
@@ -124,18 +125,15 @@ export class Card {
     }
 
     #showBits(live: AxisLive | null): void {
-        const chip = (name: string, isOn: boolean | null): HTMLElement => {
-            const words = `${named("bit", name)}: ${t(isOn === null ? "live.unknown" : isOn ? "bit.is1" : "bit.is0")}`;
-            return make("span", { class: "bit", "data-level": isOn === null ? "unknown" : isOn ? "1" : "0", title: words, role: "img", "aria-label": `${name}: ${words}` }, name);
-        };
         const has = (value: number | undefined, bit: number): boolean | null => (value === undefined ? null : (value & bit) !== 0);
-        const chips = [
-            ...BITS.map((name) => chip(name, has(live?.status, STATUS[name]))), chip("MP", live?.permitted ?? null),
-            ...FLAGS.filter((name) => ALWAYS.includes(name) || has(live?.flags, FLAG[name])).map((name) => chip(name, has(live?.flags, FLAG[name]))),
+        const bits: [name: string, isOn: boolean | null][] = [
+            ...BITS.map((name): [string, boolean | null] => [name, has(live?.status, STATUS[name])]), ["MP", live?.permitted ?? null],
+            ...FLAGS.map((name): [string, boolean | null] => [name, has(live?.flags, FLAG[name])]).filter(([name, isOn]) => ALWAYS.includes(name) || isOn),
         ];
-        const look = chips.map((one) => one.outerHTML).join("");
-        if (look !== this.#parts.bits.innerHTML) {
-            this.#parts.bits.replaceChildren(...chips);
+        const look = `${language.value} ${bits.join(" ")}`;
+        if (look !== this.#look) {
+            this.#look = look;
+            this.#parts.bits.replaceChildren(...bits.map(([name, isOn]) => chip(name, isOn)));
         }
     }
 
@@ -233,6 +231,12 @@ export class Card {
             bits, trouble, // below the buttons, which so stay where they are
         );
     }
+}
+
+function chip(name: string, isOn: boolean | null): HTMLElement {
+    const words = `${named("bit", name)}: ${t(isOn === null ? "live.unknown" : isOn ? "bit.is1" : "bit.is0")}`;
+    const level = isOn === null ? "unknown" : isOn ? "1" : "0";
+    return make("span", { class: "bit", "data-level": level, title: words, role: "img", "aria-label": `${name}: ${words}` }, name);
 }
 
 const number = (id: string, value: string, limits: Record<string, string>): HTMLInputElement =>

@@ -37,7 +37,7 @@ export class Curves {
     constructor(unit: Unit) {
         this.#unit = unit;
         unit.last.onChange((live) => this.#add(live));
-        unit.presence.seconds.onChange(() => this.#show());
+        unit.watch(() => this.#show());
     }
 
     #add(live: Live | null): void {
@@ -54,7 +54,6 @@ export class Curves {
         while ((this.#samples[0]?.time_s ?? Infinity) < (live?.time_s ?? 0) - SHOWN_SECONDS) {
             this.#samples.shift();
         }
-        this.#show();
     }
 
     #show(): void {
