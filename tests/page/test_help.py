@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from rkm04_tools.service.checking import check, examples
 ROOT = Path(__file__).resolve().parents[2]
 TABLE = ROOT / "firmware/rkm04/program/program_opcodes.def"
 LANGUAGE = ROOT / "firmware/rkm04/docs/language.md"
+CZECH = [ROOT / f"firmware/rkm04/docs/{name}.cs.md" for name in ("language", "unit")]
 PROGRAM = re.compile(r"^```rks\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 COMMENT = re.compile(r"\{[^}]*\}")
 
@@ -86,16 +88,37 @@ def test_a_search_leaves_what_has_all_its_words_without_accents_too(page):
     page.page.locator("#language").select_option("en")
 
 
-def test_every_link_inside_leads_somewhere(page):
+def test_in_czech_the_documents_that_have_czech_are_shown_and_searched_in_it(page):
     opened(page)
-    lost = page.page.evaluate(
-        """() => [...document.querySelectorAll("#help a[href^='#']")]
-            .map((link) => link.getAttribute("href").slice(1))
-            .filter((id) => document.getElementById(id) === null)"""
-    )
-    assert lost == []
-    ids = page.page.evaluate("[...document.querySelectorAll('[id]')].map(({ id }) => id)")
-    assert len(ids) == len(set(ids))
+    title = page.page.locator("#help-language")
+    expect(title).to_have_text("The language")
+    page.page.locator("#language").select_option("cs")
+    expect(title).to_have_text("Jazyk")
+    expect(page.page.locator("#help-places a[lang=cs]")).to_have_text(["Jazyk", "Jednotka"])
+    others = ["The time of every step", "The messages", "The line"]
+    expect(page.page.locator("#help-places a[lang=en]")).to_have_text(others)
+    programs = page.page.locator("#help-list .help-page[lang=cs] .program code")
+    shown = [each.rstrip("\n") for each in programs.all_text_contents()]
+    texts = [PROGRAM.findall(each.read_text(encoding="utf-8")) for each in CZECH]
+    assert shown == [each.rstrip("\n") for each in itertools.chain(*texts)]
+    page.page.locator("#help-search").fill("hlidani uroven hrana")
+    expect(seen(page, ".help-section")).to_have_count(1)
+    expect(seen(page, ".help-section")).to_contain_text("hlídá se úroveň, ne hrana")
+    page.page.locator("#language").select_option("en")
+
+
+def test_every_link_inside_leads_somewhere_in_both_languages(page):
+    opened(page)
+    for language in ("cs", "en"):
+        page.page.locator("#language").select_option(language)
+        lost = page.page.evaluate(
+            """() => [...document.querySelectorAll("#help a[href^='#']")]
+                .map((link) => link.getAttribute("href").slice(1))
+                .filter((id) => document.getElementById(id) === null)"""
+        )
+        assert lost == []
+        ids = page.page.evaluate("[...document.querySelectorAll('[id]')].map(({ id }) => id)")
+        assert len(ids) == len(set(ids))
 
 
 def test_commands_are_completed_where_they_are_asked_for(page):
@@ -125,17 +148,16 @@ def test_commands_are_completed_where_they_are_asked_for(page):
 def test_every_command_that_is_completed_is_one_for_the_parser(page):
     options = page.page.locator(".cm-tooltip-autocomplete li")
     rows = len(re.findall(r"^X\(", TABLE.read_text(encoding="ascii"), re.MULTILINE))
+    page.write("")
     for index in range(rows):
-        page.write("")
         page.page.locator("#commands").click()
         expect(options).to_have_count(rows)
-        page.page.wait_for_timeout(150)
-        for _ in range(index):
-            page.page.keyboard.press("ArrowDown")
-        page.page.keyboard.press("Enter")
+        options.nth(index).click()
         expect(options).to_have_count(0)
-        text = page.text()
-        errors = [one for one in check(text)["problems"] if one["severity"] == "error"]
-        told = [one["message"] for one in errors]
-        flow = ("without", "no label")
-        assert [one for one in told if not any(word in one for word in flow)] == [], text
+        page.page.keyboard.press("ControlOrMeta+End")
+        page.page.keyboard.type(" ")
+    text = page.text()
+    errors = [one for one in check(text)["problems"] if one["severity"] == "error"]
+    told = [one["message"] for one in errors]
+    flow = ("without", "no label")
+    assert [one for one in told if not any(word in one for word in flow)] == [], text

@@ -1,6 +1,7 @@
 // Makes the module `help-pages` of what the page shows of the project's own documents: their text, section by section,
-// and the table of commands. There is no second copy of either.
+// in English and, of those with a `.cs.md` beside them, in Czech, and the table of commands. There is no second copy.
 import { Marked } from "marked";
+import { existsSync } from "node:fs";
 import { readFile, readdir } from "node:fs/promises";
 import { basename, posix } from "node:path";
 
@@ -28,27 +29,48 @@ const slug = (text) =>
 
 const anchor = (document, heading) => `help-${basename(document, ".md")}${heading ? `-${heading}` : ""}`;
 
-/** Where a link leads in the page; null: to what is not in it. */
-function placeOf(document, href) {
-    const [path, heading = ""] = href.split("#");
-    const wanted = path === "" ? document : posix.normalize(posix.join(posix.dirname(document), path));
-    return DOCUMENTS.includes(wanted) ? anchor(wanted, heading) : null;
+const inEnglish = (document) => document;
+
+/** What is shown of a document when the page is in Czech. */
+function inCzech(document) {
+    const czech = document.replace(/\.md$/, ".cs.md");
+    return existsSync(`${ROOT}/${czech}`) ? czech : document;
 }
 
-function rendererOf(document) {
+async function headingsOf(document) {
+    const tokens = new Marked().lexer(await readFile(`${ROOT}/${document}`, "utf8"));
+    return tokens.filter(({ type }) => type === "heading").map(({ depth, text }) => (depth === 1 ? "" : slug(text)));
+}
+
+/** The anchor in the page of each heading that is shown; a Czech one has the English one's, so that links to it hold. */
+async function placesOf(versionOf) {
+    const places = DOCUMENTS.map(async (document) => {
+        const [english, shown] = await Promise.all([document, versionOf(document)].map(headingsOf));
+        return shown.map((heading, at) => [`${versionOf(document)}#${heading}`, anchor(document, english[at])]);
+    });
+    return new Map((await Promise.all(places)).flat());
+}
+
+/** A heading as links write it. */
+function wantedBy(document, href) {
+    const [path, heading = ""] = href.split("#");
+    return `${path === "" ? document : posix.normalize(posix.join(posix.dirname(document), path))}#${heading}`;
+}
+
+function rendererOf(document, places) {
     return {
         heading({ tokens, depth, text }) {
             const words = this.parser.parseInline(tokens);
-            const id = anchor(document, depth === 1 ? "" : slug(text));
-            return `<h${depth + BELOW} id="${id}">${words}</h${depth + BELOW}>`;
+            const id = places.get(`${document}#${depth === 1 ? "" : slug(text)}`);
+            return `<h${depth + BELOW}${id === undefined ? "" : ` id="${id}"`}>${words}</h${depth + BELOW}>`;
         },
         link({ href, tokens }) {
             const words = this.parser.parseInline(tokens);
             if (/^https?:/.test(href)) {
                 return `<a href="${escaped(href)}" target="_blank" rel="noreferrer">${words}</a>`;
             }
-            const place = placeOf(document, href);
-            return place === null ? words : `<a href="#${place}">${words}</a>`;
+            const place = places.get(wantedBy(document, href));
+            return place === undefined ? words : `<a href="#${place}">${words}</a>`;
         },
         image: ({ text }) => escaped(text),
         code({ text, lang }) {
@@ -61,8 +83,8 @@ function rendererOf(document) {
     };
 }
 
-async function pageOf(document) {
-    const marked = new Marked({ renderer: rendererOf(document) });
+async function textOf(document, places) {
+    const marked = new Marked({ renderer: rendererOf(document, places) });
     const tokens = marked.lexer(await readFile(`${ROOT}/${document}`, "utf8"));
     const sections = [];
     for (const token of tokens) {
@@ -72,7 +94,18 @@ async function pageOf(document) {
         sections.at(-1).push(token);
     }
     const title = tokens.find(({ type, depth }) => type === "heading" && depth === 1).text;
-    return { id: anchor(document, ""), title, sections: sections.map((part) => marked.parser(part)) };
+    return { title, sections: sections.map((part) => marked.parser(part)) };
+}
+
+async function pages() {
+    const [places, czechPlaces] = await Promise.all([inEnglish, inCzech].map(placesOf));
+    return Promise.all(
+        DOCUMENTS.map(async (document) => {
+            const czech = inCzech(document);
+            const cs = czech === document ? undefined : await textOf(czech, czechPlaces);
+            return { id: anchor(document, ""), texts: { en: await textOf(document, places), cs } };
+        }),
+    );
 }
 
 /** The chapter of a document that has this heading, without the heading; empty where there is none. */
@@ -86,13 +119,14 @@ function chapterOf(marked, text, title) {
 
 /** The boards, each with where its image begins and what its page says of flashing. */
 async function boards() {
+    const places = await placesOf(inEnglish);
     const names = (await readdir(`${ROOT}/${BOARDS}`, { withFileTypes: true })).filter((each) => each.isDirectory());
     return Promise.all(
         names.map(async ({ name }) => {
             const document = `${BOARDS}/${name}/README.md`;
             const header = await readFile(`${ROOT}/${BOARDS}/${name}/board.h`, "utf8");
             const loader_bytes = Number(/^#define BOARD_LOADER_BYTES (\w+)$/m.exec(header)?.[1] ?? 0);
-            const marked = new Marked({ renderer: rendererOf(document) });
+            const marked = new Marked({ renderer: rendererOf(document, places) });
             const text = await readFile(`${ROOT}/${document}`, "utf8");
             return { name, title: /^# (.+)$/m.exec(text)[1], loader_bytes, flashing: chapterOf(marked, text, "Flashing") };
         }),
@@ -118,8 +152,7 @@ export const helpPages = {
     setup(builder) {
         builder.onResolve({ filter: /^help-pages$/ }, () => ({ path: "help-pages", namespace: "help" }));
         builder.onLoad({ filter: /./, namespace: "help" }, async () => {
-            const pages = await Promise.all(DOCUMENTS.map(pageOf));
-            const text = { pages, commands: await commands(), boards: await boards() };
+            const text = { pages: await pages(), commands: await commands(), boards: await boards() };
             return { contents: JSON.stringify(text), loader: "json" };
         });
     },

@@ -1,10 +1,15 @@
 /** The project's own documents and its table of commands; help_pages.mjs makes it when the page is built. */
 declare module "help-pages" {
-    export interface HelpPage {
-        id: string;
+    export interface HelpText {
         title: string;
         /** Each begins with its heading. */
         sections: string[];
+    }
+
+    export interface HelpPage {
+        id: string;
+        /** With the same headings, and so the same anchors, in each language. */
+        texts: { en: HelpText; cs?: HelpText };
     }
 
     /** A row of firmware/rkm04/program/program_opcodes.def. */

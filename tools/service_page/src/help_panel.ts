@@ -44,21 +44,25 @@ export class HelpPanel {
     }
 
     #write(): void {
-        const documents = pages.map(({ id, sections }) => {
+        const shown = pages.map(({ id, texts }) => {
+            const text = texts[language.value];
+            return text ? { id, lang: language.value, ...text } : { id, lang: "en", ...texts.en };
+        });
+        const documents = shown.map(({ id, lang, sections }) => {
             const parts = sections.map((html) => {
                 const part = make("section", { class: "help-section" });
                 part.innerHTML = html;
                 part.querySelectorAll(".program").forEach((program) => this.#addTry(program));
                 return part;
             });
-            return make("div", { class: "help-page", lang: "en", "data-page": id }, ...parts);
+            return make("div", { class: "help-page", lang, "data-page": id }, ...parts);
         });
         this.#list.replaceChildren(this.#commands(), this.#exampleList(), ...documents);
         this.#places.replaceChildren(
             ...[["help-commands", t("help.commands")], ["help-examples", t("help.examples")]].map(([id, title]) =>
                 make("a", { href: `#${id}` }, title ?? ""),
             ),
-            ...pages.map(({ id, title }) => make("a", { href: `#${id}`, lang: "en" }, title)),
+            ...shown.map(({ id, lang, title }) => make("a", { href: `#${id}`, lang }, title)),
         );
         this.#filter();
     }
