@@ -126,8 +126,11 @@ static bool lay(struct host_machine *machine, unsigned motor)
 unsigned host_step_first(const struct host_machine *machine)
 {
     unsigned first = 0;
+    uint64_t earliest = host_step_next_tick(machine, 0);
     for (unsigned motor = 1; motor < UNIT_MOTORS; motor++) {
-        first = host_step_next_tick(machine, motor) < host_step_next_tick(machine, first) ? motor : first;
+        uint64_t tick = host_step_next_tick(machine, motor);
+        first = tick < earliest ? motor : first;
+        earliest = tick < earliest ? tick : earliest;
     }
     return first;
 }

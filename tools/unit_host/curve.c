@@ -74,7 +74,11 @@ bool curve_begin(struct curve *curve, struct outfile *file, const struct curve_r
 
 static void put_step(struct curve *curve, struct curve_motor *motor, const struct timeline_event *event)
 {
-    int64_t size = (int64_t)units_milli_speed(event->interval_ticks);
+    if (event->interval_ticks != motor->interval_ticks) { /* most are alike, and a division takes long */
+        motor->interval_ticks = event->interval_ticks;
+        motor->interval_speed = (int64_t)units_milli_speed(event->interval_ticks);
+    }
+    int64_t size = motor->interval_speed;
     int64_t milli_speed = event->value < motor->position ? -size : size;
     if (motor->fresh) {
         put_point(curve, motor, motor->move_tick, milli_speed);

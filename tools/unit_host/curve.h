@@ -60,6 +60,8 @@ struct curve_motor {
     uint64_t tick; /* of the last point; of events that come too late as well */
     uint64_t move_tick;
     int64_t milli_speed; /* of the last interval */
+    uint64_t interval_ticks;
+    int64_t interval_speed; /* of interval_ticks, which is 0 at first, as this */
     int64_t position;
 };
 

@@ -58,18 +58,14 @@ static void widen(struct thin *thin)
 /* As merge, for a column of one point: nearly all points go this way. */
 static void take(struct thin_column *column, const struct thin_point *point)
 {
-    column->taken = at_most_all(column->taken + 1U);
-    column->last = *point;
     if (point->milli_speed < column->slowest.milli_speed) {
         column->slowest = *point;
-    }
-    if (point->milli_speed > column->fastest.milli_speed) {
+    } else if (point->milli_speed > column->fastest.milli_speed) {
         column->fastest = *point;
     }
     if (point->position < column->lowest.position) {
         column->lowest = *point;
-    }
-    if (point->position > column->highest.position) {
+    } else if (point->position > column->highest.position) {
         column->highest = *point;
     }
 }
@@ -79,19 +75,29 @@ static bool is_in_last(const struct thin *thin, uint64_t tick)
     return thin->count > 0 && thin->columns[thin->count - 1U].index == tick >> thin->shift;
 }
 
-void thin_put(struct thin *thin, const struct thin_point *given)
+static void begin_column(struct thin *thin, const struct thin_point *given)
 {
     struct thin_point point = *given;
-    point.ordinal = thin->ordinals++;
-    if (is_in_last(thin, point.tick)) {
-        struct thin_column *last = &thin->columns[thin->count - 1U];
-        thin->points += at_most_all(last->taken + 1U) - last->taken;
-        take(last, &point);
+    point.ordinal = thin->ordinals;
+    thin->columns[thin->count++] =
+        (struct thin_column){point.tick >> thin->shift, 1, point, point, point, point, point, point};
+}
+
+void thin_put(struct thin *thin, const struct thin_point *point)
+{
+    bool is_one_more = true;
+    if (is_in_last(thin, point->tick)) {
+        struct thin_column *column = &thin->columns[thin->count - 1U];
+        column->last = *point;
+        column->last.ordinal = thin->ordinals;
+        take(column, &column->last);
+        is_one_more = column->taken < THIN_POINTS_PER_COLUMN;
+        column->taken += is_one_more ? 1U : 0U;
     } else {
-        thin->columns[thin->count++] =
-            (struct thin_column){point.tick >> thin->shift, 1, point, point, point, point, point, point};
-        thin->points++;
+        begin_column(thin, point);
     }
+    thin->ordinals++;
+    thin->points += is_one_more ? 1U : 0U;
     while (thin->points > thin->points_max) {
         widen(thin);
     }
