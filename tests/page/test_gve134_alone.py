@@ -195,7 +195,7 @@ def test_a_probe_goes_back_to_where_it_was_touched(page: GvePage, coupled: str) 
     probe = "SW3,00\nSW1,80\nA1\nV1000\nL0,0,-20000\n;@probe\nC0,0,10\n"
     page.open("probe.gve", f"EW0C,{coupled}\n{probe}")
     page.at("start").click()
-    page.doing("moving")
+    expect(page.at("steps-Z")).to_have_text(re.compile(r"\d{3} pulses"))
     page.page.locator("#inputs button", has_text="plate").click()
     expect(page.at("job-words")).to_have_text("probe.gve is done")
     page.doing("at rest")

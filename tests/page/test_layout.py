@@ -1,17 +1,13 @@
-"""How the page looks at the widths it is made for, light and dark, and how it is read aloud."""
+"""How the page looks at the widths it is made for, light and dark, in both languages."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 import pytest
-from page_looks import AXE, CUT, OUTSIDE, OVER, SIZES, VIOLATIONS
+from page_looks import SIZES, check_edges, check_looks
 from playwright.sync_api import Browser, expect
 from service_page import Service, ServicePage, shown
-
-DRAWN = """() => new Promise((take) =>
-    requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(take))))"""
-"""Waits until what follows a new size is done, too."""
 
 
 @pytest.fixture(scope="module")
@@ -24,32 +20,19 @@ def busy_page(browser: Browser, service: Service) -> Iterator[ServicePage]:
         page.send("\\ C100 S100 V20000 F400 R\n{ a second line }")
         expect(page.page.locator(".cm-lintRange-error")).to_have_count(1)
         page.page.locator("#commission").evaluate("(panel) => (panel.open = true)")
-        page.page.locator("#help-open").click()
         page.page.locator("#scan").click()
         expect(page.page.locator("#found button")).not_to_have_count(0)
         yield page
         page.calm()
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_nothing_serious_is_found_by_axe_at_any_width(busy_page, scheme):
+def test_it_looks_right_at_every_width_light_and_dark(busy_page):
+    check_looks(busy_page.page)
+
+
+def test_the_help_has_room_at_every_width(busy_page):
     page = busy_page.page
-    page.emulate_media(color_scheme=scheme)
-    if page.evaluate("typeof axe") == "undefined":
-        page.evaluate(AXE.read_text())
+    page.locator("#help-open").click()
     for width, height in SIZES:
         page.set_viewport_size({"width": width, "height": height})
-        assert page.evaluate(VIOLATIONS) == [], width
-
-
-@pytest.mark.parametrize("size", SIZES, ids=str)
-@pytest.mark.parametrize("language", ["en", "cs"])
-def test_nothing_is_cut_off_or_lies_over_something_else(busy_page, size, language):
-    page = busy_page.page
-    page.locator("#language").select_option(language)
-    page.set_viewport_size({"width": size[0], "height": size[1]})
-    page.evaluate(DRAWN)
-    assert page.evaluate(OUTSIDE) == []
-    assert page.evaluate(OVER) == []
-    assert page.evaluate(CUT) == []
-    page.locator("#language").select_option("en")
+        check_edges(page)

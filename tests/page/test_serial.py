@@ -14,19 +14,25 @@ from noisy_line import NoisyLine
 from page_looks import AXE, CUT, OUTSIDE, OVER, SIZES, VIOLATIONS
 from playwright.sync_api import Browser, Page, expect
 from serial_bridge import SerialBridge
+from serial_page import (
+    CHOOSE,
+    NODE,
+    PORT,
+    UNSENT,
+    connect,
+    press_connect,
+    scan,
+    send,
+    send_once,
+)  # fmt: skip
 from served import Served
 from service_page import PATIENCE_SECONDS
 
-NODE, OTHER = 3, 5
-PORT = "USB 0403:6001"
-CHOOSE = "serial"
+OTHER = 5
 K = "\x020K"
 LONG = "\\ C100 S1000 V1000 A1000 F1000000 R"
 NOT_KNOWN = "STATE NOT KNOWN: the line was lost. A STOP IS NOT CONFIRMED: use the emergency stop"
 SEED = 5
-SENDS_MAX = 3
-UNSENT = "the unit was not reached at that time, so this was not sent"
-SCANS_MAX = 3
 UNDER_WAY_MAX = 1
 """Frames that may be on their way when a stop is asked for; without haste there are three more."""
 PIECES, HARMED = 8, 3
@@ -53,7 +59,7 @@ def bridge(unit: Served) -> Iterator[SerialBridge]:
 
 
 @pytest.fixture(scope="module")
-def open_page(browser: Browser, written: Path) -> Iterator[Callable[[str], Page]]:
+def open_for_all(browser: Browser, written: Path) -> Iterator[Callable[[str], Page]]:
     context = browser.new_context(locale="en-GB")
     faults: list[str] = []
 
@@ -70,10 +76,24 @@ def open_page(browser: Browser, written: Path) -> Iterator[Callable[[str], Page]
     assert faults == []
 
 
+@pytest.fixture
+def open_page(open_for_all: Callable[[str], Page]) -> Iterator[Callable[[str], Page]]:
+    """Pages that are open no longer than their test."""
+    opened: list[Page] = []
+
+    def begin(script: str) -> Page:
+        opened.append(open_for_all(script))
+        return opened[-1]
+
+    yield begin
+    for page in opened:
+        page.close()
+
+
 @pytest.fixture(scope="module")
-def shared_page(open_page: Callable[[str], Page], bridge: SerialBridge) -> Page:
+def shared_page(open_for_all: Callable[[str], Page], bridge: SerialBridge) -> Page:
     """One page for many tests, since it takes seconds to be drawn."""
-    page = open_page(bridge.script)
+    page = open_for_all(bridge.script)
     connect(page)
     return page
 
@@ -97,70 +117,12 @@ def page(shared_page: Page, bridge: SerialBridge) -> Iterator[Page]:
     bridge.silent = False
 
 
-def connect(page: Page, node: int = NODE, port: str = CHOOSE) -> None:
-    """Leave what is connected for the serial port; wait until its unit is there."""
-    press_connect(page, node, port)
-    expect(page.locator("#state")).to_contain_text(f"{PORT}, node {node}")
-    expect(page.locator("#state")).to_have_attribute("data-kind", "good")
-
-
-def press_connect(page: Page, node: int = NODE, port: str = CHOOSE) -> None:
-    """Leave what is connected for the serial port; the caller waits for what comes of it."""
-    if page.locator("#port").is_disabled():
-        page.locator("#connect").click()
-    expect(page.locator("#port")).to_be_enabled()
-    page.locator("#port").select_option(port)
-    page.locator("#node").select_option(str(node))
-    page.locator("#connect").click()
-
-
-def send(page: Page, text: str) -> None:
-    """Send a program that begins with a reset; again if the machine was too busy to answer."""
-    assert text.startswith("\\")
-    write(page, text)
-    for _ in range(SENDS_MAX):
-        page.locator("#log-clear").click()
-        page.locator("#send").click()
-        expect(page.locator("#log .log-item")).to_have_count(1)
-        if "sent and accepted" in last_answer(page):
-            return
-    raise AssertionError(last_answer(page))
-
-
-def send_once(page: Page) -> None:
-    """Send what is shown; again only if it was not sent, as the machine was too busy for a look."""
-    for _ in range(SENDS_MAX):
-        expect(page.locator("#state")).to_have_attribute("data-kind", "good")
-        page.locator("#log-clear").click()
-        page.locator("#send").click()
-        expect(page.locator("#log .log-item")).to_have_count(1)
-        if UNSENT not in last_answer(page):
-            break
-    assert "sent and accepted" in last_answer(page), last_answer(page)
-
-
-def scan(page: Page, *nodes: int) -> None:
-    """Look for all of these units; again if the machine was too busy to answer."""
-    for _ in range(SCANS_MAX):
-        page.locator("#log-clear").click()
-        page.locator("#scan").click()
-        expect(page.locator("#log .log-item")).to_have_count(1)
-        found = page.locator("#found button").all_inner_texts()
-        if len(found) >= len(nodes):
-            break
-    assert found == [str(node) for node in nodes]
-
-
 def wait_until(page: Page, is_so: Callable[[], bool]) -> None:
     """Wait for something outside the page."""
     end = time.monotonic() + PATIENCE_SECONDS
     while not is_so():
         assert time.monotonic() < end
         page.wait_for_timeout(20)
-
-
-def last_answer(page: Page) -> str:
-    return page.locator("#log .log-item").first.inner_text()
 
 
 def messages_to(node: int, sent: bytes) -> list[bytes]:
@@ -291,7 +253,6 @@ def test_a_page_that_is_left_while_a_button_is_held_asks_and_stops_the_motor(
 
     connect(page)
     expect(page.locator("#state-1")).to_contain_text("stopped by K")
-    leaving.close()
 
 
 def test_a_cable_pulled_while_a_button_is_held_is_told_and_the_run_has_an_end(page, bridge):
@@ -411,11 +372,16 @@ def test_a_stop_does_not_wait_for_what_is_under_way(page, bridge):
     page.locator("#message").select_option("store")
     page.locator("#send").click()
     expect(page.locator("#state")).to_contain_text("busy")
-    before = len(bridge.sent)
+    page.evaluate(
+        """() => document.addEventListener(
+            "keydown", () => { window.fakeSerial.said = []; }, { capture: true, once: true }
+        )"""
+    )
     page.keyboard.press("Escape")
 
     wait_until(page, lambda: frame(0, 0, K.encode()) in bridge.sent)
-    ahead = bridge.sent[before : bridge.sent.index(frame(0, 0, K.encode()))]
+    said = bytes(page.evaluate("window.fakeSerial.said"))
+    ahead = said[: said.index(frame(0, 0, K.encode()))]
     assert len([part for part in ahead.split(b"\x7e") if part]) <= UNDER_WAY_MAX
 
 

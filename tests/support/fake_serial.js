@@ -1,7 +1,7 @@
 // A stand-in for navigator.serial: one USB adapter, whose bytes go to a bridge (serial_bridge.py) over a WebSocket.
 // Tests change it by window.fakeSerial: `busy` lets open() fail, pull() pulls the cable, `lastWords` does so as soon as
 // these characters were sent, damage() is a character with a framing error, `opened` are the options that it was opened
-// with, `choice_ms` is how long the user takes to choose it.
+// with, `said` holds what it was given to send, `choice_ms` is how long the user takes to choose it.
 (() => {
     const place = "PLACE";
 
@@ -11,6 +11,7 @@
         busy = false;
         opened = [];
         lastWords = null;
+        said = [];
         choice_ms = 0;
         #reader = null;
         #socket = null;
@@ -57,6 +58,7 @@
 
         #send(socket, data) {
             socket.send(data);
+            this.said.push(...data);
             if (this.lastWords !== null && String.fromCharCode(...data).includes(this.lastWords)) {
                 this.lastWords = null;
                 this.pull();

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+
+from playwright.sync_api import Page
 
 AXE = Path(__file__).resolve().parents[2] / "build/service_page/node_modules/axe-core/axe.min.js"
 SIZES = ((320, 640), (390, 844), (1024, 768), (1400, 900))
@@ -52,3 +55,32 @@ CUT = """() => [...document.querySelectorAll("main button, main label > b, .lamp
     .filter((part) => getComputedStyle(part).display !== "inline")
     .map((part) => part.outerHTML.slice(0, 80))"""
 """Words that are cut off."""
+
+DRAWN = """() => new Promise((take) =>
+    requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(take))))"""
+"""Waits until what follows a new size is done, too."""
+
+
+def check_edges(page: Page) -> None:
+    """Fail on what is cut off or lies over something else, in either language."""
+    for language in ("cs", "en"):
+        page.locator("#language").select_option(language)
+        page.evaluate(DRAWN)
+        for finds in (OUTSIDE, OVER, CUT):
+            assert page.evaluate(finds) == [], (page.viewport_size, language)
+
+
+def check_looks(page: Page, at_each_width: Callable[[], None] = lambda: None) -> None:
+    """Fail on what is wrong at any width: for axe, or at the edges.
+
+    Colours do not depend on the width, so the dark ones are looked at once.
+    """
+    page.evaluate(AXE.read_text())
+    page.emulate_media(color_scheme="light")
+    for width, height in SIZES:
+        page.set_viewport_size({"width": width, "height": height})
+        check_edges(page)
+        assert page.evaluate(VIOLATIONS) == [], width
+        at_each_width()
+    page.emulate_media(color_scheme="dark")
+    assert page.evaluate(VIOLATIONS) == []
