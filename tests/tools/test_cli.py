@@ -142,7 +142,7 @@ def program(tmp_path_factory):
 
 
 @given(content=ANYTHING)
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=60, deadline=None)
 def test_check_takes_any_bytes_and_agrees_with_the_unit(program, content):
     program.write_bytes(content)
 
@@ -159,7 +159,7 @@ def test_check_takes_any_bytes_and_agrees_with_the_unit(program, content):
 
 
 @given(content=ANYTHING)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 def test_any_program_runs_or_is_refused_in_order(program, content):
     program.write_bytes(content)
 
