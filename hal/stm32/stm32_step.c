@@ -19,12 +19,9 @@ static inline uint32_t last_fall(struct stm32_channel *channel)
 }
 
 /* Of the words of the ring, NDTR has counted those that have arrived (RM0090 10.5.6); the last of them is the edge to
- * come. A stream that has stopped by itself has met an error, and its edges are missing. */
+ * come. */
 static uint32_t count_waiting(const struct stm32_channel *channel)
 {
-    if (BASE_SELDOM((DMA_CR(channel->stream) & DMA_CR_EN) == 0)) {
-        stm32_fault_stop_output();
-    }
     uint32_t arrived = (RING_EDGES - DMA_NDTR(channel->stream)) % RING_EDGES;
     return (channel->laid - arrived / 2U) % RING_PULSES;
 }
@@ -266,6 +263,17 @@ static inline bool must_wait(struct stm32_channel *channel, uint32_t waiting)
     return unarmed || crowded;
 }
 
+/* The first pulse that waits is still to come. A stream that has met an error stops by itself, and one whose FIFO had
+ * run empty has held a request up (RM0090 10.3.18): an edge that comes to the compare register after its time, and all
+ * after it, are not made for a turn of the counter. */
+static inline void check_made_in_time(struct stm32_channel *channel, uint32_t waiting, uint32_t now)
+{
+    bool is_over = is_before(slot(channel, channel->laid - waiting)->rise_tick + (uint32_t)SETTLE_TICKS, now);
+    if (BASE_SELDOM(is_over && waiting != 0)) {
+        stm32_fault_stop_output();
+    }
+}
+
 /* The stream loads what comes after a pulse when that begins. Where that is far from the interrupt's begin, `now`, it
  * is far. */
 static void append(unsigned motor, uint32_t now, uint32_t ahead_ticks)
@@ -275,6 +283,7 @@ static void append(unsigned motor, uint32_t now, uint32_t ahead_ticks)
     uint32_t last = channel->last_tick;
     bool far = !is_before(last, now + (uint32_t)FAR_TICKS);
     bool in_time = !is_before(last, now + (uint32_t)(APPEND_TICKS + TICKS_PER_US));
+    check_made_in_time(channel, waiting, now);
     if (must_wait(channel, waiting)) {
         return;
     }

@@ -181,10 +181,15 @@ def test_what_goes_astray_is_caught_with_the_outputs_safe_and_the_cause_kept(
 
 
 @pytest.mark.parametrize("stream", [2, 4, 0, 3])
-def test_a_step_output_that_fails_is_caught_with_the_outputs_safe_and_the_cause_kept(unit, stream):
+@pytest.mark.parametrize("fault", ["dma={stream}", "slow={stream},200000"])
+def test_a_step_output_that_fails_is_caught_with_the_outputs_safe_and_the_cause_kept(
+    unit, fault, stream
+):
+    """An edge that comes to the compare register after its time is made a turn of it later."""
     told = FAULT_MS + RESTART_MS + TOLD_MS
+    fault = fault.format(stream=stream)
 
-    modelled = run(unit, told / 1000 + 0.1, ask_ms=FAULT_MS + RESTART_MS, fault=f"dma={stream}")
+    modelled = run(unit, told / 1000 + 0.1, ask_ms=FAULT_MS + RESTART_MS, fault=fault)
 
     kept = fault_record(modelled)
     assert modelled.summary["resets"] == {"power": 1, "software": 1, "watchdog": 0}
@@ -194,6 +199,16 @@ def test_a_step_output_that_fails_is_caught_with_the_outputs_safe_and_the_cause_
     assert (kept["cause"], kept["exception"], kept["count"]) == (CAUSE_FAULT, TIM2, 1)
     assert (kept["status"], kept["hard"]) == (0, 0)
     assert_stands_until_told(unit, modelled, told, "fault")
+
+
+def test_an_edge_that_comes_late_to_its_register_but_before_its_time_moves_no_pulse(unit):
+    trains = [
+        run(unit, FAULT_MS / 1000 + 0.02, ask_ms=5000, fault=fault).steps
+        for fault in ("", "slow=2,40000")
+    ]
+
+    assert np.array_equal(trains[0].tick, trains[1].tick)
+    assert np.array_equal(trains[0].position, trains[1].position)
 
 
 def assert_refuses_motion(

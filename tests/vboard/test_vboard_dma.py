@@ -60,6 +60,15 @@ def test_a_stream_that_is_led_astray_stops_by_itself(run_image):
     assert 20 < run.summary["motors"][0]["pulses"] < 25  # of 40
 
 
+def test_a_request_that_finds_the_fifo_empty_waits_and_tells(run_image):
+    whole = run_image("dma_ring", pins=PINS)
+    fault_ms = whole.summary["microseconds"] / 1000 - 0.02
+    run = run_image("dma_ring", "--fault", f"{fault_ms:.4f}:slow=5,90", pins=PINS)
+
+    assert run.steps == whole.steps
+    assert (whole.result[2], run.result[2]) == (HT | TC, HT | TC | FE)  # 10.3.18
+
+
 def late(run_image, count: int, distance: int, *options: str, defines: tuple[str, ...] = ()):
     """Transfers that were not made, by channel."""
     arguments = [*word("channels", count), *word("distance", distance), *options]

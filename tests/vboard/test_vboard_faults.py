@@ -95,7 +95,8 @@ def test_a_reset_ends_a_fault(run_image):
 
 @pytest.mark.parametrize(
     "fault", ["5", "5:", "5:jump", "5:jump=nothing", "5:lose=3", "5:lose=15,x", "5:word=guard",
-              "5:dma=16", "5:dma=1,2", "x:power", "5:word=guard+1:0", "5:powerful",
+              "5:dma=16", "5:dma=1,2", "5:slow=1", "5:slow=16,1", "5:slow=1,x", "x:power",
+              "5:word=guard+1:0", "5:powerful",
               "5:sp=123456789", "5:resets"],
 )  # fmt: skip
 def test_a_fault_that_cannot_be_read_is_told(run_image, fault):

@@ -57,11 +57,17 @@ void dma_lead_astray(struct dma *dma, unsigned number)
     *address = 0;
 }
 
+void dma_slow_down(struct dma *dma, unsigned number, uint32_t cycles)
+{
+    dma->stream[number].slow_cycles = cycles;
+}
+
 static void take_memory(struct dma *dma, struct dma_stream *stream, uint64_t cycle)
 {
     uint64_t begin = dma->memory_busy_until > cycle ? dma->memory_busy_until : cycle;
     dma->memory_busy_until = begin + LOAD_CYCLES;
-    stream->load_due = dma->memory_busy_until;
+    stream->load_due = dma->memory_busy_until + stream->slow_cycles;
+    stream->slow_cycles = 0;
 }
 
 static void begin_load(struct dma *dma, struct dma_stream *stream, uint64_t cycle)

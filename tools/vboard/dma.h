@@ -53,4 +53,7 @@ void dma_update_interrupts(struct dma *dma);
 /* The next load of a stream goes to an address where nothing is, as after an upset of the controller. */
 void dma_lead_astray(struct dma *dma, unsigned number);
 
+/* The next access of a stream to memory takes so much longer, as when another master holds the bus. */
+void dma_slow_down(struct dma *dma, unsigned number, uint32_t cycles);
+
 #endif

@@ -66,7 +66,8 @@ struct dma_stream {
     uint32_t stored_flags; /* from a peripheral: flags that come with the next store */
     uint32_t level;        /* bytes in the FIFO */
     uint8_t fifo[DMA_FIFO_BYTES];
-    uint64_t load_due; /* cycle at which data come from memory, or get there; NEVER: none are on their way */
+    uint32_t slow_cycles; /* that the next access to memory takes more */
+    uint64_t load_due;    /* cycle at which data come from memory, or get there; NEVER: none are on their way */
     uint64_t stop_due;
     uint64_t enabled_cycle;
     uint64_t transfers; /* since reset */

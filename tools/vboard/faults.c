@@ -13,6 +13,7 @@ enum {
 
 #define MS_MAX UINT64_C(1000000000)
 #define LOSE_MS_MAX UINT64_C(1000000)
+#define SLOW_CYCLES_MAX UINT64_C(1000000000)
 
 /* A hexadecimal number, or a symbol, or a symbol + a hexadecimal number. */
 static bool read_address(struct faults *faults, const char *at, const char *end, uint32_t *address)
@@ -68,6 +69,24 @@ static bool read_loss(struct faults *faults, const char *at, const char *end, st
     return true;
 }
 
+/* slow=STREAM,CYCLES */
+static bool read_slowness(struct faults *faults, const char *at, const char *end, struct fault fault)
+{
+    uint64_t number = 0;
+    uint64_t cycles = 0;
+    if (!line_read_fixed(&at, end, 0, DMA_CONTROLLERS * DMA_STREAMS - 1, &number) || at == end || *at != ',') {
+        return false;
+    }
+    at++;
+    if (!line_read_fixed(&at, end, 0, SLOW_CYCLES_MAX, &cycles) || at != end) {
+        return false;
+    }
+    fault.address = (uint32_t)number;
+    fault.value = (uint32_t)cycles;
+    insert(faults, fault);
+    return true;
+}
+
 /* dma=STREAM */
 static bool read_stream(struct faults *faults, const char *at, const char *end, struct fault fault)
 {
@@ -110,7 +129,7 @@ static bool read_fault(struct faults *faults, const char *at)
     } kinds[] = {
         {"jump=", FAULT_JUMP, read_place},  {"sp=", FAULT_STACK, read_place},   {"word=", FAULT_WORD, read_word},
         {"hold=", FAULT_HOLD, read_place},  {"lose=", FAULT_LOSE, read_loss},   {"dma=", FAULT_DMA, read_stream},
-        {"power", FAULT_POWER, read_place}, {"reset", FAULT_RESET, read_place},
+        {"power", FAULT_POWER, read_place}, {"reset", FAULT_RESET, read_place}, {"slow=", FAULT_SLOW, read_slowness},
     };
     const char *end = at + strlen(at);
     uint64_t ps = 0;
@@ -187,6 +206,9 @@ static void apply(struct faults *faults, const struct fault *fault)
         break;
     case FAULT_DMA:
         dma_lead_astray(&faults->wires.dma[fault->address / DMA_STREAMS], fault->address % DMA_STREAMS);
+        break;
+    case FAULT_SLOW:
+        dma_slow_down(&faults->wires.dma[fault->address / DMA_STREAMS], fault->address % DMA_STREAMS, fault->value);
         break;
     case FAULT_RESET:
         reset_request(faults->wires.reset, RESET_PIN);

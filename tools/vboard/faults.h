@@ -28,6 +28,7 @@ enum fault_kind {
     FAULT_LOSE,  /* an exception is not taken any more */
     FAULT_FIND,  /* it is taken again */
     FAULT_DMA,   /* a stream loads from nowhere, or stores there */
+    FAULT_SLOW,  /* a stream waits long for its memory */
     FAULT_POWER, /* power goes, and comes back at once */
     FAULT_RESET, /* the reset pin is pulled low, for a moment */
 };
@@ -35,7 +36,8 @@ enum fault_kind {
 struct fault {
     uint64_t ps;
     enum fault_kind kind;
-    uint32_t address; /* FAULT_LOSE, FAULT_FIND: the exception; FAULT_DMA: the stream, those of DMA2 from 8 on */
+    uint32_t
+        address; /* FAULT_LOSE, FAULT_FIND: the exception; FAULT_DMA, FAULT_SLOW: the stream, those of DMA2 from 8 on */
     uint32_t value;
 };
 

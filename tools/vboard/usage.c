@@ -64,6 +64,7 @@ const char options_usage_more[] =
     "                        hold=PLACE    the program does not get past this instruction; interrupts do\n"
     "                        lose=N[,MS]   exception N is not taken, or not for some time\n"
     "                        dma=N         stream N of DMA1, or N - 8 of DMA2, leads nowhere next, and stops\n"
+    "                        slow=N,C      the next access of stream N to memory takes C cycles more\n"
     "                        power         power goes and comes back at once\n"
     "                        reset         the reset pin is pulled low, for a moment\n"
     "                        A PLACE is hexadecimal, or a symbol, or SYMBOL+HEX.\n"
