@@ -102,4 +102,11 @@ add_custom_command(OUTPUT checked.stamp
         ${checks}/board_pins.py ${checks}/ram_code.py
         ${PROJECT_SOURCE_DIR}/tools/rkm04_tools/board_header.py
     VERBATIM COMMENT "Checking pins, and what runs from RAM")
+# All of a board, and nothing that only other units have.
 add_custom_target(board_files ALL DEPENDS ${files} checked.stamp)
+if(TARGET bench_image)
+    add_dependencies(board_files bench_image)
+endif()
+if(small)
+    add_dependencies(board_files arm_check)
+endif()

@@ -172,10 +172,10 @@ def image_of(
 
 
 def build(
-    board: str, target: str = "all", what: str = UNIT, baud: int | None = None,
+    board: str, target: str = "board_files", what: str = UNIT, baud: int | None = None,
     half_period: bool = False,
 ) -> Image:  # fmt: skip
-    """Build the image of a board, with the compiler installed if need be, or another target."""
+    """Build all of a board, with the compiler installed if need be, or another target."""
     image = image_of(board, what, baud, half_period)
     require_checkout("building an image")
     if not shutil.which(COMPILER):
