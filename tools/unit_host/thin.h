@@ -46,7 +46,7 @@ struct thin {
 bool thin_begin(struct thin *thin, uint32_t points);
 
 /* Adds a point; time never goes back. Its ordinal is given here. */
-void thin_put(struct thin *thin, const struct thin_point *given);
+void thin_put(struct thin *thin, const struct thin_point *point);
 
 /* Writes the points of a column that stay, in their order, and returns how many. */
 unsigned thin_list_column(const struct thin_column *column, struct thin_point points[THIN_POINTS_PER_COLUMN]);
