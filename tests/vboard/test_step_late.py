@@ -84,9 +84,9 @@ def test_a_pulse_that_comes_soon_is_in_time_or_made_good_but_never_lost(make_act
 
     assert_whole(shown, [[], [], ticks, []], WIDTH[name])
     on_time = [rise == tick for rise, tick in zip(shown.rises[2], ticks, strict=True)][::2]
-    assert not on_time[0]
-    assert on_time == sorted(on_time)
-    assert on_time[-1]
+    first = on_time.index(True)
+    assert first > 0
+    assert all(on_time[first + 2 :]), "at the border itself the phase of the bus decides"
 
 
 @pytest.mark.parametrize("name", [SHORT, LONG])
