@@ -157,6 +157,7 @@ def test_every_command_that_is_completed_is_one_for_the_parser(page):
         page.page.keyboard.press("ControlOrMeta+End")
         page.page.keyboard.type(" ")
     text = page.text()
+    assert len(text.split()) >= rows
     errors = [one for one in check(text)["problems"] if one["severity"] == "error"]
     told = [one["message"] for one in errors]
     flow = ("without", "no label")

@@ -24,7 +24,7 @@ from serial_page import (
     scan,
     send,
     send_once,
-)  # fmt: skip
+)
 from served import Served
 from service_page import PATIENCE_SECONDS
 

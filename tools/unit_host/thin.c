@@ -55,7 +55,7 @@ static void widen(struct thin *thin)
     }
 }
 
-/* As merge, for a column of one point: nearly all points go this way. */
+/* What the point exceeds: nearly all points go this way, and nearly none does. */
 static void take(struct thin_column *column, const struct thin_point *point)
 {
     if (point->milli_speed < column->slowest.milli_speed) {
