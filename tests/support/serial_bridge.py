@@ -77,7 +77,10 @@ class SerialBridge:
         while not ended.is_set():
             if not select.select([line], [], [], POLL_SECONDS)[0]:
                 continue
-            data = os.read(line, 4096)
+            try:
+                data = os.read(line, 4096)
+            except OSError:  # a unit that was killed
+                break
             if not data:
                 break
             if not self.silent:
