@@ -7,8 +7,9 @@ import { language, numberText, t } from "./i18n";
 import { Jog } from "./jog";
 import { onLimits, speedLimit } from "./limits";
 import type { Link } from "./link";
+import { Pace } from "./pace";
 import type { Presence } from "./presence";
-import { MOTORS, type Live, type MotorLive, type UnitState } from "./protocol";
+import { GOES_ON, MOTORS, type Live, type MotorLive, type UnitState } from "./protocol";
 import { translateProblem } from "./problem_words";
 import { NotPossible, computeRamp, type Ramp } from "./ramp";
 import { besideWords, onScale, positionNumber } from "./scale";
@@ -48,6 +49,7 @@ export class Commission {
     readonly #why = byId("commission-why", HTMLElement);
     readonly #motor = byId("commission-motor", HTMLSelectElement);
     readonly #weighSoon = debounced(TYPING_MS, () => void this.#weigh());
+    readonly #pace = new Pace(...GOES_ON);
     #live: Live | null = null;
     #state: UnitState | null = null;
     #ramp: Ramp | NotPossible | null = null;
@@ -153,7 +155,9 @@ export class Commission {
 
     #see(live: Live): void {
         this.#live = live;
-        this.#show();
+        if (this.#pace.isDue(live)) {
+            this.#show();
+        }
     }
 
     /** Another unit is another machine. */

@@ -6,7 +6,7 @@ import type { Link } from "./link";
 import { lineCounts, lineWords, motorState, unitFacts } from "./live_words";
 import { Pace } from "./pace";
 import type { Presence } from "./presence";
-import { LINES, MOTORS, type Live, type MotorLive, type UnitState } from "./protocol";
+import { GOES_ON, LINES, MOTORS, type Live, type MotorLive, type UnitState } from "./protocol";
 import { inUnits, isScaled, onScale, positionNumber, speedWords } from "./scale";
 
 const SHOWN_SECONDS = 30;
@@ -41,7 +41,7 @@ export class LiveView {
     readonly #inputs = LINES.map((line) => this.#lamp("button", "live-inputs", line));
     readonly #outputs = LINES.map((line) => this.#lamp("span", "live-outputs", line));
     readonly #charts: [speed: Chart, position: Chart];
-    readonly #pace = new Pace("time_s");
+    readonly #pace = new Pace(...GOES_ON);
     #samples: Sample[] = [];
     #last: Live | null = null;
     #came_ms = 0;

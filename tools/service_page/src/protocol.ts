@@ -103,6 +103,9 @@ export interface LiveUnit {
     clock?: { stood_s: number; load: number };
 }
 
+/** What of a look at the unit changes by itself. */
+export const GOES_ON = ["time_s", "line", "clock"] as const;
+
 export interface Live {
     node: number;
     time_s: number;
