@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 from fake_unit import FakeLine, FakeUnit
-from playwright.sync_api import Browser, expect, sync_playwright
-from service_page import PATIENCE_SECONDS, Service, ServicePage, free_port, shown
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+from service_page import Service, ServicePage, free_port, shown
+from tab import PATIENCE_SECONDS, opened_tab, visited
 
 CHROMIUM = Path("/usr/bin/chromium-headless-shell")
 
@@ -49,16 +50,23 @@ def own_service() -> Iterator[Service]:
         yield service
 
 
+@pytest.fixture(scope="module")
+def tab(browser: Browser) -> Iterator[Page]:
+    """For one test after the other."""
+    with opened_tab(browser) as tab:
+        yield tab
+
+
 @pytest.fixture
-def page(browser: Browser, service: Service) -> Iterator[ServicePage]:
-    with shown(browser, service.url) as page:
+def page(tab: Page, service: Service) -> Iterator[ServicePage]:
+    with visited(ServicePage, tab, service.url) as page:
         yield page
         page.calm()
 
 
 @pytest.fixture
-def own_page(browser: Browser, own_service: Service) -> Iterator[ServicePage]:
-    with shown(browser, own_service.url) as page:
+def own_page(tab: Page, own_service: Service) -> Iterator[ServicePage]:
+    with visited(ServicePage, tab, own_service.url) as page:
         yield page
 
 

@@ -13,8 +13,9 @@ from fake_gve134 import FakeGve
 from gve134_ports import FakeGveLine
 from gve_page import GvePage, GveService, gve_shown
 from page_looks import AXE, SIZES, VIOLATIONS, check_edges, check_looks
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import Browser, Page, expect
 from service_page import NOT_KNOWN
+from tab import visited
 
 BUILD = Path(__file__).resolve().parents[2] / "build"
 EXAMPLES = Path(__file__).resolve().parents[2] / "tools/examples/gve"
@@ -31,8 +32,8 @@ def service() -> Iterator[GveService]:
 
 
 @pytest.fixture
-def page(browser: Browser, service: GveService) -> Iterator[GvePage]:
-    with gve_shown(browser, service.url) as page:
+def page(tab: Page, service: GveService) -> Iterator[GvePage]:
+    with visited(GvePage, tab, service.url) as page:
         yield page.ready()
 
 
@@ -56,8 +57,8 @@ def line_service(line: FakeGveLine) -> Iterator[GveService]:
 
 
 @pytest.fixture
-def line_page(browser: Browser, line_service: GveService) -> Iterator[GvePage]:
-    with gve_shown(browser, line_service.url) as page:
+def line_page(tab: Page, line_service: GveService) -> Iterator[GvePage]:
+    with visited(GvePage, tab, line_service.url) as page:
         yield page.ready()
 
 

@@ -17,15 +17,16 @@ from chance import SEED
 from fake_gve134 import FakeGve
 from gve134_ports import FakeGveLine
 from gve_drawn import drawn_file
-from gve_page import GvePage, gve_shown
+from gve_page import GvePage
 from page_looks import AXE, CUT, OUTSIDE, OVER, SIZES, VIOLATIONS
-from playwright.sync_api import Browser, WebSocket, expect
+from playwright.sync_api import Browser, Page, WebSocket, expect
 from rkm04_tools import static_pages
 from rkm04_tools.gve134.service import alone
 from rkm04_tools.gve134.service.files import read_file
 from serial_bridge import SerialBridge
 from served import GVE_COMMAND, Served
 from service_page import NOT_KNOWN
+from tab import visited
 from unit_page import unit_shown
 
 NAME = "gve134.html"
@@ -82,8 +83,8 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def page(browser: Browser, written: Path) -> Iterator[GvePage]:
-    with gve_shown(browser, (written / NAME).as_uri()) as page:
+def page(tab: Page, written: Path) -> Iterator[GvePage]:
+    with visited(GvePage, tab, (written / NAME).as_uri()) as page:
         yield page.ready()
 
 

@@ -9,12 +9,13 @@ from typing import Any
 
 import pytest
 from alone_page import write_alone
-from gve_page import GvePage, gve_shown
+from gve_page import GvePage
 from page_source import ask_source
-from playwright.sync_api import Browser, FilePayload, expect
+from playwright.sync_api import FilePayload, Page, expect
 from rkm04_tools.gve134.gcode.axes import mill_of
 from rkm04_tools.gve134.gcode.turning import turn_file
 from rkm04_tools.machine.machine import Machine
+from tab import visited
 
 MILL = Path(__file__).resolve().parents[2] / "tools/examples/gve/mill.rkm"
 SOURCE = "gve134/alone/mill.ts"
@@ -27,8 +28,8 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def page(browser: Browser, written: Path) -> Iterator[GvePage]:
-    with gve_shown(browser, written.as_uri()) as page:
+def page(tab: Page, written: Path) -> Iterator[GvePage]:
+    with visited(GvePage, tab, written.as_uri()) as page:
         yield page.ready()
 
 

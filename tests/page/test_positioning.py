@@ -11,13 +11,14 @@ from pathlib import Path
 
 import pytest
 from page_looks import check_looks
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import Browser, Page, expect
 from pos_page import PosPage, PosService, pos_shown
 from relay import Relay
 from rkm04_tools.positioning.settings import read_values
 from rkm04_tools.positioning.unit import open_unit
 from served import POSITIONING_COMMAND, Served
 from service_page import NOT_KNOWN
+from tab import visited
 
 BUILD = Path(__file__).resolve().parents[2] / "build"
 ZIPPED_BYTES_MAX = 59_000
@@ -33,8 +34,8 @@ def service() -> Iterator[PosService]:
 
 
 @pytest.fixture
-def page(browser: Browser, service: PosService) -> Iterator[PosPage]:
-    with pos_shown(browser, service.url) as page:
+def page(tab: Page, service: PosService) -> Iterator[PosPage]:
+    with visited(PosPage, tab, service.url) as page:
         yield page.ready()
 
 
@@ -68,8 +69,8 @@ def line_service(relay: Relay) -> Iterator[PosService]:
 
 
 @pytest.fixture
-def line_page(browser: Browser, line_service: PosService) -> Iterator[PosPage]:
-    with pos_shown(browser, line_service.url) as page:
+def line_page(tab: Page, line_service: PosService) -> Iterator[PosPage]:
+    with visited(PosPage, tab, line_service.url) as page:
         yield page.ready()
 
 

@@ -16,7 +16,8 @@ from pos_page import PosPage
 from rkm04_tools.positioning.settings import read_values
 from serial_bridge import SerialBridge
 from served import POSITIONING_COMMAND, Served
-from service_page import DESK, NOT_KNOWN, PATIENCE_SECONDS
+from service_page import NOT_KNOWN
+from tab import DESK, PATIENCE_SECONDS
 
 NODE, SEED = 3, 5
 ENGLISH = re.compile(r"\b(the|is|of|to|in|as|at|steps|limit|from|never)\b")

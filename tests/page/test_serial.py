@@ -26,7 +26,7 @@ from serial_page import (
     send_once,
 )
 from served import Served
-from service_page import PATIENCE_SECONDS
+from tab import PATIENCE_SECONDS
 
 OTHER = 5
 K = "\x020K"

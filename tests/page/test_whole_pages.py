@@ -17,7 +17,8 @@ from gve_page import GveService, gve_shown
 from page_looks import AXE, VIOLATIONS
 from playwright.sync_api import Browser, Page, expect
 from pos_page import PosService, pos_shown
-from service_page import DESK, Service, shown
+from service_page import Service, shown
+from tab import DESK
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ROOT / "tools/service_page/src"

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from playwright.sync_api import Browser, Locator, expect
-from service_page import NOT_KNOWN, PATIENCE_SECONDS
+from service_page import NOT_KNOWN
+from tab import PATIENCE_SECONDS
 from unit_page import UnitPage, UnitService, unit_shown
 
 

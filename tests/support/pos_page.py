@@ -8,7 +8,8 @@ from contextlib import contextmanager
 from typing import Self
 
 from playwright.sync_api import Browser, Locator, expect
-from service_page import DESK, NOT_KNOWN, PATIENCE_SECONDS
+from service_page import NOT_KNOWN
+from tab import DESK, PATIENCE_SECONDS
 from unit_page import UnitPage, UnitService, unit_shown
 
 

@@ -13,13 +13,12 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from playwright.sync_api import Browser, BrowserContext, Locator, Page, WebSocket, expect
+from playwright.sync_api import Browser, Locator, Page, expect
+from tab import DESK, PATIENCE_SECONDS, Visit, opened_tab
 
 ROOT = Path(__file__).resolve().parents[2]
 COMMAND = [sys.executable, "-P", "-m", "rkm04_tools", "service", "--no-browser", "--json"]
-PATIENCE_SECONDS = 30
 NOT_KNOWN = "\N{EN DASH}"
-DESK = (1400, 900)
 TABLET = (820, 1180)
 
 
@@ -58,17 +57,11 @@ class Service:
         self._process.communicate(timeout=PATIENCE_SECONDS)
 
 
-class ServicePage:
-    """One page in one browser. It fails at its end if a script of the page has failed."""
+class ServicePage(Visit):
+    """The page of `rkm04 service`; where it `waits`, it shows a unit."""
 
     def __init__(self, page: Page, url: str, waits: bool = True) -> None:
-        self.page = page
-        self.sent: list[str] = []
-        """Types of all that the page has sent to the service."""
-        self.faults: list[str] = []
-        page.on("pageerror", lambda error: self.faults.append(str(error)))
-        page.on("websocket", self._listen)
-        page.goto(url)
+        super().__init__(page, url)
         if waits:
             self.ready()
 
@@ -108,9 +101,6 @@ class ServicePage:
     def state(self, motor: int) -> Locator:
         """What a motor does, in words."""
         return self.page.locator(f"#state-{motor}")
-
-    def _listen(self, socket: WebSocket) -> None:
-        socket.on("framesent", lambda frame: self.sent.append(json.loads(frame)["type"]))
 
     @property
     def plan(self) -> Locator:
@@ -227,16 +217,8 @@ def shown(
     waits: bool = True,
     touch: bool = False,
 ) -> Iterator[ServicePage]:
-    """Open the page in a browser of its own; where it `waits`, until it shows a unit."""
-    width, height = size
-    context: BrowserContext = browser.new_context(
-        viewport={"width": width, "height": height}, locale=locale, accept_downloads=True,
-        has_touch=touch,
-    )  # fmt: skip
-    context.set_default_timeout(PATIENCE_SECONDS * 1000)
-    try:
-        service_page = ServicePage(context.new_page(), url, waits)
+    """Open the page in a tab of its own; where it `waits`, until it shows a unit."""
+    with opened_tab(browser, size, locale, touch) as tab:
+        service_page = ServicePage(tab, url, waits)
         yield service_page
         assert service_page.faults == []
-    finally:
-        context.close()

@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TypeVar
 
-from playwright.sync_api import Browser, Locator, Page, WebSocket
-from service_page import DESK, PATIENCE_SECONDS
+from playwright.sync_api import Browser, Locator
+from tab import DESK, PATIENCE_SECONDS, Visit, opened_tab
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -49,19 +49,8 @@ class UnitService:
             self._process.stdout.close()
 
 
-class UnitPage:
-    """One page in one browser. It fails at its end if a script of the page has failed."""
-
-    def __init__(self, page: Page, url: str) -> None:
-        self.page = page
-        self.sent: list[str] = []
-        self.faults: list[str] = []
-        page.on("pageerror", lambda error: self.faults.append(str(error)))
-        page.on("websocket", self._listen)
-        page.goto(url)
-
-    def _listen(self, socket: WebSocket) -> None:
-        socket.on("framesent", lambda frame: self.sent.append(json.loads(frame)["type"]))
+class UnitPage(Visit):
+    """The page of a unit's service."""
 
     def at(self, name: str) -> Locator:
         """The part of an id."""
@@ -85,13 +74,8 @@ def unit_shown(
     kind: type[Shown], browser: Browser, url: str,
     size: tuple[int, int] = DESK, locale: str = "en-GB",
 ) -> Iterator[Shown]:  # fmt: skip
-    """Open the page in a browser of its own."""
-    width, height = size
-    context = browser.new_context(viewport={"width": width, "height": height}, locale=locale)
-    context.set_default_timeout(PATIENCE_SECONDS * 1000)
-    try:
-        page = kind(context.new_page(), url)
+    """Open the page in a tab of its own."""
+    with opened_tab(browser, size, locale) as tab:
+        page = kind(tab, url)
         yield page
         assert page.faults == []
-    finally:
-        context.close()
