@@ -9,7 +9,8 @@ function(firmware_add_mock header)
     set(original ${PROJECT_SOURCE_DIR}/hal/include/${header}.h)
     add_custom_command(
         OUTPUT ${folder}/mock_${header}.c ${folder}/mock_${header}.h
-        COMMAND ${TEST_RUBY} ${CMOCK_DIR}/lib/cmock.rb -o${cmock_config} --mock_path=${folder} ${original}
+        COMMAND ${TEST_RUBY} --disable=gems ${CMOCK_DIR}/lib/cmock.rb
+                -o${cmock_config} --mock_path=${folder} ${original}
         DEPENDS ${original} ${cmock_config}
         VERBATIM)
     add_library(mock_${header} STATIC ${folder}/mock_${header}.c)
@@ -35,7 +36,7 @@ function(firmware_add_test group library source)
     set(runner ${CMAKE_CURRENT_BINARY_DIR}/${name}.runner.c)
     add_custom_command(
         OUTPUT ${runner}
-        COMMAND ${TEST_RUBY} ${CMOCK_DIR}/vendor/unity/auto/generate_test_runner.rb
+        COMMAND ${TEST_RUBY} --disable=gems ${CMOCK_DIR}/vendor/unity/auto/generate_test_runner.rb
                 --mock_prefix=mock_ --use_param_tests=1 ${source} ${runner}
         DEPENDS ${source}
         VERBATIM)
@@ -44,9 +45,10 @@ function(firmware_add_test group library source)
     target_compile_definitions(${name} PRIVATE ${definitions})
     set_target_properties(${name} PROPERTIES
         RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/${group})
-    # The prototypes of the test functions are in the runner; the runner is not ours.
-    set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS -Wno-missing-prototypes)
-    set_source_files_properties(${runner} PROPERTIES COMPILE_OPTIONS -w)
+    # The prototypes of the test functions are in the runner; the runner is not ours. A test takes
+    # longer to optimize than to run.
+    set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-Wno-missing-prototypes;-O0")
+    set_source_files_properties(${runner} PROPERTIES COMPILE_OPTIONS "-w;-O0")
     get_target_property(deps ${library} DEPS)
     if(NOT deps)
         set(deps "")
