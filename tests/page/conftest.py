@@ -61,7 +61,8 @@ def tab(browser: Browser) -> Iterator[Page]:
 def page(tab: Page, service: Service) -> Iterator[ServicePage]:
     with visited(ServicePage, tab, service.url) as page:
         yield page
-        page.calm()
+        if page.has_acted:
+            page.calm()
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 from playwright.sync_api import Browser, Locator, expect
 from service_page import NOT_KNOWN
-from tab import PATIENCE_SECONDS
+from tab import PATIENCE_SECONDS, shown_number
 from unit_page import UnitPage, UnitService, unit_shown
 
 
@@ -60,8 +60,7 @@ class GvePage(UnitPage):
 
     def steps(self, axis: str = "X") -> int:
         """The position of an axis, pulses."""
-        text = self.at(f"steps-{axis}").inner_text().replace("\N{MINUS SIGN}", "-")
-        return int(re.sub(r"[^\d-]", "", text))
+        return int(shown_number(self.at(f"steps-{axis}")))
 
     def beyond(self, steps: int, axis: str = "X") -> None:
         """Wait until an axis has gone beyond a position."""

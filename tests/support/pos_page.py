@@ -9,7 +9,7 @@ from typing import Self
 
 from playwright.sync_api import Browser, Locator, expect
 from service_page import NOT_KNOWN
-from tab import DESK, PATIENCE_SECONDS
+from tab import DESK, PATIENCE_SECONDS, shown_number
 from unit_page import UnitPage, UnitService, unit_shown
 
 
@@ -45,10 +45,7 @@ class PosPage(UnitPage):
 
     def mm(self, axis: int = 1) -> float:
         """The position of an axis, once it is known."""
-        place = self.at(f"position-{axis}")
-        expect(place).to_have_text(re.compile(r"\d"))
-        text = place.inner_text().replace("\N{MINUS SIGN}", "-")
-        return float(re.sub(r"[^\d.-]", "", text))
+        return shown_number(self.at(f"position-{axis}"))
 
     def beyond(self, mm: float, axis: int = 1) -> None:
         """Wait until an axis has gone beyond a position."""

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from playwright.sync_api import Browser, Locator, Page, expect
-from tab import DESK, PATIENCE_SECONDS, Visit, opened_tab
+from tab import DESK, PATIENCE_SECONDS, Visit, opened_tab, shown_number
 
 ROOT = Path(__file__).resolve().parents[2]
 COMMAND = [sys.executable, "-P", "-m", "rkm04_tools", "service", "--no-browser", "--json"]
@@ -118,9 +118,7 @@ class ServicePage(Visit):
 
     def steps(self, motor: int = 1) -> int:
         """The live position of a motor, once it is known."""
-        expect(self.position(motor)).to_have_text(re.compile(r"\d"))
-        text = self.position(motor).inner_text().replace("\N{MINUS SIGN}", "-")
-        return int(re.sub(r"[^\d-]", "", text))
+        return int(shown_number(self.position(motor)))
 
     def write(self, text: str) -> None:
         """Put a text in the place of the shown program, by the keyboard."""

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import json
+import re
 from collections.abc import Callable, Iterator
 from typing import TypeVar
 
-from playwright.sync_api import Browser, Error, Page, WebSocket
+from playwright.sync_api import Browser, Error, Locator, Page, WebSocket, expect
 
 PATIENCE_SECONDS = 30
 DESK = (1400, 900)
@@ -21,6 +22,8 @@ class Visit:
         self.page = page
         self.sent: list[str] = []
         """Types of all that the page has sent to the service."""
+        self.has_acted = False
+        """Whether it has ever sent more than a question for ports."""
         self.faults: list[str] = []
         page.on("pageerror", self._note)
         page.on("websocket", self._listen)
@@ -30,7 +33,12 @@ class Visit:
         self.faults.append(str(error))
 
     def _listen(self, socket: WebSocket) -> None:
-        socket.on("framesent", lambda frame: self.sent.append(json.loads(frame)["type"]))
+        socket.on("framesent", self._note_sent)
+
+    def _note_sent(self, frame: str | bytes) -> None:
+        kind = json.loads(frame)["type"]
+        self.sent.append(kind)
+        self.has_acted = self.has_acted or kind != "ports"
 
     def leave(self) -> None:
         """Leave the tab as if it were new."""
@@ -40,6 +48,13 @@ class Visit:
         self.page.evaluate(FORGET)
         self.page.goto("about:blank")
         self.page.set_viewport_size({"width": DESK[0], "height": DESK[1]})
+
+
+def shown_number(place: Locator) -> float:
+    """What stands there, once it is known; it may become unknown at any time."""
+    while not re.search(r"\d", text := place.inner_text()):
+        expect(place).to_have_text(re.compile(r"\d"))
+    return float(re.sub(r"[^\d.-]", "", text.replace("\N{MINUS SIGN}", "-")))
 
 
 @contextlib.contextmanager
