@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import shutil
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +26,7 @@ from rkm04_tools.target_rows import Row
 from rkm04_tools.target_run import GATE, Move, Rig
 
 ROOT = Path(__file__).resolve().parents[2]
+Measured = Callable[[Callable[[Rig], dict[str, float]]], dict[str, float]]
 BUILD = Path(os.environ.get("RKM04_BUILD") or ROOT / "build" / "host")
 
 on_target = pytest.mark.skipif(
@@ -37,6 +40,13 @@ def rig(tmp_path: Path) -> Rig:
     return target_run.rig(tmp_path)
 
 
+@pytest.fixture(scope="module")
+def measured(tmp_path_factory: pytest.TempPathFactory) -> Measured:
+    """The same figures are measured once."""
+    rig = target_run.rig(tmp_path_factory.mktemp("measured"))
+    return cache(lambda figures: figures(rig))
+
+
 @on_target
 @pytest.mark.parametrize(
     ("figures", "key", "budget"),
@@ -48,22 +58,20 @@ def rig(tmp_path: Path) -> Rig:
         (step_time.figures, "longest_ramps", "load_longest_percent"),
     ],
 )
-def test_the_image_keeps_its_budget_of_cycles(rig, figures, key, budget):
-    measured = figures(rig)[key]
-
-    assert measured <= target_rows.budgets()[budget]
+def test_the_image_keeps_its_budget_of_cycles(measured, figures, key, budget):
+    assert measured(figures)[key] <= target_rows.budgets()[budget]
 
 
 @on_target
-def test_four_motors_due_at_once_have_their_turns_in_time(rig):
-    figures = step_time.figures(rig)
+def test_four_motors_due_at_once_have_their_turns_in_time(measured):
+    figures = measured(step_time.figures)
 
     assert figures["longest_due"] <= step_time.left_us()
 
 
 @on_target
-def test_no_step_is_late_at_full_speed_of_the_language_with_the_line_flooded(rig):
-    figures = target_figures.load_language(rig)
+def test_no_step_is_late_at_full_speed_of_the_language_with_the_line_flooded(measured):
+    figures = measured(target_figures.load_language)
 
     assert figures["late_16000"] == 0
     assert figures["line_busy"] > 95
@@ -155,8 +163,8 @@ def test_steps_that_come_too_fast_are_late_or_end_in_a_safe_stop(rig, monkeypatc
 
 
 @on_target
-def test_cycles_go_down_with_the_cycles_of_a_refill(rig):
-    dear = target_figures.step_cycles(rig)
+def test_cycles_go_down_with_the_cycles_of_a_refill(rig, measured):
+    dear = measured(target_figures.step_cycles)
     cheap = target_figures.step_cycles(rig.beside("cheap", target_run.BESIDE))
 
     assert cheap["lone_step"] < dear["lone_step"]
