@@ -26,7 +26,7 @@ from types import MappingProxyType
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
-FUZZ_SECONDS = 5  # of exploration, each fuzzer
+FUZZ_SECONDS = 3  # of exploration, each fuzzer
 FUZZ_SEED = 1  # the same inputs in each run of some minutes; a long one tries others
 LONG_MINUTES = 4  # the same with --long
 SOAK_MINUTES = 24 * 60  # of unit time, with --long
@@ -161,7 +161,7 @@ def python_tests() -> Count:
     the other, when the machine is less busy; pytest names them both times.
     """
     processes = str((os.cpu_count() or 1) + 2)
-    count = pytest("--numprocesses", processes, "--dist", "loadfile")
+    count = pytest("--numprocesses", processes, "--dist", "loadfile", "--no-loadscope-reorder")
     if not 0 < count.failed <= TRIED_AGAIN:
         return count
     print(f"   {count}; what failed, once more:", flush=True)
