@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import os
 import random
-from fractions import Fraction
 from itertools import accumulate, combinations, groupby, product
 
 import pytest
 from chance import epoch
+from exact import Fraction
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from motion_probe import EPOCH_BITS, STOP, Case, Move, complaints, deviation, run, run_one

@@ -8,11 +8,11 @@ from __future__ import annotations
 import os
 import random
 from dataclasses import replace
-from fractions import Fraction
 from itertools import pairwise
 
 import pytest
 from chance import SEED
+from exact import Fraction
 from path_chains import ACCEL_MAX, SPEED_MAX, any_chain, corners, long_corners, vector
 from path_probe import NEVER, SPEED, STOP, Case, Change, deviation, ideal, run
 

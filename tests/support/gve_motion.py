@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from fractions import Fraction
 
+from exact import Fraction
 from gve_course import MS, PATIENCE, Course, Mismatch, Place, Record, Step, Vectors
 from path_reference import ROOT_BITS
 

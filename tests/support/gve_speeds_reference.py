@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from math import floor, isqrt
+
+from exact import Fraction
 
 TOP = 200_000
 UNITS = 256

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Literal
 
+from exact import Fraction
 from gve_course import MS, Mismatch, Place, Vectors
 from gve_line import Item, Request
 from gve_motion import Motion

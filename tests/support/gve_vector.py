@@ -8,8 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 
+from exact import Fraction
 from path_reference import ACCEL_UNITS, SPEED_UNITS, Vector
 
 SPEED_MAX = 200_000

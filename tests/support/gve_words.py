@@ -10,7 +10,8 @@ import re
 import struct
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
+
+from exact import Fraction
 
 UNKNOWN, SYNTAX, BOUNDS = 3, 4, 5
 STEPS_MAX = 2**31 - 1

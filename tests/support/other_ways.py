@@ -11,9 +11,9 @@ import math
 import random
 from collections.abc import Callable, Sequence
 from decimal import Decimal, localcontext
-from fractions import Fraction
 
 import pytest
+from exact import Fraction
 from reference import TICK_HZ, Curve, Leg, Position, Section
 
 

@@ -11,10 +11,10 @@ import subprocess
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from pathlib import Path
 
 import path_reference as reference
+from exact import Fraction
 from path_reference import AXES, ROOT_BITS, Leg, Limits, Vector
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from fractions import Fraction
 
+from exact import Fraction
 from pos_curve import BITS, GAIN, Curve, Leg, Order, moving, started
 from pos_family import Family, Observed, alone, apart, resolution
 from pos_loose import Loose, loose, rested

@@ -11,10 +11,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
+from exact import Fraction
 from numpy.typing import NDArray
 from pos_words import SPEED_UNITS, Unsure
 from reference import TICK_HZ

@@ -13,11 +13,11 @@ import os
 import subprocess
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from pathlib import Path
 from typing import IO
 
 import numpy as np
+from exact import Fraction
 from pos_change import CHANGE, SLOW_CHANGE, ceil_tick
 from pos_curve import BITS, Curve, Order, started
 from pos_words import JEDE, MS, POL, SPEED_UNITS, US, Error, Mismatch, Settings

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 
+from exact import Fraction
 from pos_curve import BITS, Curve
 from pos_family import SPREAD, Family, Observed, crossing, parted, rest_ticks
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from fractions import Fraction
 
+from exact import Fraction
 from pos_axis import Axis
 from pos_bits import Bits
 from pos_session import Sample

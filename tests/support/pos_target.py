@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 
+from exact import Fraction
 from pos_words import REMAINDER_MAX, Settings, half_up
 
 

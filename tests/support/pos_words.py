@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 from enum import IntEnum
-from fractions import Fraction
 
+from exact import Fraction
 from reference import TICK_HZ
 
 MS = TICK_HZ // 1000

@@ -26,9 +26,10 @@ import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate
+
+from exact import Fraction
 
 TICK_HZ = 84_000_000
 """Rate of the step timer, ticks per second."""

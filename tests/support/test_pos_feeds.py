@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from fractions import Fraction
 
 import numpy as np
 import pytest
+from exact import Fraction
 from pos_curve import BITS, Order, started
 from pos_feeds import CONTROL, LIMIT, Case, Event, Made, Place, compare
 from pos_words import FEED_UNITS, MS, US, Mismatch, Settings

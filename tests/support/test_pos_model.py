@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from fractions import Fraction
 from typing import Any
 
 import pos_axis
@@ -17,6 +16,7 @@ import pos_change
 import pos_read
 import pos_target
 import pytest
+from exact import Fraction
 from pos_axis import Axis
 from pos_bits import Bits
 from pos_curve import Order

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
+from exact import Fraction
 from hypothesis import given
 from hypothesis import strategies as st
 from pos_curve import BITS, Curve, Order, started

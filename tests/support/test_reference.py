@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import random
 from decimal import Decimal, localcontext
-from fractions import Fraction
 from itertools import accumulate, pairwise
 
 import pytest
+from exact import Fraction
 from other_ways import (
     assert_decimal_agrees,
     assert_walk_agrees,

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import random
-from fractions import Fraction
 from itertools import accumulate, pairwise
 
 import pytest
+from exact import Fraction
 from other_ways import assert_walk_agrees, corners_of, random_sections, sample, walk
 from reference import ENDLESS, Curve, Leg, Section, endless, plan, single
 
