@@ -11,7 +11,7 @@ from types import FrameType
 import pytest
 from chance import SEED
 
-LONGEST_FIRST = ("property", "vboard", "support", "page")
+LONGEST_FIRST = ("property", "vboard", "support", "wasm", "page")
 """Folders whose files take long; the many short ones after them end together."""
 HANG_SECONDS = 600
 """No test takes a tenth of it, but the sweeps of the long run."""
