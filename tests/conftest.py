@@ -5,14 +5,11 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Generator
-from pathlib import Path
 from types import FrameType
 
 import pytest
 from chance import SEED
 
-LONGEST_FIRST = ("property", "vboard", "support", "wasm", "page")
-"""Folders whose files take long; the many short ones after them end together."""
 HANG_SECONDS = 600
 """No test takes a tenth of it, but the sweeps of the long run."""
 
@@ -25,17 +22,6 @@ def pytest_configure() -> None:
     """
     os.environ["RKM04_SEED"] = str(SEED)
     signal.signal(signal.SIGINT, signal.default_int_handler)
-
-
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Processes that share the tests by files take these in their order."""
-    root = Path(__file__).parent
-
-    def place(item: pytest.Item) -> int:
-        folder = item.path.relative_to(root).parts[0]
-        return LONGEST_FIRST.index(folder) if folder in LONGEST_FIRST else len(LONGEST_FIRST)
-
-    items.sort(key=place)
 
 
 @pytest.hookimpl(wrapper=True)

@@ -170,7 +170,7 @@ void host_machine_run(struct host_machine *machine, uint64_t until, host_main_pa
     for (bool ended = false; !ended;) {
         unsigned motor = host_step_first(machine);
         uint64_t input = next_input_tick(machine);
-        switch (next_event(machine, machine->due[motor], input, until)) {
+        switch (next_event(machine, host_step_next_tick(machine, motor), input, until)) {
         case EVENT_PULSE:
             host_step_event(machine, motor);
             break;
@@ -206,7 +206,7 @@ void host_machine_wake(struct host_machine *machine, uint64_t tick)
 
 uint64_t host_machine_next_tick(const struct host_machine *machine)
 {
-    uint64_t next = machine->due[host_step_first(machine)];
+    uint64_t next = host_step_next_tick(machine, host_step_first(machine));
     uint64_t input = next_input_tick(machine);
     next = input < next ? input : next;
     next = machine->sense < next ? machine->sense : next;

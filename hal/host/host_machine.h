@@ -140,7 +140,6 @@ struct host_machine {
     uint32_t ahead_ticks;        /* pulses are laid this far ahead, or one; 0 unless set */
     uint64_t armed[UNIT_MOTORS]; /* the next edge, ticks from the start; TICK_NEVER: none */
     uint64_t step[UNIT_MOTORS];  /* the step interrupt that is due, likewise */
-    uint64_t due[UNIT_MOTORS];   /* the first of edge, interrupt and turn, likewise */
     struct host_laid laid[UNIT_MOTORS];
     bool backward[UNIT_MOTORS]; /* DIR as set; the pin shows it while connected */
     bool led[HAL_IO_LEDS];

@@ -36,8 +36,9 @@ void host_io_reset(struct host_machine *machine);
 /* No byte in the machine, the bus free. */
 void host_line_reset(struct host_machine *machine);
 
-/* The motor of which something is due first: an edge, the interrupt after it, or a turn; then what is due of one. */
+/* The motor of which something happens first, and when: an edge, or the interrupt after it; then what happens. */
 unsigned host_step_first(const struct host_machine *machine);
+uint64_t host_step_next_tick(const struct host_machine *machine, unsigned motor);
 void host_step_event(struct host_machine *machine, unsigned motor);
 
 /* What is due at `line.next_tick`, which is now. True: main has something to do. */

@@ -31,15 +31,6 @@ static void set_polarity(struct host_machine *machine, unsigned motor, bool fall
     }
 }
 
-static void find_due(struct host_machine *machine, unsigned motor)
-{
-    uint64_t edge = machine->armed[motor];
-    uint64_t step = machine->step[motor];
-    uint64_t turn = machine->laid[motor].turn;
-    uint64_t due = edge < step ? edge : step;
-    machine->due[motor] = turn < due ? turn : due;
-}
-
 void host_step_reset(struct host_machine *machine)
 {
     machine->enabled_tick = TICK_NEVER;
@@ -49,7 +40,6 @@ void host_step_reset(struct host_machine *machine)
         machine->laid[motor] = (struct host_laid){.turn = TICK_NEVER};
         set_pins(machine, motor, false, true);
         set_polarity(machine, motor, false, false);
-        find_due(machine, motor);
     }
 }
 
@@ -62,7 +52,6 @@ static void find_armed(struct host_machine *machine, unsigned motor)
 {
     struct host_laid *laid = &machine->laid[motor];
     machine->armed[motor] = laid->count == 0 ? TICK_NEVER : *laid_slot(laid, 0);
-    find_due(machine, motor);
 }
 
 /* The tick of a pulse that comes at `least` at the earliest. */
@@ -137,10 +126,22 @@ static bool lay(struct host_machine *machine, unsigned motor)
 unsigned host_step_first(const struct host_machine *machine)
 {
     unsigned first = 0;
+    uint64_t earliest = host_step_next_tick(machine, 0);
     for (unsigned motor = 1; motor < UNIT_MOTORS; motor++) {
-        first = machine->due[motor] < machine->due[first] ? motor : first;
+        uint64_t tick = host_step_next_tick(machine, motor);
+        first = tick < earliest ? motor : first;
+        earliest = tick < earliest ? tick : earliest;
     }
     return first;
+}
+
+uint64_t host_step_next_tick(const struct host_machine *machine, unsigned motor)
+{
+    uint64_t edge = machine->armed[motor];
+    uint64_t step = machine->step[motor];
+    uint64_t turn = machine->laid[motor].turn;
+    uint64_t next = edge < step ? edge : step;
+    return turn < next ? turn : next;
 }
 
 static void make_edge(struct host_machine *machine, unsigned motor)
@@ -160,7 +161,7 @@ static void make_edge(struct host_machine *machine, unsigned motor)
 /* The interrupt comes with the edge, unless it is late. */
 void host_step_event(struct host_machine *machine, unsigned motor)
 {
-    machine->now = machine->due[motor];
+    machine->now = host_step_next_tick(machine, motor);
     if (machine->laid[motor].turn == machine->now) {
         machine->laid[motor].turn = TICK_NEVER;
         set_pins(machine, motor, !machine->backward[motor], machine->connected[motor]);
@@ -178,7 +179,6 @@ void host_step_event(struct host_machine *machine, unsigned motor)
             host_wake_main(machine, machine->now + HOST_PULSE_TICKS);
         }
     }
-    find_due(machine, motor);
 }
 
 static struct host_machine *held_machine(unsigned motor)
