@@ -47,6 +47,7 @@ class Visit:
         self.page.unroute_all()
         self.page.evaluate(FORGET)
         self.page.goto("about:blank")
+        self.page.emulate_media(media="null", color_scheme="null")
         self.page.set_viewport_size({"width": DESK[0], "height": DESK[1]})
 
 

@@ -161,7 +161,7 @@ def python_tests() -> Count:
     the other, when the machine is less busy; pytest names them both times.
     """
     processes = str((os.cpu_count() or 1) + 2)
-    count = pytest("--numprocesses", processes, "--dist", "loadfile", "--no-loadscope-reorder")
+    count = pytest("--numprocesses", processes, "--dist", "loadfile")
     if not 0 < count.failed <= TRIED_AGAIN:
         return count
     print(f"   {count}; what failed, once more:", flush=True)
