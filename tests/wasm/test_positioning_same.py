@@ -17,9 +17,9 @@ from wasm_build import build_wasm
 ROOT = Path(__file__).resolve().parents[2]
 NATIVE = Path(os.environ.get("RKM04_BUILD", ROOT / "build" / "host")) / "bin"
 EXAMPLES = ROOT / "tools/examples/positioning"
-SCRIPTS = 50
-MOVES = 6
-SECONDS = "20"
+SCRIPTS = 1000
+MOVES = 3
+SECONDS = "10"
 OUTPUTS = ("steps", "trace")
 REAL_TIME = ("real_seconds", "ratio")
 

@@ -1,4 +1,4 @@
-"""gve134-host for WebAssembly does what that for this machine does, byte for byte."""
+"""The GVE134 unit for WebAssembly does what that for this machine does, byte for byte."""
 
 from __future__ import annotations
 
@@ -12,12 +12,15 @@ from typing import Any
 import pytest
 from chance import SEED
 from gve_drawn import drawn_file
+from gve_probe import begin_of, lines_of
+from gve_sessions import session
 from rkm04_tools.gve134.service import alone
 from wasm_build import build_wasm, run_all
 
 ROOT = Path(__file__).resolve().parents[2]
-NATIVE = Path(os.environ.get("RKM04_BUILD", ROOT / "build" / "host")) / "bin" / "gve134-host"
-FILES = 1000 if "RKM04_LONG" in os.environ else 100
+NATIVE = Path(os.environ.get("RKM04_BUILD", ROOT / "build" / "host")) / "bin"
+SESSIONS = 1000
+FILES = 1000 if "RKM04_LONG" in os.environ else 30
 MADE = ("steps", "trace", "vcd", "curve")
 REAL_TIME = ("real_seconds", "ratio")
 MARK = "; alone\n"
@@ -73,8 +76,9 @@ def test_examples_and_random_files_are_the_same_to_it(files: Path, tmp_path: Pat
         for folder in (ours, theirs):
             (folder / file.name).write_bytes(file.read_bytes())
         for told, words in commands(file, str(ours)).items():
+            native = [str(NATIVE / "gve134-host"), *words]
             with file.open("rb") as stdin, (ours / told).open("wb") as stdout:
-                subprocess.run([NATIVE, *words], stdin=stdin, stdout=stdout, check=True)
+                subprocess.run(native, stdin=stdin, stdout=stdout, check=True)
         for told, words in commands(file, "").items():
             jobs.append(job(file, words, theirs / told, wasm))
 
@@ -87,3 +91,28 @@ def test_examples_and_random_files_are_the_same_to_it(files: Path, tmp_path: Pat
         assert what(theirs / name) == what(ours / name), name
     steps = [(ours / f"drawn{number}.gve.steps").read_bytes() for number in range(FILES)]
     assert sum(each.count(b"\n") > 50 for each in steps) > FILES // 2
+
+
+def spoken(seed: int) -> str:
+    """The session of a seed, as the probe reads it."""
+    told = session(seed)
+    lines = begin_of(told) + lines_of(told.edges, told.line)
+    return "\n".join((*lines, f"run {told.end}", ""))
+
+
+def test_random_sessions_have_the_same_answers_and_pulses_to_the_tick(tmp_path: Path) -> None:
+    """With halts, overrides, interrupts, damage, and whatever else can be told to the unit."""
+    given, told = tmp_path / "sessions", tmp_path / "told"
+    given.write_text("".join(spoken(SEED + n) for n in range(SESSIONS)), encoding="ascii")
+    job = {
+        "wasm": str(build_wasm() / "gve-probe.wasm"), "arguments": [], "stdin": str(given),
+        "stdout": str(told), "folder": str(tmp_path),
+    }  # fmt: skip
+
+    assert run_all([job]) == [0]
+
+    with given.open("rb") as stdin:
+        expected = subprocess.check_output([NATIVE / "gve-probe"], stdin=stdin)
+    assert expected.count(b"\nend ") == SESSIONS
+    assert expected.count(b"\npulses ") > SESSIONS
+    assert told.read_bytes() == expected
