@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rkm04_tools.failure import Failure, reading_failed
-from rkm04_tools.source import decode
+from rkm04_tools.inputs import read_inputs
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
 RATE = "# tick_hz="
-COMMENT = "#"
 
 
 @dataclass(frozen=True)
@@ -163,14 +162,6 @@ def _read_trace(path: Path) -> list[Event]:
     lines = path.read_text(encoding="ascii").splitlines()[1:]
     cells = (line.split(",", 3) for line in lines)
     return [Event(int(tick), int(motor), name, value) for tick, motor, name, value in cells]
-
-
-def read_inputs(path: Path) -> list[tuple[float, int, int]]:
-    """Read an inputs file that the simulator has accepted."""
-    lines = decode(path.read_bytes()).splitlines()
-    cells = (line.partition(COMMENT)[0].split(",") for line in lines)
-    rows = [(float(c[0]), int(c[1]), int(c[2])) for c in cells if len(c) == 3]
-    return sorted(rows, key=lambda row: row[0])
 
 
 def _sign(value: str) -> int:

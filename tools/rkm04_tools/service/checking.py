@@ -9,7 +9,7 @@ from typing import Any
 from rkm04_tools.check import Checked, Diagnostic, check_source
 from rkm04_tools.failure import Failure
 from rkm04_tools.host import stored
-from rkm04_tools.record import read_inputs
+from rkm04_tools.inputs import read_inputs
 from rkm04_tools.service.trouble import as_json
 from rkm04_tools.source import Source, read_source
 from rkm04_tools.tree import ROOT
