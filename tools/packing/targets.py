@@ -10,6 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
 PROGRAMS = ("rkm04-host", "gve134-host", "positioning-host")
+LIBRARY = "rkm04-lines"
 # Without the name of this folder, so that every checkout gives the same bytes.
 FLAGS = f"-O2 -UNDEBUG -ffile-prefix-map={ROOT}/="
 
@@ -28,6 +29,11 @@ class Target:
     def suffix(self) -> str:
         """What the names of its programs end with."""
         return ".exe" if self.system == "Windows" else ""
+
+    @property
+    def library_suffix(self) -> str:
+        """The same of its library."""
+        return {"Windows": ".dll", "Darwin": ".dylib"}.get(self.system, ".so")
 
 
 TARGETS = {
@@ -49,7 +55,10 @@ TARGETS = {
 
 
 def build_programs(target: Target) -> list[Path]:
-    """The programs of a target, which do not need anything of the system that they run on."""
+    """The programs of a target, which do not need anything of the system that they run on.
+
+    Its library needs a libc, and takes whichever Python has.
+    """
     folder = BUILD / "pc" / target.name
     _call(
         "cmake", "-G", "Ninja", "-S", ".", "-B", folder,
@@ -57,8 +66,9 @@ def build_programs(target: Target) -> list[Path]:
         f"-DPC_SYSTEM={target.system}", f"-DPC_PROCESSOR={target.processor}",
         f"-DPC_TARGET={target.zig}", f"-DCMAKE_C_FLAGS={FLAGS}", "-DCMAKE_EXE_LINKER_FLAGS=-s",
     )  # fmt: skip
-    _call("ninja", "-C", folder, *PROGRAMS)
-    return [folder / "bin" / f"{name}{target.suffix}" for name in PROGRAMS]
+    _call("ninja", "-C", folder, *PROGRAMS, LIBRARY)
+    made = [f"{name}{target.suffix}" for name in PROGRAMS] + [LIBRARY + target.library_suffix]
+    return [folder / "bin" / name for name in made]
 
 
 def build_wasm() -> list[Path]:

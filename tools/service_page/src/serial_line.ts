@@ -2,27 +2,27 @@ import type { Bytes } from "./program_host";
 import { instantiated, ns } from "./unit_module";
 import { BROADCAST, LineTrouble, ONCE, Refusal, type Place, type Wait } from "./unit_place";
 
-/** What the module rkm04-unit exports of a line; see tools/simulator/wasm/wasm_line.h. */
+/** What the module rkm04-unit exports of a line; see tools/lines/lines_rkm04.h. */
 interface Exports {
     memory: WebAssembly.Memory;
-    wasm_line_begin: (chance: number, baud: number) => number;
-    wasm_line_request: (line: number) => number;
-    wasm_line_heard: (line: number) => number;
-    wasm_line_ask: (
+    lines_rkm04_begin: (chance: number, baud: number) => number;
+    lines_rkm04_request: (line: number) => number;
+    lines_rkm04_heard: (line: number) => number;
+    lines_rkm04_ask: (
         line: number, node: number, session: number, length: number, patience_ms: number, attempts: number, now: bigint,
     ) => void;
-    wasm_line_take: (line: number, length: number, now: bigint) => void;
-    wasm_line_poll: (line: number, now: bigint) => number;
-    wasm_line_hurry: (line: number, now: bigint) => void;
-    wasm_line_forget: (line: number, node: number) => void;
-    wasm_line_sessions: (line: number, node: number) => number;
-    wasm_line_out: (line: number) => number;
-    wasm_line_take_out: (line: number) => number;
-    wasm_line_answer: (line: number) => number;
-    wasm_line_answer_length: (line: number) => number;
+    lines_rkm04_take: (line: number, length: number, now: bigint) => void;
+    lines_rkm04_poll: (line: number, now: bigint) => number;
+    lines_rkm04_hurry: (line: number, now: bigint) => void;
+    lines_rkm04_forget: (line: number, node: number) => void;
+    lines_rkm04_sessions: (line: number, node: number) => number;
+    lines_rkm04_out: (line: number) => number;
+    lines_rkm04_take_out: (line: number) => number;
+    lines_rkm04_answer: (line: number) => number;
+    lines_rkm04_answer_length: (line: number) => number;
 }
 
-/** WASM_LINE_HEARD_BYTES */
+/** LINES_RKM04_HEARD_BYTES */
 const HEARD_BYTES = 4096;
 /** A frame of 1024 bytes, less its envelope: short ones are checked better, and lost less. */
 const TEXT_BYTES_MAX = 1013;
@@ -73,7 +73,7 @@ export class SerialLine implements Place {
         this.#write = write;
         this.#exports = instantiated<Exports>(bytes);
         const chance = crypto.getRandomValues(new Uint32Array(1))[0] ?? 0;
-        this.#line = this.#exports.wasm_line_begin(chance || 1, baud);
+        this.#line = this.#exports.lines_rkm04_begin(chance || 1, baud);
         if (this.#line === 0) {
             throw new Error("there is not memory enough for the line");
         }
@@ -87,11 +87,11 @@ export class SerialLine implements Place {
         if (this.#lost !== null) {
             return Promise.reject(this.#lost);
         }
-        const { memory, wasm_line_request, wasm_line_ask } = this.#exports;
-        new Uint8Array(memory.buffer, wasm_line_request(this.#line), request.length).set(request);
+        const { memory, lines_rkm04_request, lines_rkm04_ask } = this.#exports;
+        new Uint8Array(memory.buffer, lines_rkm04_request(this.#line), request.length).set(request);
         return new Promise((take, fail) => {
             this.#waiting = { node, take, fail };
-            wasm_line_ask(this.#line, node, Number(session), request.length, patience_ms, attempts, this.#now);
+            lines_rkm04_ask(this.#line, node, Number(session), request.length, patience_ms, attempts, this.#now);
             this.#goOn();
         });
     }
@@ -100,9 +100,9 @@ export class SerialLine implements Place {
     hear(data: Bytes): void {
         for (let at = 0; at < data.length; at += HEARD_BYTES) {
             const part = data.subarray(at, at + HEARD_BYTES);
-            const { memory, wasm_line_heard, wasm_line_take } = this.#exports;
-            new Uint8Array(memory.buffer, wasm_line_heard(this.#line), part.length).set(part);
-            wasm_line_take(this.#line, part.length, this.#now);
+            const { memory, lines_rkm04_heard, lines_rkm04_take } = this.#exports;
+            new Uint8Array(memory.buffer, lines_rkm04_heard(this.#line), part.length).set(part);
+            lines_rkm04_take(this.#line, part.length, this.#now);
         }
         this.#goOn();
     }
@@ -121,15 +121,15 @@ export class SerialLine implements Place {
     }
 
     sessions(node: number): number {
-        return this.#exports.wasm_line_sessions(this.#line, node);
+        return this.#exports.lines_rkm04_sessions(this.#line, node);
     }
 
     forget(node: number): void {
-        this.#exports.wasm_line_forget(this.#line, node);
+        this.#exports.lines_rkm04_forget(this.#line, node);
     }
 
     hurry(): void {
-        this.#exports.wasm_line_hurry(this.#line, this.#now);
+        this.#exports.lines_rkm04_hurry(this.#line, this.#now);
     }
 
     setInput(): void {
@@ -147,15 +147,15 @@ export class SerialLine implements Place {
     }
 
     #goOn(): void {
-        const { wasm_line_poll, wasm_line_out, wasm_line_take_out } = this.#exports;
-        const end = wasm_line_poll(this.#line, this.#now);
-        const length = wasm_line_take_out(this.#line);
+        const { lines_rkm04_poll, lines_rkm04_out, lines_rkm04_take_out } = this.#exports;
+        const end = lines_rkm04_poll(this.#line, this.#now);
+        const length = lines_rkm04_take_out(this.#line);
         if (length > 0) {
-            this.#write(this.#copied(wasm_line_out(this.#line), length));
+            this.#write(this.#copied(lines_rkm04_out(this.#line), length));
         }
         if (end === ANSWERED) {
-            const { wasm_line_answer, wasm_line_answer_length } = this.#exports;
-            const answer = this.#copied(wasm_line_answer(this.#line), wasm_line_answer_length(this.#line));
+            const { lines_rkm04_answer, lines_rkm04_answer_length } = this.#exports;
+            const answer = this.#copied(lines_rkm04_answer(this.#line), lines_rkm04_answer_length(this.#line));
             this.#settled()?.take(answer);
         } else if (end !== WAITS) {
             const waiting = this.#settled();

@@ -1,0 +1,38 @@
+"""The masters of lines, which tools and page have in common: C, in the shared library rkm04-lines.
+
+A function of tools/lines is called by its name, its arguments are numbers and handles; what it
+returns has to be stated with `declared` before the first call.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import sys
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+from rkm04_tools.failure import Failure
+from rkm04_tools.host import program_path
+
+SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
+
+
+@cache
+def library() -> ctypes.CDLL:
+    """The library, loaded."""
+    path = program_path().with_name(f"rkm04-lines{SUFFIX}")
+    try:
+        return ctypes.CDLL(str(path))
+    except OSError as error:
+        raise Failure(f"{path}: cannot be loaded ({error})") from error
+
+
+def declared(prefix: str, functions: Mapping[str, tuple[Any, ...]]) -> dict[str, Any]:
+    """Functions by what follows `prefix` in their names; for each its result, then its arguments."""
+    found = {}
+    for name, (result, *arguments) in functions.items():
+        function = getattr(library(), prefix + name)
+        function.restype, function.argtypes = result, arguments
+        found[name] = function
+    return found
