@@ -11,11 +11,11 @@ struct lines_rkm04 {
     uint8_t heard[LINES_RKM04_HEARD_BYTES];
 };
 
-struct lines_rkm04 *lines_rkm04_begin(uint32_t chance, uint32_t baud)
+struct lines_rkm04 *lines_rkm04_begin(uint32_t chance, uint32_t baud, uint32_t usual_ms)
 {
     struct lines_rkm04 *line = calloc(1, sizeof *line);
     if (line != NULL) {
-        master_init(&line->master, chance, baud);
+        master_init(&line->master, chance, baud, usual_ms);
     }
     return line;
 }
@@ -49,6 +49,12 @@ void lines_rkm04_ask(struct lines_rkm04 *line, uint32_t node, bool in_session, u
     master_ask(&line->master, &order, now_ns);
 }
 
+void lines_rkm04_scan(struct lines_rkm04 *line, uint32_t node, uint32_t patience_ms, uint32_t attempts, uint64_t now_ns)
+{
+    assert(node != LINK_NODE_BROADCAST && node <= LINK_NODE_MAX && attempts >= 1);
+    master_scan(&line->master, (uint8_t)node, patience_ms, attempts, now_ns);
+}
+
 void lines_rkm04_take(struct lines_rkm04 *line, uint32_t length, uint64_t now_ns)
 {
     assert(length <= LINES_RKM04_HEARD_BYTES);
@@ -58,6 +64,11 @@ void lines_rkm04_take(struct lines_rkm04 *line, uint32_t length, uint64_t now_ns
 uint32_t lines_rkm04_poll(struct lines_rkm04 *line, uint64_t now_ns)
 {
     return master_poll(&line->master, now_ns);
+}
+
+uint64_t lines_rkm04_until(const struct lines_rkm04 *line)
+{
+    return line->master.until_ns;
 }
 
 void lines_rkm04_hurry(struct lines_rkm04 *line, uint64_t now_ns)
@@ -77,6 +88,16 @@ uint32_t lines_rkm04_sessions(const struct lines_rkm04 *line, uint32_t node)
     return line->master.sessions[node];
 }
 
+bool lines_rkm04_echoes(const struct lines_rkm04 *line)
+{
+    return line->master.echoes;
+}
+
+bool lines_rkm04_twice(const struct lines_rkm04 *line)
+{
+    return line->master.twice;
+}
+
 const uint8_t *lines_rkm04_out(const struct lines_rkm04 *line)
 {
     return line->master.out;
@@ -91,10 +112,10 @@ uint32_t lines_rkm04_take_out(struct lines_rkm04 *line)
 
 const uint8_t *lines_rkm04_answer(const struct lines_rkm04 *line)
 {
-    return master_answer(&line->master);
+    return line->master.answer;
 }
 
 uint32_t lines_rkm04_answer_length(const struct lines_rkm04 *line)
 {
-    return master_answer_length(&line->master);
+    return line->master.answer_length;
 }

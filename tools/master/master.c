@@ -10,6 +10,7 @@ enum stage {
     STAGE_OPENING,       /* Version, with a random number */
     STAGE_OPENING_AGAIN, /* and with the next: an old answer can be taken for one of the two, never for both */
     STAGE_ASKING,
+    STAGE_SCANNING, /* the answer has come; does another one? */
 };
 
 enum {
@@ -25,10 +26,11 @@ enum {
 
 static const uint8_t opening[] = {LINK_OPENING};
 
-void master_init(struct master *master, uint32_t chance, uint32_t baud)
+void master_init(struct master *master, uint32_t chance, uint32_t baud, uint32_t usual_ms)
 {
     memset(master, 0, sizeof *master);
     master->chance = chance;
+    master->usual_ms = usual_ms;
     master->byte_ns = NS_PER_S * BITS_PER_BYTE / baud;
     master->end = MASTER_SILENT;
 }
@@ -88,7 +90,7 @@ static bool changes(uint8_t message)
 static uint32_t patience_ms(const struct master *master)
 {
     uint32_t wanted = master->order.patience_ms;
-    return is_opening(master) && wanted > MASTER_PATIENCE_MS ? (uint32_t)MASTER_PATIENCE_MS : wanted;
+    return is_opening(master) && wanted > master->usual_ms ? master->usual_ms : wanted;
 }
 
 static void write_frame(struct master *master)
@@ -154,6 +156,9 @@ void master_ask(struct master *master, const struct master_order *order, uint64_
     master->end = MASTER_WAITS;
     master->again = false;
     master->hurried = false;
+    master->scans = false;
+    master->twice = false;
+    master->answer_length = 0;
     if (order->node == LINK_NODE_BROADCAST) {
         begin_frame(master, STAGE_BROADCAST, LINK_NUMBER_NONE, now_ns);
     } else if (!order->in_session) {
@@ -163,6 +168,16 @@ void master_ask(struct master *master, const struct master_order *order, uint64_
     } else {
         begin_numbered(master, STAGE_ASKING, now_ns);
     }
+}
+
+void master_scan(struct master *master, uint8_t node, uint32_t patience_ms, uint32_t attempts, uint64_t now_ns)
+{
+    const struct master_order order = {
+        .node = node, .in_session = true, .length = sizeof opening, .patience_ms = patience_ms, .attempts = attempts};
+    memcpy(master->message, opening, sizeof opening);
+    master_forget(master, node);
+    master_ask(master, &order, now_ns);
+    master->scans = true;
 }
 
 /* A request with a number that was not answered may be under way yet: the next one begins a session. */
@@ -191,10 +206,22 @@ static bool is_version_asked(const struct master *master)
     return master->order.length == sizeof opening && master->message[0] == LINK_OPENING;
 }
 
+static void take_last_answer(struct master *master, uint64_t now_ns)
+{
+    master->answer_length = master->ear.length;
+    memcpy(master->answer, master->ear.content + LINK_HEAD_BYTES, master->answer_length);
+    if (master->scans) {
+        master->stage = STAGE_SCANNING;
+        master->until_ns = now_ns + patience_ms(master) * NS_PER_MS;
+    } else {
+        end_request(master, MASTER_ANSWERED);
+    }
+}
+
 static void take_answer(struct master *master, uint64_t now_ns)
 {
     if (!is_opening(master) || (master->stage == STAGE_OPENING_AGAIN && is_version_asked(master))) {
-        end_request(master, MASTER_ANSWERED);
+        take_last_answer(master, now_ns);
     } else if (master->hurried) {
         end_request(master, MASTER_GIVEN_UP);
     } else {
@@ -209,17 +236,29 @@ static bool is_echo(const struct master *master)
            memcmp(ear->content + LINK_HEAD_BYTES, sent_message(master), ear->length) == 0;
 }
 
+/* A second unit may be late, and answer the Version before. */
+static void take_second_answer(struct master *master)
+{
+    const uint8_t *content = master->ear.content;
+    if (content[0] == (master->order.node | LINK_ADDRESS_ANSWER) && content[LINK_HEAD_BYTES] == LINK_OPENING) {
+        master->twice = true;
+        end_request(master, MASTER_ANSWERED);
+    }
+}
+
 /* What of a frame that has come is meant for this request. */
 static void take_frame(struct master *master, uint64_t now_ns)
 {
     const struct master_ear *ear = &master->ear;
     const uint8_t answers = master->order.node | LINK_ADDRESS_ANSWER;
     const uint8_t message = ear->content[LINK_HEAD_BYTES];
-    if (ear->content[1] != master->number) {
+    if (master->stage == STAGE_SCANNING) {
+        take_second_answer(master);
+    } else if (ear->content[1] != master->number) {
         return;
-    }
-    if (is_echo(master)) {
+    } else if (is_echo(master)) {
         master->echoed = true;
+        master->echoes = true;
     } else if (ear->content[0] == (answers | LINK_ADDRESS_REFUSED)) {
         take_refusal(master, now_ns);
     } else if (ear->content[0] == answers && (message == sent_message(master)[0] || message == MESSAGES_UNKNOWN)) {
@@ -244,7 +283,7 @@ void master_take(struct master *master, const uint8_t *bytes, uint32_t length, u
             return; /* the rest came before what has just been sent */
         }
     }
-    if (is_listening(master) && length > 0) {
+    if (is_listening(master) && master->stage != STAGE_SCANNING && length > 0) {
         uint64_t gap_ns = now_ns + GAP_MS * NS_PER_MS;
         master->until_ns = earlier_of(master->last_ns, later_of(master->until_ns, gap_ns));
     }
@@ -261,7 +300,7 @@ static enum master_end unanswered(const struct master *master)
 static void end_attempt(struct master *master, uint64_t now_ns)
 {
     master->damaged = master->damaged || master_ear_is_damaged(&master->ear);
-    if (master->stage == STAGE_BROADCAST) {
+    if (master->stage == STAGE_BROADCAST || master->stage == STAGE_SCANNING) {
         end_request(master, MASTER_ANSWERED);
     } else if (master->attempt < master->order.attempts && !master->hurried) {
         begin_attempt(master, now_ns);
@@ -280,7 +319,7 @@ enum master_end master_poll(struct master *master, uint64_t now_ns)
 
 void master_hurry(struct master *master, uint64_t now_ns)
 {
-    uint64_t usual_ns = master->sent_ns + MASTER_PATIENCE_MS * NS_PER_MS;
+    uint64_t usual_ns = master->sent_ns + master->usual_ms * NS_PER_MS;
     if (!master->hurried) {
         master->hurried = true;
         master->until_ns = earlier_of(master->until_ns, later_of(usual_ns, now_ns + GAP_MS * NS_PER_MS));
@@ -290,14 +329,4 @@ void master_hurry(struct master *master, uint64_t now_ns)
 void master_forget(struct master *master, uint8_t node)
 {
     master->numbers[node] = LINK_NUMBER_NONE;
-}
-
-const uint8_t *master_answer(const struct master *master)
-{
-    return master->ear.content + LINK_HEAD_BYTES;
-}
-
-uint32_t master_answer_length(const struct master *master)
-{
-    return master->stage == STAGE_BROADCAST ? 0 : master->ear.length;
 }

@@ -15,9 +15,6 @@
 #include "master_ear.h"
 
 enum {
-    MASTER_PATIENCE_MS =
-        400, /* for an answer to begin: 20 ms are the unit's, the rest is for adapters and busy pages */
-    MASTER_ATTEMPTS = 4,
     MASTER_OUT_BYTES = 2 * (LINK_HEAD_BYTES + LINK_REQUEST_BYTES_MAX + LINK_FCS_BYTES) + 2
 };
 
@@ -48,6 +45,7 @@ struct master {
     uint64_t sent_ns;  /* when the frame has gone out */
     uint64_t until_ns; /* so long an answer is waited for */
     uint64_t last_ns;  /* so long at the most, whatever comes */
+    uint32_t usual_ms; /* see master_init */
     uint32_t attempt;  /* of the frame under way, from 1 */
     uint32_t out_length;
     uint32_t chance;
@@ -58,17 +56,28 @@ struct master {
     uint8_t end;  /* enum master_end */
     bool again;   /* the unit has restarted once since the request was given */
     bool hurried; /* something else waits */
-    bool echoed;
+    bool scans;   /* a second answer is waited for */
+    bool twice;   /* it has come */
+    bool echoed;  /* the frame under way has come back */
+    bool echoes;  /* some frame has: the adapter of this line hears what it sends */
     bool damaged;
+    uint32_t answer_length;                  /* after MASTER_ANSWERED; 0: it was a broadcast */
+    uint8_t answer[LINK_ANSWER_BYTES_MAX];   /* until the next request */
     uint8_t message[LINK_REQUEST_BYTES_MAX]; /* the request, put there by the owner */
     uint8_t out[MASTER_OUT_BYTES];           /* out_length bytes to be written now */
 };
 
-/* A line without sessions. `chance` is not 0, and another one each time. */
-void master_init(struct master *master, uint32_t chance, uint32_t baud);
+/* A line without sessions. `chance` is not 0, and another one each time. `usual_ms` is the patience for what takes a
+ * unit no time, so a session is opened with no more, and who is in a hurry has no more: 20 ms are the unit's, the rest
+ * is for adapters and busy computers. */
+void master_init(struct master *master, uint32_t chance, uint32_t baud, uint32_t usual_ms);
 
 /* Begins the request whose message stands in `message`; what was under way before is given up. */
 void master_ask(struct master *master, const struct master_order *order, uint64_t now_ns);
+
+/* Begins to ask whether there is a unit with this address, or more than one: for its version, in a session of its own.
+ * After the answer a second one is waited for as long as for the first; `twice` says then whether one has come. */
+void master_scan(struct master *master, uint8_t node, uint32_t patience_ms, uint32_t attempts, uint64_t now_ns);
 
 /* Takes what has come. What comes while nothing is under way is dropped, as an answer that was too late. */
 void master_take(struct master *master, const uint8_t *bytes, uint32_t length, uint64_t now_ns);
@@ -81,9 +90,5 @@ void master_hurry(struct master *master, uint64_t now_ns);
 
 /* The next request to this node begins a session of its own. */
 void master_forget(struct master *master, uint8_t node);
-
-/* After MASTER_ANSWERED, until the next request: the answer; none to a broadcast. */
-const uint8_t *master_answer(const struct master *master);
-uint32_t master_answer_length(const struct master *master);
 
 #endif

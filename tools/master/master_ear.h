@@ -2,7 +2,7 @@
  * What a master hears: bytes of the line in, one at a time; whole frames out, whoever has sent them.
  *
  * The receiver is that of a unit, to which all of them are frames for others: it judges them and keeps none, and the
- * ear does. Gaps are no error here: adapters and computers make them. 17 kB.
+ * ear does. Gaps are no error here: adapters and computers make them. 9 kB.
  */
 #ifndef MASTER_EAR_H
 #define MASTER_EAR_H

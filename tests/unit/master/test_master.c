@@ -10,6 +10,8 @@
 enum {
     NODE = 3,
     BAUD = 19200,
+    PATIENCE_MS = 400,
+    ATTEMPTS = 4,
     BYTES_MAX = 256,
     FOREVER_MS = 60000,
 };
@@ -32,7 +34,7 @@ static bool off; /* nobody is there */
 
 void setUp(void)
 {
-    master_init(&master, 1, BAUD);
+    master_init(&master, 1, BAUD, PATIENCE_MS);
     link_init(&unit, NODE, unit_answer);
     now_ns = 0;
     bytes_length = 0;
@@ -120,8 +122,8 @@ static void begin(uint8_t node, bool in_session, const char *message)
         .node = node,
         .in_session = in_session,
         .length = (uint32_t)strlen(message),
-        .patience_ms = MASTER_PATIENCE_MS,
-        .attempts = MASTER_ATTEMPTS,
+        .patience_ms = PATIENCE_MS,
+        .attempts = ATTEMPTS,
     };
     memcpy(master.message, message, order.length);
     master_ask(&master, &order, now_ns);
@@ -140,10 +142,10 @@ void test_the_first_request_opens_a_session_by_version_twice(void)
     TEST_ASSERT_EQUAL(3, frames);
     TEST_ASSERT_EQUAL(1, executed);
     TEST_ASSERT_EQUAL(1, master.sessions[NODE]);
-    TEST_ASSERT_EQUAL(2, master_answer_length(&master));
+    TEST_ASSERT_EQUAL(2, master.answer_length);
     TEST_ASSERT_EQUAL_MEMORY("\2"
                              "1",
-                             master_answer(&master), 2);
+                             master.answer, 2);
 }
 
 void test_the_next_request_goes_in_the_same_session(void)
@@ -165,7 +167,7 @@ void test_the_answer_to_version_is_the_second_one(void)
 void test_a_lost_request_is_repeated(void)
 {
     (void)ask("\1");
-    requests_to_lose = MASTER_ATTEMPTS - 1;
+    requests_to_lose = ATTEMPTS - 1;
 
     TEST_ASSERT_EQUAL(MASTER_ANSWERED, ask("\0020K"));
     TEST_ASSERT_EQUAL(1, executed);
@@ -174,7 +176,7 @@ void test_a_lost_request_is_repeated(void)
 void test_a_request_whose_answers_are_lost_is_executed_once(void)
 {
     (void)ask("\1");
-    answers_to_lose = MASTER_ATTEMPTS - 1;
+    answers_to_lose = ATTEMPTS - 1;
 
     TEST_ASSERT_EQUAL(MASTER_ANSWERED, ask("\0020F1R"));
     TEST_ASSERT_EQUAL(1, executed);
@@ -195,7 +197,7 @@ void test_after_all_attempts_a_unit_is_silent_and_the_next_request_opens_a_sessi
     requests_to_lose = frames = 0;
     off = true;
     TEST_ASSERT_EQUAL(MASTER_SILENT, ask("\0020F1R"));
-    TEST_ASSERT_EQUAL(MASTER_ATTEMPTS, frames);
+    TEST_ASSERT_EQUAL(ATTEMPTS, frames);
     off = false;
 
     TEST_ASSERT_EQUAL(MASTER_ANSWERED, ask("\0020F1R"));
@@ -205,7 +207,7 @@ void test_after_all_attempts_a_unit_is_silent_and_the_next_request_opens_a_sessi
 void test_what_is_only_damaged_is_told_as_damaged(void)
 {
     (void)ask("\1");
-    answers_to_damage = MASTER_ATTEMPTS;
+    answers_to_damage = ATTEMPTS;
 
     TEST_ASSERT_EQUAL(MASTER_DAMAGED, ask("\0044"));
 }
@@ -260,13 +262,15 @@ void test_what_may_be_executed_twice_needs_no_session(void)
 
 void test_nobody_answers_what_goes_to_all_units(void)
 {
+    (void)ask("\1");
+    frames = 0;
     echo = true;
     begin(0, false, "\0020K");
 
     TEST_ASSERT_EQUAL(MASTER_ANSWERED, finish());
     TEST_ASSERT_EQUAL(1, frames);
     TEST_ASSERT_EQUAL(1, executed);
-    TEST_ASSERT_EQUAL(0, master_answer_length(&master));
+    TEST_ASSERT_EQUAL(0, master.answer_length);
 }
 
 void test_an_answer_that_comes_too_late_is_dropped(void)
@@ -274,7 +278,7 @@ void test_an_answer_that_comes_too_late_is_dropped(void)
     uint8_t late[BYTES_MAX];
     (void)ask("\0040");
     master_take(&master, late, frame_write(late, 0x80 | NODE, master.number, "\4x", 2), now_ns);
-    TEST_ASSERT_EQUAL_MEMORY("\0040", master_answer(&master), 2);
+    TEST_ASSERT_EQUAL_MEMORY("\0040", master.answer, 2);
 
     master_take(&master, late, 1, now_ns);
     TEST_ASSERT_EQUAL(MASTER_ANSWERED, ask("\0040"));
@@ -291,7 +295,7 @@ void test_an_answer_in_pieces_is_waited_for_beyond_the_first_patience(void)
         master_take(&master, bytes + i, 1, now_ns);
     }
     TEST_ASSERT_EQUAL(MASTER_ANSWERED, master_poll(&master, now_ns));
-    TEST_ASSERT_GREATER_THAN_UINT64(MASTER_PATIENCE_MS * MS, now_ns);
+    TEST_ASSERT_GREATER_THAN_UINT64(PATIENCE_MS * MS, now_ns);
 }
 
 void test_noise_without_end_ends_a_request_all_the_same(void)
@@ -303,7 +307,7 @@ void test_noise_without_end_ends_a_request_all_the_same(void)
         now_ns += MS;
     }
     TEST_ASSERT_EQUAL(MASTER_DAMAGED, master.end);
-    TEST_ASSERT_LESS_THAN_UINT64(MASTER_ATTEMPTS * (MASTER_PATIENCE_MS + 250) * MS, now_ns);
+    TEST_ASSERT_LESS_THAN_UINT64(ATTEMPTS * (PATIENCE_MS + 250) * MS, now_ns);
 }
 
 void test_who_is_in_a_hurry_repeats_nothing_and_waits_no_longer_than_usual(void)
@@ -316,7 +320,7 @@ void test_who_is_in_a_hurry_repeats_nothing_and_waits_no_longer_than_usual(void)
 
     TEST_ASSERT_EQUAL(MASTER_SILENT, finish());
     TEST_ASSERT_EQUAL(1, frames);
-    TEST_ASSERT_LESS_OR_EQUAL_UINT64((MASTER_PATIENCE_MS + 20) * MS, now_ns);
+    TEST_ASSERT_LESS_OR_EQUAL_UINT64((PATIENCE_MS + 20) * MS, now_ns);
 }
 
 void test_who_is_in_a_hurry_sends_no_request_after_the_session_was_opened(void)
@@ -328,6 +332,46 @@ void test_who_is_in_a_hurry_sends_no_request_after_the_session_was_opened(void)
     TEST_ASSERT_EQUAL(0, executed);
 }
 
+void test_a_session_is_opened_with_no_more_than_the_usual_patience(void)
+{
+    struct master_order storing = {.node = NODE, .in_session = true, .length = 2, .patience_ms = 2500, .attempts = 1};
+    memcpy(master.message, "\0031", 2);
+    master_ask(&master, &storing, now_ns);
+    off = true;
+
+    TEST_ASSERT_EQUAL(MASTER_SILENT, finish());
+    TEST_ASSERT_LESS_OR_EQUAL_UINT64((PATIENCE_MS + 20) * MS, now_ns);
+}
+
+void test_an_answer_to_an_older_version_alone_begins_no_session(void)
+{
+    uint8_t old[BYTES_MAX];
+    off = true;
+    begin(NODE, true, "\0020F1R");
+    uint32_t length = frame_write(old, 0x80 | NODE, master.number, "\1\0", 2);
+    master_take(&master, old, length, now_ns);
+    frames = 0;
+    for (unsigned i = 0; i < ATTEMPTS; i++) {
+        master_take(&master, old, length, now_ns);
+    }
+
+    TEST_ASSERT_EQUAL(MASTER_SILENT, finish());
+    TEST_ASSERT_EQUAL(ATTEMPTS, frames);
+    TEST_ASSERT_EQUAL(0, executed);
+}
+
+void test_an_adapter_that_echoes_is_known_from_then_on(void)
+{
+    TEST_ASSERT_EQUAL(MASTER_ANSWERED, ask("\0020K"));
+    TEST_ASSERT_FALSE(master.echoes);
+    echo = true;
+    TEST_ASSERT_EQUAL(MASTER_ANSWERED, ask("\0020K"));
+    TEST_ASSERT_TRUE(master.echoes);
+    echo = false;
+    TEST_ASSERT_EQUAL(MASTER_ANSWERED, ask("\0020K"));
+    TEST_ASSERT_TRUE(master.echoes);
+}
+
 void test_bytes_that_must_be_escaped_come_back_as_they_were(void)
 {
     uint8_t frame[BYTES_MAX];
@@ -335,8 +379,8 @@ void test_bytes_that_must_be_escaped_come_back_as_they_were(void)
     master_take(&master, frame, frame_write(frame, 0x80 | NODE, 0, "\4\x7D\x7E\x5D", 4), now_ns);
 
     TEST_ASSERT_EQUAL(MASTER_ANSWERED, finish());
-    TEST_ASSERT_EQUAL(4, master_answer_length(&master));
-    TEST_ASSERT_EQUAL_MEMORY("\4\x7D\x7E\x5D", master_answer(&master), 4);
+    TEST_ASSERT_EQUAL(4, master.answer_length);
+    TEST_ASSERT_EQUAL_MEMORY("\4\x7D\x7E\x5D", master.answer, 4);
 }
 
 void test_answers_of_others_and_to_others_are_passed_by(void)
@@ -349,7 +393,7 @@ void test_answers_of_others_and_to_others_are_passed_by(void)
 
     TEST_ASSERT_EQUAL(MASTER_WAITS, master.end);
     TEST_ASSERT_EQUAL(MASTER_ANSWERED, finish());
-    TEST_ASSERT_EQUAL_MEMORY("\0040", master_answer(&master), 2);
+    TEST_ASSERT_EQUAL_MEMORY("\0040", master.answer, 2);
 }
 
 void test_the_longest_answer_is_heard(void)
@@ -362,6 +406,6 @@ void test_the_longest_answer_is_heard(void)
     master_take(&master, frame, frame_write(frame, 0x80 | NODE, 0, message, sizeof message), now_ns);
 
     TEST_ASSERT_EQUAL(MASTER_ANSWERED, master.end);
-    TEST_ASSERT_EQUAL(sizeof message, master_answer_length(&master));
-    TEST_ASSERT_EQUAL_MEMORY(message, master_answer(&master), sizeof message);
+    TEST_ASSERT_EQUAL(sizeof message, master.answer_length);
+    TEST_ASSERT_EQUAL_MEMORY(message, master.answer, sizeof message);
 }

@@ -1,11 +1,11 @@
 import type { Bytes } from "./program_host";
 import { instantiated, ns } from "./unit_module";
-import { BROADCAST, LineTrouble, ONCE, Refusal, type Place, type Wait } from "./unit_place";
+import { BROADCAST, LineTrouble, ONCE, Refusal, USUAL, type Place, type Wait } from "./unit_place";
 
 /** What the module rkm04-unit exports of a line; see tools/lines/lines_rkm04.h. */
 interface Exports {
     memory: WebAssembly.Memory;
-    lines_rkm04_begin: (chance: number, baud: number) => number;
+    lines_rkm04_begin: (chance: number, baud: number, usual_ms: number) => number;
     lines_rkm04_request: (line: number) => number;
     lines_rkm04_heard: (line: number) => number;
     lines_rkm04_ask: (
@@ -73,7 +73,7 @@ export class SerialLine implements Place {
         this.#write = write;
         this.#exports = instantiated<Exports>(bytes);
         const chance = crypto.getRandomValues(new Uint32Array(1))[0] ?? 0;
-        this.#line = this.#exports.lines_rkm04_begin(chance || 1, baud);
+        this.#line = this.#exports.lines_rkm04_begin(chance || 1, baud, USUAL.patience_ms);
         if (this.#line === 0) {
             throw new Error("there is not memory enough for the line");
         }
