@@ -1,4 +1,4 @@
-"""The client's framing agrees with the shared vectors, and survives any bytes."""
+"""The frames that tools make and read agree with the shared vectors, whatever comes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import frames
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from rkm04_tools.frame import MESSAGE_BYTES_MAX, Frame, Receiver, fcs16
+from rkm04_tools.frame import MESSAGE_BYTES_MAX, Frame, Receiver
 
 VECTORS = json.loads((Path(__file__).resolve().parents[1] / "vectors" / "frames.json").read_text())
 
@@ -20,11 +20,6 @@ def named(key: str) -> list[object]:
 
 def received(data: bytes) -> list[Frame]:
     return list(Receiver().feed(data))
-
-
-@pytest.mark.parametrize("vector", VECTORS["fcs"], ids=lambda vector: vector["fcs"])
-def test_the_fcs_is_that_of_the_vectors(vector):
-    assert f"{fcs16(bytes.fromhex(vector['bytes'])):04x}" == vector["fcs"]
 
 
 @pytest.mark.parametrize("vector", named("frames"))
@@ -42,12 +37,11 @@ def test_a_frame_of_the_vectors_is_received(vector):
 
 
 @pytest.mark.parametrize("vector", named("dropped"))
-def test_a_bad_frame_of_the_vectors_is_dropped_and_counted_like_the_unit_does(vector):
+def test_a_bad_frame_of_the_vectors_is_dropped_and_told(vector):
     receiver = Receiver()
 
     assert list(receiver.feed(bytes.fromhex(vector["bytes"]))) == []
-    assert receiver.dropped[vector["count"]] > 0
-    assert set(receiver.dropped) == {vector["count"]}
+    assert receiver.is_damaged
 
 
 def test_all_vectors_in_a_row_give_the_good_ones():
@@ -67,7 +61,7 @@ def test_the_longest_answer_is_received_and_a_longer_one_is_not(extra, count):
     frame = Frame(0x81, 1, bytes(MESSAGE_BYTES_MAX + extra))
 
     assert len(list(receiver.feed(frame.encode()))) == count
-    assert receiver.dropped["LONG"] == 1 - count
+    assert receiver.is_damaged == (count == 0)
 
 
 ANY_FRAME = st.builds(
@@ -81,7 +75,7 @@ def test_a_frame_makes_the_way_there_and_back_in_any_pieces(frame, cut):
     data = frame.encode()
 
     assert [*receiver.feed(data[:cut]), *receiver.feed(data[cut:])] == [frame]
-    assert not receiver.dropped
+    assert not receiver.is_damaged
 
 
 @given(frame=ANY_FRAME)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+import re
+import resource
 import threading
 import time
 
@@ -23,7 +25,9 @@ from rkm04_tools.line_errors import (
     UnitRestarted,
     WrongAnswer,
 )
+from rkm04_tools.line_master import HEARD_BYTES, End
 from rkm04_tools.messages import BreakPoint, Progress
+from rkm04_tools.tree import ROOT
 
 NODE = 3
 VERSION = b"\x01"
@@ -233,6 +237,26 @@ def test_after_an_error_the_next_request_begins_a_session(motor, fake, unit):
     assert unit.done == [*begins, b"\x042", b"\x022F1", *begins, b"\x022F1"]
 
 
+@pytest.mark.parametrize("fake", [False], indirect=True)
+def test_after_a_wait_that_was_ended_the_next_request_begins_a_session(
+    motor, line, unit, monkeypatch
+):
+    def ended(seconds: float) -> bytes:
+        raise KeyboardInterrupt
+
+    motor.position()
+    with monkeypatch.context() as patch:
+        patch.setattr(line.transport, "read", ended)
+        with pytest.raises(KeyboardInterrupt):
+            motor.position()
+
+    motor.command("F1")
+
+    begins = [VERSION] * 2
+    assert [message for message in unit.done if message != b"\x042"] == [*begins * 2, b"\x022F1"]
+    assert line.sessions[NODE] == 2
+
+
 def test_an_answer_that_comes_too_late_is_not_taken_for_the_next_one(line, fake, unit):
     line.unit(NODE).version()
     fake.delay_seconds = 0.25
@@ -393,43 +417,78 @@ def test_threads_take_turns(line):
 
 
 class Script:
-    """A port that gives what it is told to, and then nothing."""
+    """A port that gives what it is told to, and then nothing; its time passes at once."""
 
     name = "script"
 
     def __init__(self, answers: list[bytes]) -> None:
         self._answers = answers
-        self._sent = False
+        self.sent: list[bytes] = []
+        self.now_ns = 0
 
     def read(self, seconds: float) -> bytes:
-        if self._sent and self._answers:
+        if self.sent and self._answers:
             return self._answers.pop(0)
-        time.sleep(min(seconds, 0.001))
+        self.now_ns += round(seconds * 1e9) + 1
         return b""
 
     def write(self, data: bytes) -> None:
-        self._sent = True
+        self.sent.append(data)
 
     def close(self) -> None:
         pass
 
 
-def test_an_answer_to_an_older_version_alone_begins_no_session(monkeypatch):
-    monkeypatch.setattr("random.choice", lambda numbers: 6)
-    old = Frame(0x83, 7, b"\x01\x10" + fake_unit.VERSION).encode()
+def scripted(script: Script) -> Line:
+    return Line(script, clock=lambda: script.now_ns)
 
-    with Line(Script([old] * 20)) as line, pytest.raises(NoAnswer):
-        line.request(3, b"\x022F1", Wait(0.01, 2))
+
+@pytest.mark.parametrize("length", [0, 8193])
+def test_a_message_that_no_unit_takes_is_not_sent(length):
+    script = Script([])
+
+    with scripted(script) as line, pytest.raises(Failure, match="a message has 1 to 8192"):
+        line.request(3, bytes(length))
+
+    assert script.sent == []
+
+
+def test_the_longest_message_is_sent():
+    script = Script([])
+
+    with scripted(script) as line, pytest.raises(NoAnswer):
+        line.request_at_once(3, b"\x022" + bytes(8190), Wait(0.01, 1))
+
+    assert script.sent == [Frame(3, 0, b"\x022" + bytes(8190)).encode()]
 
 
 @given(
     noise=st.lists(st.binary(min_size=1, max_size=60), max_size=4), content=st.binary(max_size=9)
 )
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_any_bytes_on_the_line_end_in_an_answer_or_a_typed_error(noise, content):
     answer = Frame(0x83, 0, b"\x02" + content).encode()
-    with Line(Script([*noise, answer])) as line, pytest.MonkeyPatch.context() as patch:
-        patch.setattr("rkm04_tools.line.GAP_SECONDS", 0.002)
-        patch.setattr("rkm04_tools.line.seconds_on_line", lambda count: 0.0)
-        with contextlib.suppress(GarbledAnswer, NoAnswer):
-            assert line.request_at_once(3, b"\x023K", Wait(0.004, 2)) == b"\x02" + content
+    with scripted(Script([*noise, answer])) as line, contextlib.suppress(GarbledAnswer, NoAnswer):
+        assert line.request_at_once(3, b"\x023K", Wait(0.004, 2)) == b"\x02" + content
+
+
+def test_the_master_is_spoken_to_by_the_numbers_of_its_headers():
+    header = (ROOT / "tools/master/master.h").read_text() + (
+        ROOT / "tools/lines/lines_rkm04.h"
+    ).read_text()
+    ends = re.search(r"enum master_end \{(.*?)\};", header, re.DOTALL)
+    names = re.findall(r"^ *MASTER_(\w+),", ends[1] if ends else "", re.MULTILINE)
+
+    assert [each.name for each in End] == names[: len(End)]
+    assert f"LINES_RKM04_HEARD_BYTES = {HEARD_BYTES}" in header
+
+
+def test_a_line_that_has_gone_leaves_no_memory_behind():
+    def open_many() -> int:
+        for _ in range(300):
+            scripted(Script([])).close()
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+    first = open_many()
+
+    assert open_many() - first < 300 * 20  # kB; a line has 46

@@ -7,28 +7,26 @@
 
 Every call ends: with an answer, or with an error of `line_errors` that says what to do. A request
 that gets no answer is repeated with the same number, so that the unit executes it once at most,
-and a unit that has restarted refuses it (firmware/rkm04/docs/line.md). Calls from several
-threads take turns.
+and a unit that has restarted refuses it (firmware/rkm04/docs/line.md): that is the work of the
+master, in C (tools/master). Calls from several threads take turns.
 """
 
 from __future__ import annotations
 
-import random
 import time
 from collections import Counter
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 from threading import RLock
 from types import TracebackType
 
 from rkm04_tools import messages
 from rkm04_tools.failure import Failure
-from rkm04_tools.frame import ANSWER, BROADCAST, NODES, NUMBERS, REFUSED, Frame, Receiver
+from rkm04_tools.frame import BROADCAST, NODES
 from rkm04_tools.line_errors import GarbledAnswer, LineError, NoAnswer, UnitRestarted
+from rkm04_tools.line_master import REQUEST_BYTES_MAX, End, Master
 from rkm04_tools.messages import (
     ALL_MOTORS,
-    ANSWER_BYTES_MAX,
-    CHANGING,
     GET_COMMAND,
     GET_POSITION,
     GET_PROGRESS,
@@ -44,7 +42,7 @@ from rkm04_tools.messages import (
 )
 from rkm04_tools.sending import Sent, Tell, check_program, send_program, silent
 from rkm04_tools.status import Status, parse_status
-from rkm04_tools.transport import Transport, open_transport, seconds_on_line
+from rkm04_tools.transport import BAUD, Transport, open_transport
 
 ATTEMPTS = 4
 PATIENCE_SECONDS = 0.2
@@ -52,19 +50,7 @@ PATIENCE_SECONDS = 0.2
 STORE_SECONDS = 2.5
 SCAN_SECONDS = 0.045
 SCAN_ATTEMPTS = 2
-GAP_SECONDS = 0.1
-"""Silence that ends an answer which has begun."""
-BROADCAST_PAUSE_SECONDS = 0.005
-ENVELOPE_BYTES = 12
 STALE_BYTES_MAX = 65_536
-
-
-@dataclass
-class Heard:
-    """What came back while an answer was waited for, and was none."""
-
-    echoes: int = 0
-    damaged: int = 0
 
 
 @dataclass(frozen=True)
@@ -83,6 +69,11 @@ class Wait:
     seconds: float = PATIENCE_SECONDS
     attempts: int = ATTEMPTS
 
+    @property
+    def ms(self) -> int:
+        """The seconds in ms."""
+        return round(self.seconds * 1000)
+
 
 USUAL = Wait()
 STORING = Wait(STORE_SECONDS, 3)
@@ -98,14 +89,14 @@ def open_line(port: str) -> Line:
 class Line:
     """An open line. `echoes` tells whether its adapter hears what it sends, which does no harm.
 
-    `sessions` counts those that were begun with each address.
+    `sessions` counts those that were begun with each address. `clock` tells ns.
     """
 
     transport: Transport
     echoes: bool = False
     sessions: Counter[int] = field(default_factory=Counter)
-    _numbers: dict[int, int] = field(default_factory=dict)
-    _twice: bool = False  # two answers have come to the last request
+    clock: Callable[[], int] = time.perf_counter_ns
+    _master: Master = field(default_factory=lambda: Master(BAUD, USUAL.ms))
     _lock: RLock = field(default_factory=RLock)
 
     def __enter__(self) -> Line:
@@ -125,8 +116,7 @@ class Line:
 
     def unit(self, node: int) -> Unit:
         """The unit with an address, 1 to 16; 0 means all of them, and none answers."""
-        if node != BROADCAST and node not in NODES:
-            raise Failure(f"node {node}: units have the addresses 1 to 16; 0 means all of them")
+        _require_node(node)
         return Unit(self, node)
 
     def scan(self, nodes: Collection[int] = NODES, tell: Tell = silent) -> list[Found]:
@@ -146,91 +136,44 @@ class Line:
         A session is begun where there is none. A unit that has restarted is asked again in a new
         one; what changes something is not sent again, UnitRestarted is raised instead.
         """
-        with self._lock:
-            if node == BROADCAST:
-                self._broadcast(message)
-                return b""
-            try:
-                return self._in_session(node, message, wait)
-            except UnitRestarted:
-                if message[0] in CHANGING:
-                    raise
-                return self._in_session(node, message, wait)
+        return self._ask(node, message, wait, in_session=True)
 
     def request_at_once(self, node: int, message: bytes, wait: Wait = USUAL) -> bytes:
         """Send a request that may be executed twice, without the session that prevents it."""
+        return self._ask(node, message, wait, in_session=False)
+
+    def _ask(self, node: int, message: bytes, wait: Wait, in_session: bool) -> bytes:
+        _require_node(node)
+        if not 0 < len(message) <= REQUEST_BYTES_MAX:
+            raise Failure(f"a message has 1 to {REQUEST_BYTES_MAX} bytes, not {len(message)}")
         with self._lock:
-            if node == BROADCAST:
-                self._broadcast(message)
-                return b""
-            return self._exchange(Frame(node, 0, message), wait)
+            self._master.ask(node, in_session, message, wait.ms, wait.attempts, self.clock())
+            self._finish(node, in_session)
+            return self._master.answer()
 
-    def _in_session(self, node: int, message: bytes, wait: Wait) -> bytes:
-        if node not in self._numbers:
-            version = self._begin(node, wait)
-            if message == bytes([VERSION]):
-                return version
-        return self._numbered(node, message, wait)
-
-    def _begin(self, node: int, wait: Wait) -> bytes:
-        """Send Version, with a random number and with the next.
-
-        So the unit does not take what follows for a repeat of somebody else's. An answer to an
-        older Version that is still under way can be taken for one of the two, never for both.
-        """
-        self._numbers[node] = random.choice(NUMBERS)
-        self.sessions[node] += 1
-        patience = Wait(min(wait.seconds, USUAL.seconds), wait.attempts)
-        self._numbered(node, bytes([VERSION]), patience)
-        return self._numbered(node, bytes([VERSION]), patience)
-
-    def _numbered(self, node: int, message: bytes, wait: Wait) -> bytes:
-        number = self._numbers[node] % NUMBERS[-1] + 1
-        self._numbers[node] = number
+    def _finish(self, node: int, in_session: bool) -> None:
+        """Wait for the end of what the master has begun."""
         try:
-            return self._exchange(Frame(node, number, message), wait)
+            while (end := self._go_on()) is End.WAITS:
+                pass
         except BaseException:
-            # It may be under way still: the next request begins a session of its own.
-            del self._numbers[node]
+            if in_session:
+                # It may be under way still: the next request begins a session of its own.
+                self._master.forget(node)
             raise
+        finally:
+            self.sessions[node] = self._master.sessions(node)
+            self.echoes = self._master.echoes()
+        if end is not End.ANSWERED:
+            raise self._failed(node, end)
 
-    def _broadcast(self, message: bytes) -> None:
-        data = Frame(BROADCAST, 0, message).encode()
-        self.transport.write(data)
-        time.sleep(seconds_on_line(len(data)) + BROADCAST_PAUSE_SECONDS)
-
-    def _exchange(self, frame: Frame, wait: Wait) -> bytes:
-        heard = Heard()
-        for attempt in range(wait.attempts):
-            answer = self._attempt(frame, wait.seconds, heard)
-            if answer and answer.address & REFUSED:
-                where = f"{self.transport.name}: unit {frame.node}"
-                raise UnitRestarted(where, repeated=attempt > 0)
-            if answer:
-                return answer.message
-        raise self._unanswered(frame.node, heard)
-
-    def _attempt(self, frame: Frame, patience_seconds: float, heard: Heard) -> Frame | None:
-        """Send a request once and wait for its answer; nothing prolongs that past `last`."""
-        self._drop_stale()
-        data = frame.encode()
-        self.transport.write(data)
-        until = time.monotonic() + seconds_on_line(len(data)) + patience_seconds
-        answer_bytes = 2 * (ANSWER_BYTES_MAX.get(frame.message[0], 4) + ENVELOPE_BYTES)
-        last = until + seconds_on_line(answer_bytes) + GAP_SECONDS
-        receiver = Receiver()
-        while (left := until - time.monotonic()) > 0:
-            came = self.transport.read(left)
-            got = list(receiver.feed(came))
-            self._note(got, frame, heard)
-            answers = [each for each in got if _answers(each, frame)]
-            if answers:
-                self._twice = len(answers) > 1
-                return answers[0]
-            if came:
-                until = min(last, max(until, time.monotonic() + GAP_SECONDS))
-        heard.damaged += receiver.dropped.total() + receiver.is_inside
-        return None
+    def _go_on(self) -> End:
+        if out := self._master.take_out():
+            self._drop_stale()
+            self.transport.write(out)
+        came = self.transport.read(max(0, self._master.until_ns - self.clock()) / 1e9)
+        self._master.take(came, self.clock())
+        return self._master.poll(self.clock())
 
     def _drop_stale(self) -> None:
         """Forget what came when nobody asked, such as an answer that was too late."""
@@ -238,55 +181,39 @@ class Line:
         while dropped < STALE_BYTES_MAX and (stale := self.transport.read(0)):
             dropped += len(stale)
 
-    def _note(self, got: Collection[Frame], sent: Frame, heard: Heard) -> None:
-        if sent in got:
-            heard.echoes += 1
-            self.echoes = True
-
-    def _unanswered(self, node: int, heard: Heard) -> LineError:
+    def _failed(self, node: int, end: End) -> LineError:
         where = f"{self.transport.name}: "
-        if heard.damaged:
+        if end in (End.RESTARTED, End.RESTARTED_SENT):
+            return UnitRestarted(f"{where}unit {node}", repeated=end is End.RESTARTED_SENT)
+        if end is End.DAMAGED:
             return GarbledAnswer(
                 f"{where}what comes back from unit {node} is damaged; do two units have this "
                 "address (switch S1), are A and B swapped, is the line terminated?"
             )
-        if heard.echoes:
-            return NoAnswer(
-                f"{where}unit {node} does not answer, only the adapter's echo comes back; "
-                "check power, wiring (A, B) and address (switch S1); rkm04 scan shows who is there"
-            )
+        echo = ", only the adapter's echo comes back" if end is End.ECHOED else ""
         return NoAnswer(
-            f"{where}unit {node} does not answer; "
+            f"{where}unit {node} does not answer{echo}; "
             "check power, wiring (A, B) and address (switch S1); rkm04 scan shows who is there"
         )
 
     def _look_for(self, node: int) -> Found | None:
+        assert node in NODES
         with self._lock:
-            self._numbers.pop(node, None)
+            self._master.scan(node, SCANNING.ms, SCANNING.attempts, self.clock())
             try:
-                answer = self.request(node, bytes([VERSION]), SCANNING)
+                self._finish(node, in_session=True)
             except GarbledAnswer:
                 return Found(node, None, "damaged answers: two units with this address?")
             except NoAnswer:
                 return None
-            again = self.transport.read(SCAN_SECONDS)
-            twice = self._twice or any(_is_version_of(f, node) for f in Receiver().feed(again))
+            answer, twice = self._master.answer(), self._master.twice()
         remark = "answers twice: two units with this address?" if twice else ""
         return Found(node, messages.parse_version(answer), remark)
 
 
-def _answers(got: Frame, sent: Frame) -> bool:
-    """Whether a frame is the answer to a request, or says that it is refused."""
-    if got.number != sent.number:
-        return False
-    if got.address == sent.address | ANSWER | REFUSED:
-        return True
-    expected = (sent.message[0], messages.UNKNOWN)
-    return got.address == sent.address | ANSWER and got.message[0] in expected
-
-
-def _is_version_of(frame: Frame, node: int) -> bool:
-    return frame.address == node | ANSWER and frame.message[0] == VERSION
+def _require_node(node: int) -> None:
+    if node != BROADCAST and node not in NODES:
+        raise Failure(f"node {node}: units have the addresses 1 to 16; 0 means all of them")
 
 
 @dataclass(frozen=True)

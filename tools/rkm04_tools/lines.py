@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import ctypes
 import sys
-from collections.abc import Mapping
+import weakref
+from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Any
 
@@ -29,10 +30,19 @@ def library() -> ctypes.CDLL:
 
 
 def declared(prefix: str, functions: Mapping[str, tuple[Any, ...]]) -> dict[str, Any]:
-    """Functions by what follows `prefix` in their names; for each its result, then its arguments."""
+    """Functions by what follows `prefix` in their names: for each result, then arguments."""
     found = {}
     for name, (result, *arguments) in functions.items():
         function = getattr(library(), prefix + name)
         function.restype, function.argtypes = result, arguments
         found[name] = function
     return found
+
+
+def owned(owner: object, handle: int | None, end: Callable[[int], None]) -> int:
+    """A handle that has been begun, which ends with its owner."""
+    if not handle:
+        raise MemoryError
+    # A thread that is left at the exit of Python may use it still.
+    weakref.finalize(owner, end, handle).atexit = False
+    return handle

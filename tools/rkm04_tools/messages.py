@@ -21,18 +21,6 @@ NAMES = {
     GET_PROGRESS: "Get Pozic Run",
     GET_STATUS: "Get Status",
 }
-CHANGING = (SET_COMMAND, STORE_FLASH)
-"""Messages that change something when they are executed once more; all others only ask."""
-ANSWER_BYTES_MAX = {
-    VERSION: 257,
-    SET_COMMAND: 4,
-    STORE_FLASH: 3,
-    GET_POSITION: 2 + 4 * 21,
-    GET_COMMAND: 8402,
-    GET_TABLE: 800,
-    GET_PROGRESS: 40,
-    GET_STATUS: 300,
-}
 
 ALL_MOTORS = 0
 MOTORS = range(1, 5)
