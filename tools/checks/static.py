@@ -30,6 +30,7 @@ FIRMWARE = ("firmware/**/*.c",)
 HOST = (
     "hal/host/*.c",
     "tools/common/*.c",
+    "tools/lines/*.c",
     "tools/master/*.c",
     "tools/unit_host/*.c",
     "tools/unit_serve/*.c",
@@ -49,6 +50,7 @@ FOLDERS = (
     "hal/include",
     "hal/host",
     "tools/common",
+    "tools/lines",
     "tools/master",
     "tools/unit_host",
     "tools/unit_serve",
