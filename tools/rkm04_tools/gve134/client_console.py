@@ -15,10 +15,9 @@ from rkm04_tools.gve134 import answers, host
 from rkm04_tools.gve134.answers import Answer, canonical
 from rkm04_tools.gve134.client_base import unit_of
 from rkm04_tools.gve134.job import COMMENT, LINE_OWN
-from rkm04_tools.gve134.link import MEMORY_SECONDS
 from rkm04_tools.gve134.sending import LONG_SECONDS
 from rkm04_tools.gve134.stopping import halt_at_signal
-from rkm04_tools.gve134.unit import Unit, is_memory_write
+from rkm04_tools.gve134.unit import Unit
 from rkm04_tools.line_errors import LineError, PortError
 from rkm04_tools.stopper import Stopper, nudged
 
@@ -180,4 +179,4 @@ class Console:
             return link.reset(answers.addressed(text)[0])
         if text.startswith("W"):
             return link.ask_long(text, LONG_SECONDS)
-        return link.ask(text, MEMORY_SECONDS) if is_memory_write(text) else link.ask(text)
+        return link.ask(text)

@@ -26,11 +26,10 @@ from rkm04_tools.gve134.executed import Executed, Steps, steps_of
 from rkm04_tools.gve134.gcode.directives import Pause, Probe, Wait
 from rkm04_tools.gve134.job import Asked, Command, Job
 from rkm04_tools.gve134.known import Known
-from rkm04_tools.gve134.link import MEMORY_SECONDS
 from rkm04_tools.gve134.link_errors import Refused
 from rkm04_tools.gve134.probing import BEFORE, HALTED, UNTOUCHED, WORDS
 from rkm04_tools.gve134.state import INTA, INTCOM, RUN, Flags, Positions, named, positions_text
-from rkm04_tools.gve134.unit import POLL_SECONDS, Unit, is_memory_write
+from rkm04_tools.gve134.unit import POLL_SECONDS, Unit
 from rkm04_tools.transport import BITS_PER_BYTE
 
 PACKET_COMMANDS_MAX = 64
@@ -240,8 +239,6 @@ class Sender:
         if command.text in ("J", "!7J"):
             self.inta = False
             return self.unit.link.reset(answers.addressed(command.text)[0])
-        if is_memory_write(command.text):
-            return self.unit.link.ask(command.text, MEMORY_SECONDS)
         return self.unit.link.ask(command.text)
 
     def _obey(self, command: Command, asked: Asked) -> None:

@@ -17,7 +17,7 @@ from types import TracebackType
 
 from rkm04_tools.gve134 import answers
 from rkm04_tools.gve134.answers import Answer
-from rkm04_tools.gve134.link import BAUD, HALT_SECONDS, MEMORY_SECONDS, Link, open_link
+from rkm04_tools.gve134.link import BAUD, HALT_SECONDS, Link, open_link
 from rkm04_tools.gve134.link_errors import LineError, NotConfirmed, Refused
 from rkm04_tools.gve134.state import Flags, Positions, Status
 
@@ -59,8 +59,7 @@ class Unit:
 
     def order(self, command: str, what: str = "") -> Answer:
         """Have a command executed; what is refused is an error that begins with `what`."""
-        seconds = MEMORY_SECONDS if is_memory_write(command) else 0.0
-        answer = self.link.ask(command, seconds) if seconds else self.link.ask(command)
+        answer = self.link.ask(command)
         if answer.code != answers.DONE:
             raise Refused(what or command, answer)
         return answer
@@ -130,9 +129,3 @@ class Unit:
         """Write a byte of the EEPROM. False: it reads as another one."""
         self.order(f"EW{place:02X},{value:02X}", f"memory {place:02X}")
         return self._byte(f"ER{place:02X}") == value
-
-
-def is_memory_write(command: str) -> bool:
-    """Whether a command writes the EEPROM, which takes its time."""
-    text = answers.addressed(command)[1:].upper()
-    return text.startswith(("EW", "EUW", "EFW"))

@@ -7,11 +7,10 @@ import re
 from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.gve134 import answers
 from rkm04_tools.gve134.client_base import require_good
-from rkm04_tools.gve134.link import MEMORY_SECONDS
 from rkm04_tools.gve134.link_errors import Refused
 from rkm04_tools.gve134.service.orders import Jog, Output, Spindle, Typed
 from rkm04_tools.gve134.state import FAULT, INTA, NO_CRYSTAL, RUN, Flags, positions_text
-from rkm04_tools.gve134.unit import Unit, is_memory_write
+from rkm04_tools.gve134.unit import Unit
 from rkm04_tools.service.trouble import BadRequest
 
 QUESTION = re.compile(r"\?|Q|P[F4L]?|SR\d|F|I[12]|E[UF]?R[0-9A-F]{1,2}")
@@ -46,10 +45,7 @@ def _type(unit: Unit, text: str) -> str:
         raise BadRequest(f"{text}: the page has a button for it, or the line does it by itself")
     require_good(text, text)
     link = unit.link
-    if text in ("J", "!7J"):
-        answer = link.reset(answers.addressed(text)[0])
-    else:
-        answer = link.ask(text, MEMORY_SECONDS) if is_memory_write(text) else link.ask(text)
+    answer = link.reset(answers.addressed(text)[0]) if text in ("J", "!7J") else link.ask(text)
     if answer.code != answers.DONE:
         raise Refused(text, answer)
     return f"{text} → {answer.text}  {answer.words}"

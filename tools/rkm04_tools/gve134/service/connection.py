@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from rkm04_tools.failure import Failure
@@ -88,7 +88,7 @@ class Connection(UnitLine[Unit, State]):
         self.looks, self.job = Looks(), None
         self.begin_way()
 
-    def _begin(self, commands: tuple[str, ...]) -> None:
+    def _begin(self, commands: Sequence[str]) -> None:
         self._board.change(reference=commands[0].startswith("W"))
 
     def _hear(self, answer: Answer | None) -> None:

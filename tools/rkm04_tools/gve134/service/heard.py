@@ -2,31 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from rkm04_tools.gve134 import answers
 from rkm04_tools.gve134.answers import Answer
 from rkm04_tools.gve134.known import Known
-from rkm04_tools.gve134.wire import Request, Wire
+from rkm04_tools.gve134.wire import Wire
 
 
 @dataclass(eq=False)
 class HeardWire(Wire):
-    """A wire that tells of every exchange: `begins` what is sent, `told` the answer if any came."""
+    """A wire that tells of every request: `begins` what is sent, `told` the answer if any came."""
 
-    begins: Callable[[tuple[str, ...]], None] = lambda commands: None
+    begins: Callable[[Sequence[str]], None] = lambda commands: None
     told: Callable[[Answer | None], None] = lambda answer: None
     known: Known = field(default_factory=Known)
 
-    def exchange(self, request: Request) -> Answer | None:
-        """Send once and wait, as Wire does."""
-        self.begins(request.commands)
-        answer = super().exchange(request)
-        for command in request.commands:
-            if answer is None or answer.code == answers.DAMAGED:
+    def begin(self, commands: Sequence[str]) -> None:
+        """Commands are going to be sent, see Wire."""
+        self.begins(commands)
+
+    def end(self, commands: Sequence[str], answer: Answer | None) -> None:
+        """They had an answer or none, see Wire."""
+        for command in commands:
+            if answer is None:
                 self.known = self.known.without(command)
             elif answer.code == answers.DONE:
                 self.known = self.known.after(command)
         self.told(answer)
-        return answer
