@@ -1,3 +1,4 @@
+import type { Bytes } from "../../program_host";
 import { Beats } from "../../unit_beats";
 import { LineTrouble, Refusal } from "../../unit_place";
 import type { Trouble } from "../../protocol";
@@ -66,15 +67,16 @@ export class UnitDesk {
     #isHalting = false;
     #isBusy = false;
 
-    /** `close` closes the port of the page; `fail` is told of a fault of the desk. */
+    /** `bytes` is the module; `close` closes the port of the page; `fail` is told of a fault of the desk. */
     constructor(
-        virtual: VirtualPort, told: { tell: (told: FromService) => void; close: () => void; fail: (error: unknown) => void },
+        bytes: Bytes, virtual: VirtualPort,
+        told: { tell: (told: FromService) => void; close: () => void; fail: (error: unknown) => void },
     ) {
         this.#virtual = virtual;
         this.#tell = told.tell;
         this.#close = told.close;
         this.#fail = told.fail;
-        this.#line = new UnitConnection(told.tell, () => this.#mind());
+        this.#line = new UnitConnection(bytes, told.tell, () => this.#mind());
         this.#jobs = new Jobs(this.#line, (link) => this.#beside(link));
         this.#queue.push({ order: { type: "connect", port: VIRTUAL }, since_ms: performance.now() });
     }

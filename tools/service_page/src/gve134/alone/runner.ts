@@ -25,7 +25,7 @@ export class UnitRunner {
         this.#order = say;
         this.#fail = fail;
         this.#virtual = new VirtualUnit(bytes, performance.now());
-        this.#desk = new UnitDesk(this.#virtual, {
+        this.#desk = new UnitDesk(bytes, this.#virtual, {
             tell: (told) => say(JSON.stringify(told)),
             close: () => this.#closePort(),
             fail: (error) => this.#end(error),

@@ -1,5 +1,6 @@
+import type { Bytes } from "../../program_host";
 import { LineTrouble, Refusal } from "../../unit_place";
-import { DAMAGED, DONE } from "./answers";
+import { DONE } from "./answers";
 import type { FromService } from "../protocol";
 import { DeskState } from "./desk_state";
 import { AFTER_RESET, NOTHING_KNOWN, knownAfter, knownWithout, percentOf } from "./known";
@@ -25,12 +26,14 @@ export class UnitConnection {
     looks = new Looks();
     look_due_ms = 0;
     readonly made = new Made();
+    readonly #bytes: Bytes;
     readonly #tell: (told: FromService) => void;
     readonly #mind: () => void;
     #inputs_due_ms = 0;
 
-    /** `mind` is called while the line is used, and may throw what ends that. */
-    constructor(tell: (told: FromService) => void, mind: () => void) {
+    /** `bytes` is the module; `mind` is called while the line is used, and may throw what ends that. */
+    constructor(bytes: Bytes, tell: (told: FromService) => void, mind: () => void) {
+        this.#bytes = bytes;
         this.#tell = tell;
         this.#mind = mind;
         this.state = new DeskState(tell);
@@ -41,12 +44,11 @@ export class UnitConnection {
     }
 
     open(port: BytePort): void {
-        const wire = new Wire(port);
+        const wire = new Wire(this.#bytes, port);
         wire.look = this.#mind;
         wire.onSent = ([first = ""]) => this.state.change({ reference: first.startsWith("W") });
         wire.onAnswer = (commands, answer) => {
-            const isOver = answer !== null && answer.code !== DAMAGED;
-            const learn = !isOver ? knownWithout : answer.code === DONE ? knownAfter : null;
+            const learn = answer === null ? knownWithout : answer.code === DONE ? knownAfter : null;
             this.state.heard_ms = answer === null ? this.state.heard_ms : performance.now();
             this.state.known = learn === null ? this.state.known : commands.reduce(learn, this.state.known);
         };

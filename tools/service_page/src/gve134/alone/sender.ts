@@ -1,5 +1,5 @@
 import { LineTrouble, Refusal } from "../../unit_place";
-import { BOUNDS, DONE, NOT_WHILE_MOVING, NO_ROOM, answerWords, encoded, type Answer } from "./answers";
+import { BOUNDS, DONE, NOT_WHILE_MOVING, NO_ROOM, answerWords, type Answer } from "./answers";
 import { Executed } from "./executed";
 import { goesInPackets, isVector, stepsOf, type Asked, type Command } from "./job_text";
 import { Refused, type UnitLink } from "./link";
@@ -13,6 +13,8 @@ const PACKET_GROWTH = 2;
 const PACKET_SECONDS = 0.15;
 const PACKET_BYTES_MIN = 300;
 const BITS_PER_BYTE = 10;
+/** What the line has around a command: !, address, checksum and CR. */
+const AROUND_BYTES = 6;
 const NO_ROOM_MS = 10;
 const POLL_MS = 50;
 const LONG_MS = 86_400_000;
@@ -142,7 +144,7 @@ export class Sender {
         let room = Math.max(PACKET_BYTES_MIN, (this.#link.wire.port.baud * PACKET_SECONDS) / BITS_PER_BYTE);
         let count = 0;
         for (let next = this.#ahead(0); count < this.#size && next !== null; next = this.#ahead(count)) {
-            room -= encoded(next.text, true).length;
+            room -= next.text.length + AROUND_BYTES;
             if (!goesInPackets(next) || room < 0) {
                 break;
             }

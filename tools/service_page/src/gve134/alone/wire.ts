@@ -1,17 +1,44 @@
 import type { Bytes } from "../../program_host";
-import { addressed, encoded, fits, formOf, parsed, type Answer } from "./answers";
+import { instantiated, ns } from "../../unit_module";
+import { Refusal } from "../../unit_place";
+import { answerOf, type Answer } from "./answers";
 
-export const PATIENCE_MS = 500;
-/** After so much silence no packet is open, and nothing is thrown away any more. */
-export const PACKET_OVER_MS = 1200;
-export const MEMORY_MS = 2500;
-const GAP_MS = 100;
-/** Between two parts of an answer: what a converter makes of them. */
-const CUT_MS = 30;
-const BITS_PER_BYTE = 10;
-const LINE_BYTES_MAX = 4096;
-/** What a unit without checksums answers to a command with one. */
-export const BARE = /^[24AC]$/;
+/** GVE_WIRE_TEXT_BYTES, LINES_GVE134_HEARD_BYTES */
+const TEXT_BYTES_MAX = 6400;
+const HEARD_BYTES = 4096;
+
+/** What is asked for: enum gve_master_kind of tools/gve134_master/gve_master.h. */
+export const ASK = 0;
+export const PACKET = 1;
+export const PACKET_ONCE = 2;
+export const LONG = 3;
+export const RESET = 4;
+export const CONNECT = 5;
+export const HALT = 6;
+
+/** How it has ended: the first of enum gve_master_end. */
+const WAITS = 0;
+export const ANSWERED = 1;
+
+/** What the module gve134-unit exports of a line; see tools/lines/lines_gve134.h. */
+interface Exports {
+    memory: WebAssembly.Memory;
+    lines_gve134_begin: (baud: number, sums: number) => number;
+    lines_gve134_request: (line: number) => number;
+    lines_gve134_heard: (line: number) => number;
+    lines_gve134_ask: (line: number, kind: number, length: number, wait_ms: bigint, now: bigint) => void;
+    lines_gve134_take: (line: number, length: number, now: bigint) => void;
+    lines_gve134_poll: (line: number, now: bigint) => number;
+    lines_gve134_forget: (line: number) => void;
+    lines_gve134_until: (line: number) => bigint;
+    lines_gve134_out: (line: number) => number;
+    lines_gve134_take_out: (line: number) => number;
+    lines_gve134_digit: (line: number) => number;
+    lines_gve134_values: (line: number) => number;
+    lines_gve134_other: (line: number) => number;
+    lines_gve134_version: (line: number) => number;
+    lines_gve134_restarted: (line: number) => number;
+}
 
 /** Where bytes go; those that come are given to the wire. */
 export interface BytePort {
@@ -23,67 +50,56 @@ export interface BytePort {
     write(data: Bytes): void;
 }
 
-/** What is sent at once and has one answer; `counts` commands if it comes whole. */
-export interface Request {
-    commands: string[];
-    form: RegExp;
-    counts: number;
-    patience_ms: number;
-}
-
-export function requestOf(command: string, patience_ms = PATIENCE_MS): Request {
-    const counts = /^[@>]/.test(addressed(command).slice(1)) ? 0 : 1;
-    return { commands: [command], form: formOf(command), counts, patience_ms };
-}
-
-/** Commands C and B that are taken together or not at all. */
-export function packetOf(commands: string[]): Request {
-    const whole = ["*S", ...commands, `*E${commands.length}`];
-    return { commands: whole, form: new RegExp(`^(0|${commands.length})$`), counts: whole.length, patience_ms: PACKET_OVER_MS };
-}
-
-export const encodedRequest = ({ commands }: Request, sums: boolean): string =>
-    commands.map((command) => encoded(command, sums)).join("");
-
-/** What has come since a request was sent, and was no answer to it. */
-export interface Heard {
-    damaged: number;
-    /** What was sent came back. */
-    echoes: number;
-    /** An answer of a unit without checksums. */
-    bare: boolean;
-    /** The values of an answer to something else. */
-    other: string;
-}
-
-const nothing = (): Heard => ({ damaged: 0, echoes: 0, bare: false, other: "" });
-
-/**
- * Bytes of the line: requests out, and out of what comes back the answer to each. A line that is damaged ends a wait: it
- * was the answer, as only one is under way. The rest of a line that had begun to come before a request went out is none.
- */
+/** A line with a unit: the master of tools/gve134_master, and the bytes of a port. */
 export class Wire {
     readonly port: BytePort;
-    sums = true;
-    heard = nothing();
     /** Looked at again and again while something is waited for; may throw what ends that. */
     look: () => void = () => undefined;
-    /** Told of every exchange: what is sent, and the answer if any came. */
+    /** Told of every request: what is sent, and the answer if any came. */
     onSent: (commands: string[]) => void = () => undefined;
     onAnswer: (commands: string[], answer: Answer | null) => void = () => undefined;
-    #text = "";
-    #sent = "";
-    /** A line had begun to come when a request went out: until then its rest can come. */
-    #cut_until = -Infinity;
+    readonly #exports: Exports;
+    readonly #line: number;
     #wake: (() => void) | null = null;
 
-    constructor(port: BytePort) {
+    constructor(bytes: Bytes, port: BytePort) {
         this.port = port;
+        this.#exports = instantiated<Exports>(bytes);
+        this.#line = this.#exports.lines_gve134_begin(port.baud, 1);
+        if (this.#line === 0) {
+            throw new Error("there is not memory enough for the line");
+        }
+    }
+
+    /** The unit's answer to ?. */
+    get version(): string {
+        return this.#text(this.#exports.lines_gve134_version(this.#line));
+    }
+
+    /** Whether the unit was found to have started anew when it was connected to again. */
+    get restarted(): boolean {
+        return this.#exports.lines_gve134_restarted(this.#line) !== 0;
+    }
+
+    /** What another device has answered. */
+    get other(): string {
+        return this.#text(this.#exports.lines_gve134_other(this.#line));
+    }
+
+    /** The answer to the last request. */
+    get answer(): Answer {
+        const { lines_gve134_digit, lines_gve134_values } = this.#exports;
+        return answerOf(lines_gve134_digit(this.#line), this.#text(lines_gve134_values(this.#line)));
     }
 
     /** Bytes have come. */
     take(data: Uint8Array): void {
-        this.#text += String.fromCharCode(...data.filter((each) => each !== 0x0a));
+        const { memory, lines_gve134_heard, lines_gve134_take } = this.#exports;
+        for (let at = 0; at < data.length; at += HEARD_BYTES) {
+            const part = data.subarray(at, at + HEARD_BYTES);
+            new Uint8Array(memory.buffer, lines_gve134_heard(this.#line), part.length).set(part);
+            lines_gve134_take(this.#line, part.length, this.#now);
+        }
         this.poke();
     }
 
@@ -92,99 +108,82 @@ export class Wire {
         this.#wake?.();
     }
 
-    /** Sends once and waits; null: nothing came, or nothing that could be read. */
-    async exchange(request: Request): Promise<Answer | null> {
-        const text = encodedRequest(request, this.sums);
-        this.write(text);
-        const on_line_ms = (1000 * BITS_PER_BYTE * text.length) / this.port.baud;
-        this.onSent(request.commands);
-        const answer = await this.wait(request.form, on_line_ms + request.patience_ms);
-        this.onAnswer(request.commands, answer);
-        return answer;
-    }
-
-    /** Sends; what has come before that is no answer to it. */
-    write(text: string): void {
-        this.look();
-        if (this.#text !== "") {
-            this.#cut_until = this.#text.endsWith("\r") ? -Infinity : performance.now() + CUT_MS;
+    /** How a request has ended. `wait_ms`: for the axes to stand. */
+    async ask(kind: number, commands: string[], wait_ms = 0): Promise<number> {
+        const { memory, lines_gve134_request, lines_gve134_ask, lines_gve134_forget } = this.#exports;
+        const text = Uint8Array.from(commands.join("\n"), (letter) => letter.charCodeAt(0));
+        if (text.length > TEXT_BYTES_MAX) {
+            throw new Refusal(`${commands.length} commands are too many for a packet`, "nothing was sent");
         }
-        this.#text = "";
-        this.heard = nothing();
-        this.#sent = text;
-        this.send(text);
-    }
-
-    /** Sends beside what is waited for. */
-    send(text: string): void {
-        this.port.write(Uint8Array.from(text, (letter) => letter.charCodeAt(0)));
-    }
-
-    /** The first answer of a form; null: there is none in time, or it was damaged. */
-    async wait(form: RegExp | null, wait_ms: number): Promise<Answer | null> {
-        let until = performance.now() + wait_ms;
-        const last = until + GAP_MS;
-        for (let left = wait_ms; left > 0; left = until - performance.now()) {
-            for (const line of await this.lines(left)) {
-                const answer = parsed(line, this.sums);
-                if (form === null) {
-                    continue;
-                }
-                if (answer !== null && fits(answer, form)) {
-                    return answer;
-                }
-                if (answer !== null) {
-                    this.heard.other = answer.values;
-                } else if (this.#isDamage(line)) {
-                    return null;
-                }
-            }
-            if (this.#text !== "") {
-                until = Math.min(last, Math.max(until, performance.now() + GAP_MS));
-            }
+        new Uint8Array(memory.buffer, lines_gve134_request(this.#line), text.length).set(text);
+        lines_gve134_ask(this.#line, kind, text.length, BigInt(wait_ms), this.#now);
+        let end = WAITS;
+        this.onSent(commands);
+        try {
+            await this.#until(() => {
+                end = this.#poll();
+                return end === WAITS ? this.#left_ms : 0;
+            });
+        } catch (error) {
+            lines_gve134_forget(this.#line);
+            throw error;
+        } finally {
+            this.onAnswer(commands, end === ANSWERED ? this.answer : null);
         }
-        this.heard.damaged += this.#text === "" ? 0 : 1;
-        return null;
+        return end;
     }
 
     /** Waits; what comes meanwhile is no answer to anything. */
-    async pause(wait_ms: number): Promise<void> {
-        await this.wait(null, wait_ms);
+    pause(wait_ms: number): Promise<void> {
+        const until_ms = performance.now() + wait_ms;
+        return this.#until(() => until_ms - performance.now());
     }
 
-    /** The lines that come whole, as soon as there is one or the time is over. */
-    async lines(wait_ms: number): Promise<string[]> {
-        this.look();
-        if (!this.#text.includes("\r")) {
-            await new Promise<void>((end) => {
-                const timer = setTimeout(end, wait_ms);
-                this.#wake = () => {
-                    clearTimeout(timer);
+    /** Looks whenever something has happened, until no time is left. */
+    #until(left_ms: () => number): Promise<void> {
+        return new Promise((end, fail) => {
+            let timer: ReturnType<typeof setTimeout> | undefined;
+            const look = (): void => {
+                clearTimeout(timer);
+                try {
+                    this.look();
+                    const wait_ms = left_ms();
+                    if (wait_ms > 0) {
+                        timer = setTimeout(look, wait_ms);
+                        return;
+                    }
                     end();
-                };
-            });
-            this.#wake = null;
-            this.look();
-        }
-        const lines = this.#text.split("\r");
-        this.#text = (lines.pop() ?? "").slice(-LINE_BYTES_MAX);
-        if (lines.length > 0 && performance.now() < this.#cut_until) {
-            this.#cut_until = -Infinity;
-            if (parsed(lines[0] ?? "", true) === null) {
-                lines.shift();
-            }
-        }
-        return lines.filter((line) => line !== "");
+                } catch (error) {
+                    fail(error);
+                }
+                this.#wake = null;
+            };
+            this.#wake = look;
+            look();
+        });
     }
 
-    /** Notes a line that is no answer. False: it is what was sent, from a line that echoes. */
-    #isDamage(line: string): boolean {
-        if (this.#sent.includes(`${line}\r`)) {
-            this.heard.echoes += 1;
-            return false;
+    #poll(): number {
+        const { memory, lines_gve134_poll, lines_gve134_out, lines_gve134_take_out } = this.#exports;
+        const end = lines_gve134_poll(this.#line, this.#now);
+        const length = lines_gve134_take_out(this.#line);
+        if (length > 0) {
+            this.port.write(new Uint8Array(memory.buffer, lines_gve134_out(this.#line), length).slice());
         }
-        this.heard.bare ||= BARE.test(line);
-        this.heard.damaged += 1;
-        return true;
+        return end;
+    }
+
+    /** Until the next look is due, and more than nothing. */
+    get #left_ms(): number {
+        return Math.max(1, Math.ceil(Number(this.#exports.lines_gve134_until(this.#line) - this.#now) / 1e6));
+    }
+
+    get #now(): bigint {
+        return ns(performance.now());
+    }
+
+    #text(place: number): string {
+        const bytes = new Uint8Array(this.#exports.memory.buffer, place);
+        return String.fromCharCode(...bytes.subarray(0, bytes.indexOf(0)));
     }
 }
