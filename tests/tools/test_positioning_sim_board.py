@@ -15,7 +15,7 @@ import pytest
 from gve_sim import pulses_of
 from rkm04_tools import virtual_board
 from rkm04_tools.failure import Failure
-from rkm04_tools.positioning import frames
+from rkm04_tools.positioning import frames, modbus
 from rkm04_tools.positioning.board_player import Player
 from rkm04_tools.positioning.board_script import lines_of, requests_of
 
@@ -289,7 +289,7 @@ def test_bad_inputs_are_told_as_the_simulator_does(on_board, tmp_path):
 
 
 def requests(text: str) -> list[bytes]:
-    return [request.frame for request in requests_of(list(lines_of(text)))]
+    return [request.asked for request in requests_of(list(lines_of(text)))]
 
 
 def test_a_script_is_read_as_the_simulator_reads_it():
@@ -299,7 +299,7 @@ def test_a_script_is_read_as_the_simulator_reads_it():
 
 
 def test_an_instruction_has_another_number_each_time():
-    words = [frame[11:13] for frame in requests("0,3,POS_RESET\n" * 258)]
+    words = [asked[10:12] for asked in requests("0,3,POS_RESET\n" * 258)]
 
     assert words[:2] == [b"\x01\x03", b"\x02\x03"]
     assert words[254:257] == [b"\xff\x03", b"\x00\x03", b"\x01\x03"]
@@ -309,7 +309,7 @@ def test_feeds_of_the_same_time_are_one_request_where_their_registers_are_side_b
     one = requests("5,1,POS_CONTROL,7\n5,2,POS_CONTROL,9,1\n")
     apart = ["5,2,POS_CONTROL,9,1\n6,3,POS_CONTROL,9,1", "5,2,POS_CONTROL,9,1\n5,3,POS_CONTROL,9"]
 
-    assert one == [frames.write(501, [0, 7, 1, 0, 9])]
+    assert one == [modbus.write_request(501, [0, 7, 1, 0, 9])]
     assert [len(requests(text)) for text in apart] == [2, 2]
 
 

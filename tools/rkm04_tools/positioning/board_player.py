@@ -13,15 +13,9 @@ from typing import Any
 
 from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.positioning.board_script import READ, SETTING, Line, Request, requests_of
-from rkm04_tools.positioning.frames import (
-    FRAME_BYTES_MAX,
-    Answer,
-    answer_of,
-    byte_ms,
-    gap_ms,
-    is_whole,
-    read,
-)
+from rkm04_tools.positioning.frames import NODE, gap_ms
+from rkm04_tools.positioning.master import NS_PER_MS, End, Master
+from rkm04_tools.positioning.modbus import REFUSED, read_request, words_in
 from rkm04_tools.positioning.state import IN_NUMBERS, AxisState, axis_state
 from rkm04_tools.positioning.table import AXES, images, registers
 from rkm04_tools.target_run import TICKS_PER_MS
@@ -29,10 +23,13 @@ from rkm04_tools.virtual_board import Talk
 
 OUT_OF_RANGE = 3
 """The exception of a value that no request can have."""
-ANSWER_MS = 2100.0
-"""So long the unit may take for the answer to STORE."""
+ANSWER_MS = 100
+"""So long the unit may take for an answer to begin, but for that to STORE."""
 REST_MS = 10.0
 """Between two looks whether the axes stand, where there is no WATCHDOG."""
+DONE_WORDS = 2
+"""DONE and RESULT."""
+AS_IT_SHOULD = "answered as it should be"
 NOT_SHOWN = ("axis", "done", "result")
 
 
@@ -49,7 +46,8 @@ class Player:
         self._name = name
         self._requests = requests_of(lines)
         self._rest_ms = REST_MS + _watchdog_ms(lines)
-        self._baud = baud
+        self._master = Master(baud)
+        self._gap_ms = gap_ms(baud)
         self._begun_ms = self._free_ms = talk.ms
 
     def play(self, seconds: float, rests_seconds: float) -> bool:
@@ -86,7 +84,9 @@ class Player:
     def _look(self) -> list[AxisState]:
         image = images()["FULL_IN"]
         count = len(image.numbers)
-        words = self._ask(read(image.first, count * AXES), "the last look at the axes").words
+        request = read_request(image.first, count * AXES)
+        what = "the last look at the axes"
+        words = self._words(self._ask(request, what), count * AXES, what)
         each = (words[count * axis : count * (axis + 1)] for axis in range(AXES))
         self.axes = [axis_state(n, image.numbers, own) for n, own in enumerate(each, 1)]
         return self.axes
@@ -95,16 +95,17 @@ class Player:
         self.executed += len(request.lines)
         line = request.line
         what = f"line {line.number}, {line.word},"
-        if not request.frame:
+        if not request.asked:
             self._tell(line, OUT_OF_RANGE)
             return
-        answer = self._ask(request.frame, what, may_refuse=line.word == SETTING)
-        if answer.exception:
-            self._tell(line, answer.exception)
+        answer = self._ask(request.asked, what, may_refuse=line.word == SETTING)
+        if answer[0] & REFUSED:
+            self._tell(line, answer[1])
         elif line.word == READ:
-            self._tell(line, 0, axis_state(line.axis, IN_NUMBERS, answer.words))
+            words = self._words(answer, len(IN_NUMBERS), what)
+            self._tell(line, 0, axis_state(line.axis, IN_NUMBERS, words))
         elif request.instruction:
-            done, result = answer.words
+            done, result = self._words(answer, DONE_WORDS, what)
             if done != request.instruction:
                 raise self._failure(what, "executed")
             if result:
@@ -119,21 +120,32 @@ class Player:
 
     # ---- the line ----
 
-    def _ask(self, frame: bytes, what: str, may_refuse: bool = False) -> Answer:
+    def _ask(self, request: bytes, what: str, may_refuse: bool = False) -> bytes:
+        """The answer, from its function on."""
         self._wait(self._free_ms)
-        self.talk.say(frame)
-        bytes_ms = (len(frame) + FRAME_BYTES_MAX) * byte_ms(self._baud)
-        end_ms = self.talk.ms + bytes_ms + gap_ms(self._baud) + ANSWER_MS
+        self._master.ask(NODE, request, ANSWER_MS, 1, self._now_ns)
         heard = b""
-        while not is_whole(heard):
-            if self.talk.ms >= end_ms:
-                raise self._failure(what, "answered")
-            heard += self.talk.until(end_ms)
-        self._free_ms = self.talk.ms + gap_ms(self._baud)
-        answer = answer_of(frame, heard)
-        if answer is None or (answer.exception and not may_refuse):
-            raise self._failure(what, "answered as it should be")
-        return answer
+        while (end := self._master.poll(self._now_ns)) is End.WAITS:
+            if out := self._master.out:
+                self.talk.say(out)
+                self._master.note_written()
+            data = self.talk.until(self._master.until_ns / NS_PER_MS)
+            self._master.take(data, self._now_ns)
+            heard += data
+        self._free_ms = self.talk.ms + self._gap_ms
+        if end is End.ANSWERED or (end is End.REFUSED and may_refuse):
+            return self._master.answer
+        raise self._failure(what, AS_IT_SHOULD if heard else "answered")
+
+    def _words(self, answer: bytes, count: int, what: str) -> list[int]:
+        words = words_in(answer, count)
+        if words is None:
+            raise self._failure(what, AS_IT_SHOULD)
+        return words
+
+    @property
+    def _now_ns(self) -> int:
+        return round(self.talk.ms * NS_PER_MS)
 
     def _wait(self, until_ms: float) -> None:
         while self.talk.ms < until_ms:

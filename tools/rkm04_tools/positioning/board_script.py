@@ -9,7 +9,12 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from rkm04_tools.positioning.frames import exchange, read, write, write_one
+from rkm04_tools.positioning.modbus import (
+    exchange_request,
+    read_request,
+    write_one_request,
+    write_request,
+)
 from rkm04_tools.positioning.state import FEED_PER_MM_MIN, IN_FIRST, IN_NUMBERS
 from rkm04_tools.positioning.table import (
     AXIS_STEP,
@@ -44,11 +49,11 @@ class Line:
 
 @dataclass(frozen=True)
 class Request:
-    """What goes onto the line at once for a line, or for several of the same time. `frame` empty:
+    """What goes onto the line at once for a line, or for several of the same time. `asked` empty:
     no request can say it. `instruction`: the word that DONE shows then, 0 for what has none."""
 
     lines: tuple[Line, ...]
-    frame: bytes
+    asked: bytes
     instruction: int = 0
 
     @property
@@ -79,7 +84,7 @@ def requests_of(lines: Sequence[Line]) -> Iterator[Request]:
             yield Request(group, _control(group))
         elif line.word == READ:
             first = AXIS_STEP * line.axis + IN_FIRST
-            yield Request(group, read(first, len(IN_NUMBERS)))
+            yield Request(group, read_request(first, len(IN_NUMBERS)))
         elif line.word == SETTING:
             yield Request(group, _setting(*line.values))
         else:
@@ -111,14 +116,14 @@ def _control(group: Sequence[Line]) -> bytes:
     image = images()["FAST_OUT"]
     first = image.first + len(image.numbers) * (group[0].axis - 1)
     words = [word for line in group for word in [*line.values[1:], *_two(line.values[0])]]
-    return write(first if len(group[0].values) > 1 else first + 1, words)
+    return write_request(first if len(group[0].values) > 1 else first + 1, words)
 
 
 def _setting(number: int, value: int) -> bytes:
     row = register_at(number)
     if row and row.words == 2:
-        return write(number, _two(value))
-    return write_one(number, value & WORD_MAX) if value in WORDS else b""
+        return write_request(number, _two(value))
+    return write_one_request(number, value & WORD_MAX) if value in WORDS else b""
 
 
 def _instruction(line: Line, word: int) -> Request:
@@ -130,7 +135,7 @@ def _instruction(line: Line, word: int) -> Request:
         parameters += [*_two(way), accel]
     base = AXIS_STEP * line.axis
     done = base + registers()["DONE"].number
-    return Request((line,), exchange(base, [word, *parameters], done, 2), word)
+    return Request((line,), exchange_request(base, [word, *parameters], done, 2), word)
 
 
 def _two(value: int) -> list[int]:

@@ -19,7 +19,7 @@ from pymodbus.pdu import DecodePDU
 from rkm04_tools import child, serve
 from rkm04_tools.failure import DONE, NOT_SO, Failure
 from rkm04_tools.positioning import host
-from rkm04_tools.positioning.wire import STORE_SECONDS, is_store
+from rkm04_tools.positioning.master import more_seconds
 
 BROADCAST = 0
 TARGET_FAILED = 0x0B
@@ -76,7 +76,7 @@ class Gateway:
         if unit == BROADCAST:
             await asyncio.sleep(TURN_SECONDS * self.slowness)
             return b""
-        seconds = ANSWER_SECONDS + (STORE_SECONDS if is_store(pdu) else 0)
+        seconds = ANSWER_SECONDS + more_seconds(pdu)
         try:
             async with asyncio.timeout(seconds * self.slowness):
                 return await self._hear(unit, pdu[0])

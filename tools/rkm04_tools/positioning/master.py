@@ -1,0 +1,120 @@
+"""The master of a line of units, tools/positioning_master, for tools in Python."""
+
+from __future__ import annotations
+
+import ctypes
+import weakref
+from ctypes import POINTER, c_bool, c_char_p, c_ubyte, c_uint32, c_uint64, c_void_p
+from enum import IntEnum
+from functools import cache
+from typing import Any
+
+from rkm04_tools.lines import declared
+
+REQUEST_BYTES_MAX = 253
+HEARD_BYTES = 4096
+CRC_BYTES = 2
+NS_PER_MS = 1_000_000
+BYTES = POINTER(c_ubyte)
+
+
+class End(IntEnum):
+    """How a request has ended; `pos_master_end`."""
+
+    WAITS = 0
+    ANSWERED = 1
+    REFUSED = 2
+    SILENT = 3
+    ECHOED = 4
+    DAMAGED = 5
+    ABSENT = 6
+
+
+@cache
+def _library() -> dict[str, Any]:
+    return declared(
+        "lines_positioning_",
+        {
+            "begin": (c_void_p, c_uint32, c_bool),
+            "end": (None, c_void_p),
+            "request": (c_void_p, c_void_p),
+            "heard": (c_void_p, c_void_p),
+            "ask": (None, c_void_p, c_uint32, c_uint32, c_uint32, c_uint32, c_uint64),
+            "take": (None, c_void_p, c_uint32, c_uint64),
+            "poll": (c_uint32, c_void_p, c_uint64),
+            "until_ns": (c_uint64, c_void_p),
+            "out": (c_void_p, c_void_p),
+            "out_length": (c_uint32, c_void_p),
+            "note_written": (None, c_void_p),
+            "answer": (c_void_p, c_void_p),
+            "answer_length": (c_uint32, c_void_p),
+            "seal": (c_uint32, BYTES, c_uint32),
+            "more_ms": (c_uint32, c_char_p, c_uint32),
+        },
+    )
+
+
+class Master:
+    """A line. It waits for nothing: see `pos_master.h`. `tcp`: a gateway is asked."""
+
+    def __init__(self, baud: int, tcp: bool = False) -> None:
+        self._calls = _library()
+        self._line = self._calls["begin"](baud, tcp)
+        if not self._line:
+            raise MemoryError
+        weakref.finalize(self, self._calls["end"], self._line)
+
+    def ask(
+        self, node: int, request: bytes, patience_ms: int, attempts: int, now_ns: int
+    ) -> None:  # fmt: skip
+        """Begin a request; one that is under way is given up."""
+        if len(request) > REQUEST_BYTES_MAX:
+            raise ValueError(f"a request of {len(request)} bytes")
+        ctypes.memmove(self._calls["request"](self._line), request, len(request))
+        self._calls["ask"](self._line, node, len(request), patience_ms, attempts, now_ns)
+
+    def take(self, data: bytes, now_ns: int) -> None:
+        """Take what has come."""
+        for first in range(0, len(data), HEARD_BYTES):
+            part = data[first : first + HEARD_BYTES]
+            ctypes.memmove(self._calls["heard"](self._line), part, len(part))
+            self._calls["take"](self._line, len(part), now_ns)
+
+    def poll(self, now_ns: int) -> End:
+        """What has become of the request."""
+        return End(self._calls["poll"](self._line, now_ns))
+
+    @property
+    def until_ns(self) -> int:
+        """When to poll at the latest."""
+        return int(self._calls["until_ns"](self._line))
+
+    @property
+    def out(self) -> bytes:
+        """What is to be written now; `note_written` tells that it was."""
+        return self._bytes("out")
+
+    def note_written(self) -> None:
+        """What stood in `out` has been written."""
+        self._calls["note_written"](self._line)
+
+    @property
+    def answer(self) -> bytes:
+        """The answer, from its function on."""
+        return self._bytes("answer")
+
+    def _bytes(self, name: str) -> bytes:
+        length = self._calls[f"{name}_length"](self._line)
+        return ctypes.string_at(self._calls[name](self._line), length)
+
+
+def sealed(frame: bytes) -> bytes:
+    """A frame with its CRC."""
+    room = (c_ubyte * (len(frame) + CRC_BYTES)).from_buffer_copy(frame + bytes(CRC_BYTES))
+    _library()["seal"](room, len(frame))
+    return bytes(room)
+
+
+def more_seconds(request: bytes) -> float:
+    """How much longer than others the answer to a request may take."""
+    return float(_library()["more_ms"](request, len(request))) / 1000
