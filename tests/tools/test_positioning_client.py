@@ -365,6 +365,12 @@ def test_noise_is_no_answer(port: Place):
         unit.read()
 
 
+def test_an_echo_is_no_answer(port: Place):
+    port[1](bytes.fromhex("01 2B 0E 01 00 70 77"))
+    with open_unit(port[0]) as unit, pytest.raises(NoAnswer, match="only the adapter's echo"):
+        unit.read()
+
+
 def test_another_device_is_told(port: Place):
     frame = bytes([1, 0xAB, 1])
     port[1](frame + FramerRTU.compute_CRC(frame).to_bytes(2, "big"))

@@ -38,7 +38,7 @@ uint8_t *lines_positioning_heard(struct lines_positioning *line)
 void lines_positioning_ask(struct lines_positioning *line, uint32_t node, uint32_t length, uint32_t patience_ms,
                            uint32_t attempts, uint64_t now_ns)
 {
-    assert(node <= MODBUS_NODE_MAX && length >= 1 && length <= POS_MASTER_REQUEST_BYTES_MAX && attempts >= 1);
+    assert(node <= UINT8_MAX && length >= 1 && length <= POS_MASTER_REQUEST_BYTES_MAX && attempts >= 1);
     const struct pos_master_order order = {
         .node = (uint8_t)node,
         .length = length,

@@ -35,7 +35,7 @@ enum pos_master_end {
 };
 
 struct pos_master_order {
-    uint8_t node;         /* 1 to MODBUS_NODE_MAX; 0: all units, and none answers */
+    uint8_t node;         /* 1 and more; 0: all units, and none answers */
     uint32_t length;      /* of the request, 1 to POS_MASTER_REQUEST_BYTES_MAX */
     uint32_t patience_ms; /* for an answer to begin; one that writes STORE has POS_MASTER_STORE_MS more */
     uint32_t attempts;    /* 1 and more */

@@ -11,6 +11,7 @@ from typing import Any
 
 from rkm04_tools.lines import declared
 
+NODE_MAX = 255
 REQUEST_BYTES_MAX = 253
 HEARD_BYTES = 4096
 CRC_BYTES = 2
@@ -68,8 +69,8 @@ class Master:
         self, node: int, request: bytes, patience_ms: int, attempts: int, now_ns: int
     ) -> None:  # fmt: skip
         """Begin a request; one that is under way is given up."""
-        if len(request) > REQUEST_BYTES_MAX:
-            raise ValueError(f"a request of {len(request)} bytes")
+        if not (0 <= node <= NODE_MAX and 0 < len(request) <= REQUEST_BYTES_MAX and attempts > 0):
+            raise ValueError(f"unit {node}: a request of {len(request)} bytes, {attempts} times")
         ctypes.memmove(self._calls["request"](self._line), request, len(request))
         self._calls["ask"](self._line, node, len(request), patience_ms, attempts, now_ns)
 

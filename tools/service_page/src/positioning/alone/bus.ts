@@ -1,5 +1,6 @@
 import type { Bytes } from "../../program_host";
 import { LineTrouble } from "../../unit_place";
+import type { Master } from "./master";
 
 /** The port cannot be used, or not any more. */
 export class PortTrouble extends LineTrouble {}
@@ -8,11 +9,14 @@ export class PortTrouble extends LineTrouble {}
 export abstract class Bus {
     abstract readonly port: string;
     abstract readonly isVirtual: boolean;
-    /** What a byte takes on the line. */
-    abstract readonly byte_ms: number;
+    readonly master: Master;
     #heard: Bytes = new Uint8Array();
     #lost: LineTrouble | null = null;
     #wake: () => void = () => undefined;
+
+    constructor(master: Master) {
+        this.master = master;
+    }
 
     protected abstract send(data: Bytes): void;
     abstract close(): void;
@@ -56,7 +60,7 @@ export abstract class Bus {
     }
 }
 
-export function joined(one: Bytes, other: Bytes): Bytes {
+function joined(one: Bytes, other: Bytes): Bytes {
     const both = new Uint8Array(one.length + other.length);
     both.set(one);
     both.set(other, one.length);
@@ -70,9 +74,9 @@ export class SerialBus extends Bus {
     readonly #close: (bus: SerialBus) => void;
 
     constructor(
-        readonly port: string, readonly byte_ms: number, write: (data: Bytes) => void, close: (bus: SerialBus) => void,
+        readonly port: string, master: Master, write: (data: Bytes) => void, close: (bus: SerialBus) => void,
     ) {
-        super();
+        super(master);
         this.#write = write;
         this.#close = close;
     }

@@ -1,6 +1,7 @@
 import { PacedUnit } from "../../common/paced_unit";
 import type { Bytes } from "../../program_host";
 import { Bus } from "./bus";
+import { Master } from "./master";
 
 export const VIRTUAL = "virtual";
 
@@ -8,11 +9,10 @@ export const VIRTUAL = "virtual";
 export class VirtualBus extends Bus {
     readonly port = VIRTUAL;
     readonly isVirtual = true;
-    readonly byte_ms = 0;
     readonly unit: PacedUnit;
 
     constructor(bytes: Bytes, now_ms: number) {
-        super();
+        super(new Master(bytes, 0));
         this.unit = new PacedUnit(bytes, "pos_unit_begin", now_ms);
     }
 

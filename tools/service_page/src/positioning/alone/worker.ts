@@ -5,6 +5,7 @@ import type { PortNews, PortOrder } from "../../unit_runner";
 import type { Names } from "./axis_state";
 import { PortTrouble, SerialBus } from "./bus";
 import { Desk, type Asked } from "./desk";
+import { Master } from "./master";
 import { Player, type Played, type Script } from "./player";
 import { VirtualBus } from "./virtual_bus";
 
@@ -24,17 +25,17 @@ export type PlayerTold = { id: number; played: Played } | { id: number; trouble:
 const STEP_MS = 5;
 /** So long the unit may catch up before the page is heard again. */
 const BUSY_MS = 5;
-/** A start bit, eight, parity or a second stop bit, and a stop bit: the longest character. */
-const CHARACTER_BITS = 11;
 
 /** Runs the unit beside the clock of the worker, and the desk before it. A fault of it ends it for good. */
 class Runner {
+    readonly #bytes: Bytes;
     readonly #virtual: VirtualBus;
     readonly #desk: Desk;
     readonly #say: (said: string | PortOrder) => void;
     #bus: SerialBus | null = null;
 
     constructor(bytes: Bytes, names: Names, say: (said: string | PortOrder) => void) {
+        this.#bytes = bytes;
         this.#say = say;
         this.#virtual = new VirtualBus(bytes, performance.now());
         this.#desk = new Desk(this.#virtual, names, (told) => say(JSON.stringify(told)), fail);
@@ -53,7 +54,7 @@ class Runner {
     hearOfPort(news: PortNews): void {
         if (news.kind === "opened") {
             const write = (data: Bytes): void => this.#say({ kind: "write", data });
-            this.#bus = new SerialBus(news.port, (1000 * CHARACTER_BITS) / news.baud, write, (bus) => this.#close(bus));
+            this.#bus = new SerialBus(news.port, new Master(this.#bytes, news.baud), write, (bus) => this.#close(bus));
             this.#desk.offer(this.#bus);
         } else if (news.kind === "heard") {
             this.#bus?.hear(news.data);
