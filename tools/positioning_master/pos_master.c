@@ -77,10 +77,10 @@ static void send_request(struct pos_master *master, uint64_t now_ns)
                       (uint64_t)POS_MASTER_OTHERS_MS_MAX * NS_PER_MS;
 }
 
-/* After what is damaged the line has rested; nothing else can be told from an answer that is too late. */
+/* After what is damaged the line has rested; else an answer may be late yet. */
 static void fail_attempt(struct pos_master *master, enum pos_master_end end, uint64_t now_ns)
 {
-    master->owed = (end != POS_MASTER_DAMAGED || master->attempt > 1U) && !master->sent.tcp;
+    master->owed = end != POS_MASTER_DAMAGED && !master->sent.tcp;
     if (master->attempt < master->order.attempts) {
         begin_attempt(master, now_ns);
     } else {

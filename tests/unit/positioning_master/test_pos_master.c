@@ -362,8 +362,10 @@ void test_a_damaged_answer_is_asked_for_again_when_the_line_rests(void)
 void test_damage_is_told_from_silence_and_from_frames_of_others(void)
 {
     static const uint8_t others[] = {OTHER_NODE, MODBUS_READ, 2, 0, 1};
+    uint64_t begin_ns = now_ns;
     answers_to_damage = ATTEMPTS;
     TEST_ASSERT_EQUAL(POS_MASTER_DAMAGED, read());
+    TEST_ASSERT_LESS_THAN(ATTEMPTS * (POS_MASTER_REST_MS + 50) * MS, now_ns - begin_ns);
     off = true;
     now_ns += 1000 * MS;
     begin(NODE, 1, read_two, sizeof read_two);
