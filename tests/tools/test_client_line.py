@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import itertools
-import re
 import resource
 import threading
 import time
@@ -25,9 +24,7 @@ from rkm04_tools.line_errors import (
     UnitRestarted,
     WrongAnswer,
 )
-from rkm04_tools.line_master import HEARD_BYTES, End
 from rkm04_tools.messages import BreakPoint, Progress
-from rkm04_tools.tree import ROOT
 
 NODE = 3
 VERSION = b"\x01"
@@ -470,17 +467,6 @@ def test_any_bytes_on_the_line_end_in_an_answer_or_a_typed_error(noise, content)
     answer = Frame(0x83, 0, b"\x02" + content).encode()
     with scripted(Script([*noise, answer])) as line, contextlib.suppress(GarbledAnswer, NoAnswer):
         assert line.request_at_once(3, b"\x023K", Wait(0.004, 2)) == b"\x02" + content
-
-
-def test_the_master_is_spoken_to_by_the_numbers_of_its_headers():
-    header = (ROOT / "tools/master/master.h").read_text() + (
-        ROOT / "tools/lines/lines_rkm04.h"
-    ).read_text()
-    ends = re.search(r"enum master_end \{(.*?)\};", header, re.DOTALL)
-    names = re.findall(r"^ *MASTER_(\w+),", ends[1] if ends else "", re.MULTILINE)
-
-    assert [each.name for each in End] == names[: len(End)]
-    assert f"LINES_RKM04_HEARD_BYTES = {HEARD_BYTES}" in header
 
 
 def test_a_line_that_has_gone_leaves_no_memory_behind():

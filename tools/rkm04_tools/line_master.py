@@ -6,19 +6,17 @@ again at `until_ns` at the latest. Times are in ns from any moment. Calls are to
 
 from __future__ import annotations
 
-import ctypes
 import random
-from ctypes import POINTER, c_bool, c_uint8, c_uint32, c_uint64, c_void_p
+from ctypes import c_bool, c_uint32, c_uint64, c_void_p
 from enum import IntEnum
 from functools import cache
 from typing import Any
 
 from rkm04_tools import lines
 
-HEARD_BYTES = 4096
 REQUEST_BYTES_MAX = 8192
 
-LINE, BYTES, NOW = c_void_p, POINTER(c_uint8), c_uint64
+LINE, BYTES, NOW = c_void_p, c_void_p, c_uint64
 
 
 class End(IntEnum):
@@ -59,64 +57,52 @@ def _functions() -> dict[str, Any]:
     )
 
 
-class Master:
+class Master(lines.Handle):
     """A line without sessions; `usual_ms` is the patience for what takes a unit no time."""
 
     def __init__(self, baud: int, usual_ms: int) -> None:
-        self._c = _functions()
-        line = self._c["begin"](random.randint(1, 2**32 - 1), baud, usual_ms)
-        self._line = lines.owned(self, line, self._c["end"])
+        super().__init__(_functions(), random.randint(1, 2**32 - 1), baud, usual_ms)
 
     def ask(
         self, node: int, in_session: bool, message: bytes, patience_ms: int, attempts: int, now: int
     ) -> None:
         """Begin a request; what was under way is given up."""
-        ctypes.memmove(self._c["request"](self._line), message, len(message))
-        length = len(message)
-        self._c["ask"](self._line, node, in_session, length, patience_ms, attempts, now)
+        self._put(message)
+        self._call("ask", node, in_session, len(message), patience_ms, attempts, now)
 
     def scan(self, node: int, patience_ms: int, attempts: int, now: int) -> None:
         """Begin to ask for the version; `twice` is whether another answer has followed it."""
-        self._c["scan"](self._line, node, patience_ms, attempts, now)
+        self._call("scan", node, patience_ms, attempts, now)
 
     def take_out(self) -> bytes:
         """What is to be written now, once."""
-        length = self._c["take_out"](self._line)
-        return ctypes.string_at(self._c["out"](self._line), length) if length else b""
-
-    def take(self, came: bytes, now: int) -> None:
-        """Hand in what has come."""
-        for at in range(0, len(came), HEARD_BYTES):
-            part = came[at : at + HEARD_BYTES]
-            ctypes.memmove(self._c["heard"](self._line), part, len(part))
-            self._c["take"](self._line, len(part), now)
+        return self._bytes("out", self._call("take_out"))
 
     def poll(self, now: int) -> End:
         """How the request has ended, if it has."""
-        return End(self._c["poll"](self._line, now))
+        return End(self._call("poll", now))
 
     @property
     def until_ns(self) -> int:
         """When it is to be polled at the latest."""
-        return int(self._c["until"](self._line))
+        return int(self._call("until"))
 
     def answer(self) -> bytes:
         """The answer to the last request; to a broadcast it is empty."""
-        length = self._c["answer_length"](self._line)
-        return ctypes.string_at(self._c["answer"](self._line), length)
+        return self._bytes("answer", self._call("answer_length"))
 
     def twice(self) -> bool:
         """Whether the last scan has got two answers."""
-        return bool(self._c["twice"](self._line))
+        return bool(self._call("twice"))
 
     def echoes(self) -> bool:
         """Whether something that was sent has come back."""
-        return bool(self._c["echoes"](self._line))
+        return bool(self._call("echoes"))
 
     def sessions(self, node: int) -> int:
         """How many were begun with a node."""
-        return int(self._c["sessions"](self._line, node))
+        return int(self._call("sessions", node))
 
     def forget(self, node: int) -> None:
         """The next request begins a session."""
-        self._c["forget"](self._line, node)
+        self._call("forget", node)

@@ -28,6 +28,7 @@ from rkm04_tools.gve134.wire import Wire
 from rkm04_tools.transport import open_transport
 
 BAUD = 115_200
+NS_PER_SECOND = 1_000_000_000
 HALT_SECONDS = 30.0
 OTHER_CHARACTERS_MAX = 40
 
@@ -111,7 +112,7 @@ class Link:
         clock = self.wire.clock
         end = clock() + seconds
         while (left := end - clock()) > 0:
-            self._master.take(self.wire.read(left), clock())
+            self._master.take(self.wire.read(left), self._now_ns)
 
     def _answered(self, kind: Kind, commands: Sequence[str], seconds: float = 0.0) -> Answer:
         answer = self._done(kind, commands, seconds)
@@ -129,7 +130,7 @@ class Link:
         answer = None
         self.wire.begin(commands)
         try:
-            self._master.ask(kind, commands, seconds, self.wire.clock())
+            self._master.ask(kind, commands, seconds, self._now_ns)
             end = self._end(waits)
             if end is End.ANSWERED:
                 answer = answers.answer_of(*self._master.answer)
@@ -146,8 +147,8 @@ class Link:
         """Write, hear and wait until the request has ended."""
         wire, master, told = self.wire, self._master, False
         while True:
-            master.take(wire.read_waiting(), wire.clock())
-            end = master.poll(wire.clock())
+            master.take(wire.read_waiting(), self._now_ns)
+            end = master.poll(self._now_ns)
             if out := master.take_out():
                 wire.write(out)
             if end is not End.WAITS:
@@ -155,7 +156,12 @@ class Link:
             if master.long_halt and not told:
                 told = True
                 waits()
-            master.take(wire.read(master.left_seconds(wire.clock())), wire.clock())
+            left_ns = max(0, master.until_ns - self._now_ns)
+            master.take(wire.read(left_ns / NS_PER_SECOND), self._now_ns)
+
+    @property
+    def _now_ns(self) -> int:
+        return int(self.wire.clock() * NS_PER_SECOND)
 
     def _error(self, end: End, kind: Kind, commands: Sequence[str], seconds: float) -> LineError:
         where, baud = self.name, self.wire.baud

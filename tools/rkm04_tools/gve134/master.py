@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import weakref
 from collections.abc import Sequence
 from ctypes import c_bool, c_char_p, c_uint32, c_uint64, c_void_p
 from enum import IntEnum
@@ -11,17 +10,14 @@ from functools import cache
 from typing import Any
 
 from rkm04_tools.failure import Failure
-from rkm04_tools.lines import declared
+from rkm04_tools.lines import Handle, declared
 
 NO_ANSWER = 2**32 - 1
 TEXT_BYTES_MAX = 6400
 """GVE_WIRE_TEXT_BYTES"""
-HEARD_BYTES = 4096
-"""LINES_GVE134_HEARD_BYTES"""
 ROOM_BYTES = 16
 """What the line adds to a command at the most."""
 MS_PER_SECOND = 1000
-NS_PER_SECOND = 1_000_000_000
 
 
 class Kind(IntEnum):
@@ -98,55 +94,41 @@ def read(line: str, sums: bool) -> tuple[int, str] | None:
     return None if digit == NO_ANSWER else (digit, values.value.decode("latin-1"))
 
 
-class Master:
-    """A line; see gve_master.h. Times are those of any clock."""
+class Master(Handle):
+    """A line; see gve_master.h."""
 
     def __init__(self, baud: int, sums: bool) -> None:
-        functions = _functions()
-        self._line = functions["begin"](baud, sums)
-        if not self._line:
-            raise MemoryError
-        weakref.finalize(self, functions["end"], self._line)
-        self._call = functions
+        super().__init__(_functions(), baud, sums)
 
-    def ask(self, kind: Kind, commands: Sequence[str], wait_seconds: float, now: float) -> None:
+    def ask(self, kind: Kind, commands: Sequence[str], wait_seconds: float, now_ns: int) -> None:
         """Begin a request."""
         text = "\n".join(commands).encode("latin-1")
         if len(text) > TEXT_BYTES_MAX:
             raise Failure(f"{len(commands)} commands are too many for a packet; nothing was sent")
-        ctypes.memmove(self._call["request"](self._line), text, len(text))
-        wait_ms = round(wait_seconds * MS_PER_SECOND)
-        self._call["ask"](self._line, kind, len(text), wait_ms, _ns(now))
+        self._put(text)
+        self._call("ask", kind, len(text), round(wait_seconds * MS_PER_SECOND), now_ns)
 
-    def take(self, data: bytes, now: float) -> None:
-        """Take what has come."""
-        for at in range(0, len(data), HEARD_BYTES):
-            part = data[at : at + HEARD_BYTES]
-            ctypes.memmove(self._call["heard"](self._line), part, len(part))
-            self._call["take"](self._line, len(part), _ns(now))
-
-    def poll(self, now: float) -> End:
+    def poll(self, now_ns: int) -> End:
         """How the request stands."""
-        return End(self._call["poll"](self._line, _ns(now)))
+        return End(self._call("poll", now_ns))
 
     def forget(self) -> None:
         """Give up what is under way; nothing is known of the unit then."""
-        self._call["forget"](self._line)
+        self._call("forget")
 
-    def left_seconds(self, now: float) -> float:
-        """Until the next look is due."""
-        left_ns = int(self._call["until"](self._line)) - _ns(now)
-        return max(0, left_ns) / NS_PER_SECOND
+    @property
+    def until_ns(self) -> int:
+        """When the next look is due."""
+        return int(self._call("until"))
 
     def take_out(self) -> bytes:
         """What is to be written now."""
-        length = self._call["take_out"](self._line)
-        return ctypes.string_at(self._call["out"](self._line), length)
+        return self._bytes("out", self._call("take_out"))
 
     @property
     def answer(self) -> tuple[int, str]:
         """The digit of the answer, and its values."""
-        return self._call["digit"](self._line), self._text("values")
+        return self._call("digit"), self._text("values")
 
     @property
     def other(self) -> str:
@@ -161,21 +143,17 @@ class Master:
     @property
     def repairs(self) -> int:
         """The answers that got lost."""
-        return int(self._call["repairs"](self._line))
+        return int(self._call("repairs"))
 
     @property
     def restarted(self) -> bool:
         """Whether the unit had started anew when it was connected to again."""
-        return bool(self._call["restarted"](self._line))
+        return bool(self._call("restarted"))
 
     @property
     def long_halt(self) -> bool:
         """Whether the answer to H takes longer than a stop does as a rule."""
-        return bool(self._call["long_halt"](self._line))
+        return bool(self._call("long_halt"))
 
     def _text(self, name: str) -> str:
-        return bytes(self._call[name](self._line)).decode("latin-1")
-
-
-def _ns(seconds: float) -> int:
-    return int(seconds * NS_PER_SECOND)
+        return bytes(self._call(name)).decode("latin-1")

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import ctypes
-import weakref
 from ctypes import POINTER, c_bool, c_char_p, c_ubyte, c_uint32, c_uint64, c_void_p
 from enum import IntEnum
 from functools import cache
 from typing import Any
 
-from rkm04_tools.lines import declared
+from rkm04_tools.lines import Handle, declared
 
 NODE_MAX = 255
 REQUEST_BYTES_MAX = 253
-HEARD_BYTES = 4096
 CRC_BYTES = 2
 NS_PER_MS = 1_000_000
 BYTES = POINTER(c_ubyte)
@@ -55,15 +52,11 @@ def _library() -> dict[str, Any]:
     )
 
 
-class Master:
+class Master(Handle):
     """A line. It waits for nothing: see `pos_master.h`. `tcp`: a gateway is asked."""
 
     def __init__(self, baud: int, tcp: bool = False) -> None:
-        self._calls = _library()
-        self._line = self._calls["begin"](baud, tcp)
-        if not self._line:
-            raise MemoryError
-        weakref.finalize(self, self._calls["end"], self._line)
+        super().__init__(_library(), baud, tcp)
 
     def ask(
         self, node: int, request: bytes, patience_ms: int, attempts: int, now_ns: int
@@ -71,42 +64,31 @@ class Master:
         """Begin a request; one that is under way is given up."""
         if not (0 <= node <= NODE_MAX and 0 < len(request) <= REQUEST_BYTES_MAX and attempts > 0):
             raise ValueError(f"unit {node}: a request of {len(request)} bytes, {attempts} times")
-        ctypes.memmove(self._calls["request"](self._line), request, len(request))
-        self._calls["ask"](self._line, node, len(request), patience_ms, attempts, now_ns)
-
-    def take(self, data: bytes, now_ns: int) -> None:
-        """Take what has come."""
-        for first in range(0, len(data), HEARD_BYTES):
-            part = data[first : first + HEARD_BYTES]
-            ctypes.memmove(self._calls["heard"](self._line), part, len(part))
-            self._calls["take"](self._line, len(part), now_ns)
+        self._put(request)
+        self._call("ask", node, len(request), patience_ms, attempts, now_ns)
 
     def poll(self, now_ns: int) -> End:
         """What has become of the request."""
-        return End(self._calls["poll"](self._line, now_ns))
+        return End(self._call("poll", now_ns))
 
     @property
     def until_ns(self) -> int:
         """When to poll at the latest."""
-        return int(self._calls["until_ns"](self._line))
+        return int(self._call("until_ns"))
 
     @property
     def out(self) -> bytes:
         """What is to be written now; `note_written` tells that it was."""
-        return self._bytes("out")
+        return self._bytes("out", self._call("out_length"))
 
     def note_written(self) -> None:
         """What stood in `out` has been written."""
-        self._calls["note_written"](self._line)
+        self._call("note_written")
 
     @property
     def answer(self) -> bytes:
         """The answer, from its function on."""
-        return self._bytes("answer")
-
-    def _bytes(self, name: str) -> bytes:
-        length = self._calls[f"{name}_length"](self._line)
-        return ctypes.string_at(self._calls[name](self._line), length)
+        return self._bytes("answer", self._call("answer_length"))
 
 
 def sealed(frame: bytes) -> bytes:

@@ -1,0 +1,37 @@
+"""The masters of lines in C, as the tools in Python have them."""
+
+from __future__ import annotations
+
+import re
+from enum import IntEnum
+
+import pytest
+from rkm04_tools import line_master, lines
+from rkm04_tools.gve134 import master as gve_master
+from rkm04_tools.positioning import master as pos_master
+from rkm04_tools.tree import ROOT
+
+
+@pytest.mark.parametrize(
+    ("spoken", "header", "prefix"),
+    [
+        (line_master.End, "master/master.h", "MASTER_"),
+        (gve_master.End, "gve134_master/gve_master.h", "GVE_MASTER_"),
+        (gve_master.Kind, "gve134_master/gve_master.h", "GVE_MASTER_"),
+        (pos_master.End, "positioning_master/pos_master.h", "POS_MASTER_"),
+    ],
+)
+def test_a_master_is_spoken_to_by_the_numbers_of_its_header(
+    spoken: type[IntEnum], header: str, prefix: str
+) -> None:
+    name = f"{prefix.lower()}{spoken.__name__.lower()}"
+    text = (ROOT / "tools" / header).read_text(encoding="utf-8")
+    (told,) = re.findall(rf"enum {name} \{{(.*?)\}};", text, re.DOTALL)
+    names = re.findall(rf"^ *{prefix}(\w+),", told, re.MULTILINE)
+    assert [each.name for each in spoken] == names[: len(spoken)]
+
+
+@pytest.mark.parametrize("unit", ["rkm04", "gve134", "positioning"])
+def test_as_much_is_handed_in_as_there_is_room_for(unit: str) -> None:
+    header = (ROOT / f"tools/lines/lines_{unit}.h").read_text(encoding="utf-8")
+    assert f"LINES_{unit.upper()}_HEARD_BYTES = {lines.HEARD_BYTES}" in header
