@@ -83,9 +83,23 @@ function rendererOf(document, places) {
     };
 }
 
+/** The parts of a text; where its lines end says nothing, and takes a kilobyte of the page. */
+function tokensOf(marked, text) {
+    const tokens = marked.lexer(text);
+    marked.walkTokens(tokens, (token) => {
+        if (token.type === "text") {
+            token.text = token.text.replaceAll("\n", " ");
+        }
+    });
+    return tokens;
+}
+
+/** No text has a bare ">", so only tags are joined. */
+const htmlOf = (marked, tokens) => marked.parser(tokens).replaceAll(">\n", ">");
+
 async function textOf(document, places) {
     const marked = new Marked({ renderer: rendererOf(document, places) });
-    const tokens = marked.lexer(await readFile(`${ROOT}/${document}`, "utf8"));
+    const tokens = tokensOf(marked, await readFile(`${ROOT}/${document}`, "utf8"));
     const sections = [];
     for (const token of tokens) {
         if (sections.length === 0 || (token.type === "heading" && token.depth <= DEPTH_MAX)) {
@@ -94,7 +108,7 @@ async function textOf(document, places) {
         sections.at(-1).push(token);
     }
     const title = tokens.find(({ type, depth }) => type === "heading" && depth === 1).text;
-    return { title, sections: sections.map((part) => marked.parser(part)) };
+    return { title, sections: sections.map((part) => htmlOf(marked, part)) };
 }
 
 async function pages() {
@@ -110,11 +124,11 @@ async function pages() {
 
 /** The chapter of a document that has this heading, without the heading; empty where there is none. */
 function chapterOf(marked, text, title) {
-    const tokens = marked.lexer(text);
+    const tokens = tokensOf(marked, text);
     const begin = tokens.findIndex((token) => token.type === "heading" && token.text === title);
     const after = tokens.slice(begin + 1);
     const end = after.findIndex(({ type, depth }) => type === "heading" && depth <= tokens[begin]?.depth);
-    return begin < 0 ? "" : marked.parser(end < 0 ? after : after.slice(0, end));
+    return begin < 0 ? "" : htmlOf(marked, end < 0 ? after : after.slice(0, end));
 }
 
 /** The boards, each with where its image begins and what its page says of flashing. */

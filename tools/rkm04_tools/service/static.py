@@ -18,6 +18,8 @@ from rkm04_tools.failure import DONE, Failure
 PAGES_MARK = "<!-- pages -->"
 """Where a page has the links to those of other units."""
 
+INDENT = re.compile("^ +", re.MULTILINE)
+
 
 @dataclass(frozen=True)
 class StaticPage:
@@ -98,7 +100,7 @@ def _whole(page: StaticPage, pages: Sequence[StaticPage], source: Path, wasm: Pa
         "/static/icon.svg": f"data:image/svg+xml;base64,{icon}",
         PAGES_MARK: _links(page, pages),
     }
-    text = (source / page.name).read_text(encoding="utf-8")
+    text = INDENT.sub("", (source / page.name).read_text(encoding="utf-8"))
     for place, part in parts.items():
         if place not in text:
             raise Failure(f"{source}: the page is of another version; run tools/setup service")
