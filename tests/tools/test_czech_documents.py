@@ -15,6 +15,9 @@ CODE = re.compile(r"``.*?``|`[^`\n]*`")
 COMMENT = re.compile(r"\{[^}]*\}")
 HEADING = re.compile(r"^(#+) (.*)$", re.MULTILINE)
 LINK = re.compile(r"\]\(([^)\s]+)\)")
+NAMED = re.compile(r"\(`[^`\n]*`\)")
+NUMBER = re.compile(r"(?<![a-z\d])\d+(?:[.,]\d+)?")
+PARAGRAPH_OR_ROW = re.compile(r"\n\n|\n(?=\||\s*[-*] )")
 ROW_AND_NEXT = re.compile(r"^(\|.*)$(\n(?!\|))?", re.MULTILINE)
 
 Target = tuple[Path, int]
@@ -60,6 +63,21 @@ def tables(path: Path) -> list[list[int]]:
     return found
 
 
+def numbers(text: str) -> list[str]:
+    """The numbers of a text, with a decimal point, in any order.
+
+    Where its links lead is not text, nor is a name in parentheses, which an English one needs not.
+    """
+    text = NAMED.sub("", LINK.sub("]", text))
+    return sorted(each.replace(",", ".") for each in NUMBER.findall(text))
+
+
+def numbers_of_parts(path: Path) -> list[list[str]]:
+    """Those of each heading, paragraph, item and row of a table."""
+    text = re.sub(r"^(#.*)$", r"\n\1\n", prose(path), flags=re.MULTILINE)
+    return [numbers(each) for each in PARAGRAPH_OR_ROW.split(text) if each.strip()]
+
+
 def links(path: Path) -> list[Target]:
     """Where the links of a document lead; a file or heading that is not there is an error."""
     found = []
@@ -89,6 +107,11 @@ def test_the_code_is_the_same_but_for_its_comments(path: Path) -> None:
 @pytest.mark.parametrize("path", CZECH, ids=lambda path: path.name)
 def test_the_tables_have_the_same_rows_and_columns(path: Path) -> None:
     assert tables(path) == tables(english(path))
+
+
+@pytest.mark.parametrize("path", CZECH, ids=lambda path: path.name)
+def test_each_heading_paragraph_item_and_row_has_the_same_numbers(path: Path) -> None:
+    assert numbers_of_parts(path) == numbers_of_parts(english(path))
 
 
 @pytest.mark.parametrize("path", CZECH, ids=lambda path: path.name)

@@ -197,7 +197,9 @@ def conversations() -> list[dict[str, Any]]:
 
 
 def test_the_file_of_vectors_holds_the_messages_of_the_documents() -> None:
-    documented = [exchanges_of(block.values[0]) for block in blocks("messages")]
+    found = [block for block in all_blocks() if block.kind == "messages"]
+    # Those of a Czech document are compared with the English ones in test_czech_documents.py.
+    documented = [exchanges_of(block.text) for block in found if ".cs.md:" not in block.name]
 
     assert documented == [talk["exchanges"] for talk in conversations()]
 

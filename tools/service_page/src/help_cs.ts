@@ -6,7 +6,7 @@ export const helpCs: Record<keyof typeof helpEn, string> = {
     "help.open": "Nápověda",
     "help.openLabel": "Jazyk, jeho příkazy, příklady k vyzkoušení, zprávy, linka",
     "help.about": "jazyk, příkazy, příklady, zprávy",
-    "help.english": "Pouze anglicky jsou příklady a dokumenty o časech kroků, zprávách a lince.",
+    "help.english": "Příklady mají komentáře jen anglicky.",
     "help.search": "Hledat",
     "help.places": "Dokumenty",
     "help.commands": "Příkazy",
