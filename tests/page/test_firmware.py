@@ -133,6 +133,21 @@ def test_the_commands_of_every_board_are_those_of_the_tool(panel, name):
     assert lines[0] == f"tools/rkm04 board flash --board {name}"
 
 
+@pytest.mark.parametrize("name", board.names())
+def test_what_the_page_of_every_board_says_is_shown_in_the_language_of_the_page(panel, name):
+    panel.locator("#firmware-board").select_option(name)
+    text = panel.locator("#firmware-page")
+    shown = {}
+    for language in ("cs", "en"):
+        panel.locator("#language").select_option(language)
+        expect(text).to_have_attribute("lang", language)
+        shown[language] = text.inner_text()
+    assert "loader" in shown["en"]
+    assert "avaděč" in shown["cs"]
+    assert "loader" not in shown["cs"].replace("bootloader", "")
+    assert shown["cs"].count("tools/rkm04 board") == shown["en"].count("tools/rkm04 board") > 0
+
+
 def test_a_browser_without_usb_says_what_to_take(page):
     page.page.locator("#firmware").evaluate("(panel) => (panel.open = true)")
     has_usb = page.page.evaluate("'usb' in navigator")

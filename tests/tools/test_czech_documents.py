@@ -1,4 +1,7 @@
-"""A Czech document has the structure, the programs and the links of the English one beside it."""
+"""A Czech document has the structure, programs, numbers and links of the English one beside it.
+
+Of the page of a board there is one chapter in Czech.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-CZECH = sorted((ROOT / "firmware").rglob("*.cs.md"))
+CZECH = sorted(path for top in ("firmware", "hal") for path in (ROOT / top).rglob("*.cs.md"))
+BOARDS = ROOT / "hal/stm32/boards"
+NAMES = [path.relative_to(ROOT).as_posix() for path in CZECH]
 SUFFIX = ".cs.md"
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"``.*?``|`[^`\n]*`")
@@ -32,9 +37,18 @@ def czech(path: Path) -> Path:
     return path.with_name(path.name.replace(".md", SUFFIX))
 
 
+def text_of(path: Path) -> str:
+    """A document; of the English page of a board what is in Czech, title and chapter."""
+    text = path.read_text(encoding="utf-8")
+    if path.name != "README.md" or path.parent.parent != BOARDS:
+        return text
+    chapter = text.partition("\n## Flashing\n")[2].partition("\n## ")[0]
+    return f"{text.partition(chr(10))[0]}\n\n## Flashing\n{chapter}"
+
+
 def prose(path: Path) -> str:
     """A document without its blocks of code."""
-    return BLOCK.sub("", path.read_text(encoding="utf-8"))
+    return BLOCK.sub("", text_of(path))
 
 
 def depths(path: Path) -> list[int]:
@@ -49,7 +63,7 @@ def anchors(path: Path) -> list[str]:
 
 def code(path: Path) -> list[tuple[str, str]]:
     """The language and the text of each block, without what stands in braces."""
-    blocks = BLOCK.findall(path.read_text(encoding="utf-8"))
+    blocks = BLOCK.findall(text_of(path))
     return [(kind, COMMENT.sub("{}", text)) for kind, text in blocks]
 
 
@@ -73,9 +87,9 @@ def numbers(text: str) -> list[str]:
 
 
 def numbers_of_parts(path: Path) -> list[list[str]]:
-    """Those of each heading, paragraph, item and row of a table."""
+    """Those of each heading, paragraph, item and row of a table that has any."""
     text = re.sub(r"^(#.*)$", r"\n\1\n", prose(path), flags=re.MULTILINE)
-    return [numbers(each) for each in PARAGRAPH_OR_ROW.split(text) if each.strip()]
+    return [found for part in PARAGRAPH_OR_ROW.split(text) if (found := numbers(part))]
 
 
 def links(path: Path) -> list[Target]:
@@ -94,27 +108,35 @@ def test_there_are_czech_documents_and_each_has_an_english_one() -> None:
     assert [path for path in CZECH if not english(path).is_file()] == []
 
 
-@pytest.mark.parametrize("path", CZECH, ids=lambda path: path.name)
+def test_each_board_has_its_chapter_in_czech() -> None:
+    boards = sorted(path.parent for path in BOARDS.glob("*/board.h"))
+    assert boards == sorted(path.parent for path in CZECH if path.is_relative_to(BOARDS))
+    for board in boards:
+        assert "\n## Nahrání firmwaru\n" in text_of(board / "README.cs.md")
+        assert "\n## Flashing\n" in (board / "README.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("path", CZECH, ids=NAMES)
 def test_the_headings_have_the_same_depths_in_the_same_order(path: Path) -> None:
     assert depths(path) == depths(english(path))
 
 
-@pytest.mark.parametrize("path", CZECH, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", CZECH, ids=NAMES)
 def test_the_code_is_the_same_but_for_its_comments(path: Path) -> None:
     assert code(path) == code(english(path))
 
 
-@pytest.mark.parametrize("path", CZECH, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", CZECH, ids=NAMES)
 def test_the_tables_have_the_same_rows_and_columns(path: Path) -> None:
     assert tables(path) == tables(english(path))
 
 
-@pytest.mark.parametrize("path", CZECH, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", CZECH, ids=NAMES)
 def test_each_heading_paragraph_item_and_row_has_the_same_numbers(path: Path) -> None:
     assert numbers_of_parts(path) == numbers_of_parts(english(path))
 
 
-@pytest.mark.parametrize("path", CZECH, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", CZECH, ids=NAMES)
 def test_links_lead_where_the_english_ones_do_in_czech_if_there_is_any(path: Path) -> None:
     wanted = [
         (czech(file) if czech(file) in CZECH else file, heading)
@@ -123,7 +145,7 @@ def test_links_lead_where_the_english_ones_do_in_czech_if_there_is_any(path: Pat
     assert sorted(links(path)) == sorted([*wanted, (english(path), 0)])
 
 
-@pytest.mark.parametrize("path", CZECH, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", CZECH, ids=NAMES)
 def test_it_says_that_the_english_document_decides(path: Path) -> None:
     begin = prose(path).split("\n## ")[0]
     assert re.search(

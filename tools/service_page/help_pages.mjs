@@ -14,6 +14,8 @@ const DOCUMENTS = [
     "firmware/rkm04/docs/line.md",
 ];
 const BOARDS = "hal/stm32/boards";
+/** The chapter that is shown of a board's page. */
+const FLASHING = { en: "Flashing", cs: "Nahrání firmwaru" };
 const TABLE = "firmware/rkm04/program/program_opcodes.def";
 /** Sections have headings of these depths; the title of a document is a section of its own. */
 const DEPTH_MAX = 3;
@@ -123,7 +125,9 @@ async function pages() {
 }
 
 /** The chapter of a document that has this heading, without the heading; empty where there is none. */
-function chapterOf(marked, text, title) {
+async function chapterOf(document, title, places) {
+    const marked = new Marked({ renderer: rendererOf(document, places) });
+    const text = await readFile(`${ROOT}/${document}`, "utf8");
     const tokens = tokensOf(marked, text);
     const begin = tokens.findIndex((token) => token.type === "heading" && token.text === title);
     const after = tokens.slice(begin + 1);
@@ -133,16 +137,18 @@ function chapterOf(marked, text, title) {
 
 /** The boards, each with where its image begins and what its page says of flashing. */
 async function boards() {
-    const places = await placesOf(inEnglish);
+    const [places, czechPlaces] = await Promise.all([inEnglish, inCzech].map(placesOf));
     const names = (await readdir(`${ROOT}/${BOARDS}`, { withFileTypes: true })).filter((each) => each.isDirectory());
     return Promise.all(
         names.map(async ({ name }) => {
             const document = `${BOARDS}/${name}/README.md`;
             const header = await readFile(`${ROOT}/${BOARDS}/${name}/board.h`, "utf8");
             const loader_bytes = Number(/^#define BOARD_LOADER_BYTES (\w+)$/m.exec(header)?.[1] ?? 0);
-            const marked = new Marked({ renderer: rendererOf(document, places) });
             const text = await readFile(`${ROOT}/${document}`, "utf8");
-            return { name, title: /^# (.+)$/m.exec(text)[1], loader_bytes, flashing: chapterOf(marked, text, "Flashing") };
+            const czech = inCzech(document);
+            const cs = czech === document ? undefined : await chapterOf(czech, FLASHING.cs, czechPlaces);
+            const flashing = { en: await chapterOf(document, FLASHING.en, places), cs };
+            return { name, title: /^# (.+)$/m.exec(text)[1], loader_bytes, flashing };
         }),
     );
 }

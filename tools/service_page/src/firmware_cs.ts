@@ -9,7 +9,7 @@ export const firmwareCs: Record<keyof typeof firmwareEn, string> = {
         "Vývody zatím dělají, co chce zavaděč. Uložené programy zůstanou; co je jen v paměti jednotky, je pryč.",
     "firmware.board": "Deska",
     "firmware.commands": "Příkazy, jeden z nich; první dva ve stažených zdrojích projektu, kde se obraz i sestaví",
-    "firmware.page": "Co říká stránka desky (anglicky)",
+    "firmware.page": "Co říká stránka desky",
     "firmware.usb": "Z této stránky přes USB (WebUSB)",
     "firmware.untried":
         "Napsáno podle aplikační poznámky AN3156 firmy ST a vyzkoušeno jen na modelu zavaděče, nikdy na součástce. "

@@ -56,7 +56,10 @@ export class FirmwarePanel {
             `st-flash --reset write ${image} ${address}`,
         ];
         byId("firmware-commands", HTMLElement).textContent = lines.join("\n");
-        byId("firmware-page", HTMLElement).innerHTML = board.flashing;
+        const page = byId("firmware-page", HTMLElement);
+        const text = board.flashing[language.value];
+        page.innerHTML = text ?? board.flashing.en;
+        page.lang = text === undefined ? "en" : language.value;
         byId("firmware-usb", HTMLElement).hidden = usb === undefined;
         byId("firmware-no-usb", HTMLElement).hidden = usb !== undefined;
         this.#write.disabled = this.#isWriting || !this.#confirm.checked || this.#file.files?.length !== 1;

@@ -28,7 +28,7 @@ declare module "help-pages" {
         /** What a loader of the board has of the flash, before the image. */
         loader_bytes: number;
         /** What its page says of flashing. */
-        flashing: string;
+        flashing: { en: string; cs?: string };
     }
 
     export const boards: BoardPage[];
