@@ -282,7 +282,7 @@ static void append(unsigned motor, uint32_t now, uint32_t ahead_ticks)
     uint32_t waiting = count_waiting(channel);
     uint32_t last = channel->last_tick;
     bool far = !is_before(last, now + (uint32_t)FAR_TICKS);
-    bool in_time = !is_before(last, now + (uint32_t)(APPEND_TICKS + TICKS_PER_US));
+    bool in_time = !is_before(last, now + (uint32_t)APPEND_LEFT_TICKS);
     check_made_in_time(channel, waiting, now);
     if (must_wait(channel, waiting)) {
         return;
@@ -380,6 +380,7 @@ static void call_for(const struct stm32_channel *channel)
     }
 }
 
+/* More is laid when it is due, and not along with others: those may wait for a stop. */
 void hal_step_run(unsigned motor)
 {
     struct stm32_channel *channel = &stm32_step.channel[motor];
@@ -392,6 +393,7 @@ void hal_step_run(unsigned motor)
         refill(motor, now, RUN_TICKS);
     }
     if (channel->active) {
+        channel->from_tick = later(channel->from_tick, channel->due_tick);
         call_for(channel);
     }
 }
@@ -452,9 +454,6 @@ unsigned hal_step_take_back(unsigned motor, unsigned count)
     while (back > 0 && !(back < waiting && cut_before(channel, laid - back, now)) &&
            !stop_before(channel, laid - back, now)) {
         back--;
-    }
-    if (channel->active) {
-        call_for(channel);
     }
     return back;
 }

@@ -73,12 +73,13 @@ enum {
     /* At most, from a look at the counter: until the first word of the ring is written, with the longest search for its
      * tick; until a stream that has been started waits for its first edge; from pulses taken back to others laid. */
     APPEND_TICKS = 10 * TICKS_PER_US,
+    APPEND_LEFT_TICKS = APPEND_TICKS + TICKS_PER_US, /* where the look was at the interrupt's begin */
     START_TICKS = 2 * TICKS_PER_US,
     FAR_TICKS = 2 * LEAD_TICKS,
     REACT_TICKS = 7 * TICKS_PER_US + (UNIT_MOTORS - 1) * WAIT_TICKS,
 
     /* What is taken back is as far ahead as that: the pulse before it, if the stream goes on; or else itself. */
-    CUT_TICKS = REACT_TICKS + APPEND_TICKS,
+    CUT_TICKS = REACT_TICKS + APPEND_LEFT_TICKS,
     STOP_TICKS = REACT_TICKS + START_TICKS,
 
     /* Between late pulses: four motors that are late together must not ask for more than the streams can do. */

@@ -95,6 +95,10 @@
     assigns *generator;
 */
 static inline uint32_t step_generator_next(struct step_generator *generator);
+/*@ requires \valid(generator) && 1 <= pulses <= 8;
+    assigns *generator;
+*/
+bool step_skip(struct step_generator *generator, uint32_t pulses);
 /*@ requires \valid(generator) && \valid_read(segment);
     assigns *generator;
 */
@@ -181,6 +185,15 @@ static inline void cursor_begin_segment(struct step_cursor *cursor, const struct
         pulse_of(cursor) == \old(pulse_of(cursor)) + 1;
 */
 static bool cursor_advance(struct step_cursor *cursor, const struct step_channel *channel, uint32_t head);
+
+/*@ requires \valid(cursor) && cursor->left <= cursor->end && pulse_of(cursor) < pulse;
+    assigns *cursor;
+    ensures cursor->end == \old(cursor->end) && cursor->tail == \old(cursor->tail);
+    ensures cursor->left <= \old(cursor->left);
+    ensures \result ==> cursor->left < \old(cursor->left) && pulse_of(cursor) < pulse;
+    ensures !\result ==> cursor->left == \old(cursor->left);
+*/
+static bool cursor_skip(struct step_cursor *cursor, uint64_t pulse);
 
 /*@ requires ring_is_sound(channel) && queue_is_numbered(channel) && \valid(cursor) && is_on_way(channel, cursor);
     requires \separated(cursor, &channel->queue[0 .. 31]) && \separated(cursor, &channel->head) &&

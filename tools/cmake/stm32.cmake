@@ -31,6 +31,7 @@ if(small)
         endif()
     endforeach()
     target_compile_options(hal_stm32 PRIVATE -Os)
+    target_compile_definitions(engine_step PRIVATE STEP_SKIP_MAX=1U)
     # But for the steps, and for what a pulse that is to change waits for most.
     foreach(fast hal/stm32/stm32_step.c firmware/engine/path/path_divide.c firmware/engine/path/path_fixed.c
             firmware/engine/path/path_root.c firmware/positioning/registers/pos_table.c)

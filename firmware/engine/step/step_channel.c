@@ -6,6 +6,7 @@
 #include "base_tick.h"
 #include "hal_step.h"
 #include "step_lay.h"
+#include "step_skip.h"
 
 static_assert((STEP_QUEUE_SEGMENTS & (STEP_QUEUE_SEGMENTS - 1)) == 0, "the ring's counters wrap with its size");
 static_assert(STEP_QUEUE_SEGMENTS <= 32, "each place has a bit that says its way");
@@ -44,10 +45,22 @@ static bool cursor_advance(struct step_cursor *cursor, const struct step_channel
     return more;
 }
 
+/* Skips what it can on the way to a pulse that comes later, but for that one and the last one of the segment, whose
+ * intervals must be known. */
+static bool cursor_skip(struct step_cursor *cursor, uint64_t pulse)
+{
+    uint64_t way = pulse - step_cursor_pulse(cursor);
+    uint64_t least = way < cursor->left ? way : cursor->left;
+    uint32_t count = least <= STEP_SKIP_MAX ? (uint32_t)least - 1U : STEP_SKIP_MAX;
+    bool skipped = least != 0U && count > 1U && step_skip(&cursor->generator, count);
+    cursor->left -= skipped ? count : 0U;
+    return skipped;
+}
+
 void step_channel_follow(struct step_cursor *cursor, const struct step_channel *channel, uint64_t pulse)
 {
     uint32_t head = atomic_load_explicit(&channel->head, memory_order_relaxed);
-    while (step_cursor_pulse(cursor) < pulse && cursor_advance(cursor, channel, head)) {
+    while (step_cursor_pulse(cursor) < pulse && (cursor_skip(cursor, pulse) || cursor_advance(cursor, channel, head))) {
     }
 }
 

@@ -143,6 +143,20 @@ void test_a_search_at_faster_pulses_tells_the_next_one(void)
     TEST_ASSERT_EQUAL_UINT64(MADE + 1, step_cursor_pulse(&cursor));
 }
 
+/* 200 000 steps/s; the way leads over pulses that are skipped. */
+void test_a_search_over_many_fast_pulses_tells_the_next_one_and_its_interval(void)
+{
+    begin_fast_move(420);
+    for (uint32_t made = MADE; made < 99; made++) {
+        struct step_cursor cursor = look_at_start();
+
+        TEST_ASSERT_EQUAL_UINT64(made + 1U, step_cursor_pulse(&cursor));
+        TEST_ASSERT_EQUAL_UINT32(START + (made + 1U) * 420U, cursor.generator.tick);
+        TEST_ASSERT_EQUAL_UINT32(420, cursor.generator.interval);
+        make_pulses(1);
+    }
+}
+
 void test_a_search_after_the_last_pulse_of_which_the_channel_has_not_heard_tells_that_one(void)
 {
     struct step_cursor cursor;
