@@ -4,13 +4,16 @@
 
 #include "base_tick.h"
 
-/* Positions are known modulo 2^64, which is ten steps. Where the speed changes by an eighth at most, no other pulse
- * looks like the one that is wanted. */
 enum {
     INTERVAL_TICKS_MAX = 40 * TICKS_PER_US,
     CHANGE_SHIFT = 3,
 };
 
+/* Positions are known modulo 2^64, which is ten steps: where the speed changes by an eighth at most, no other pulse
+ * looks like the one that is wanted. */
+static_assert(STEP_SKIP_MAX * INTERVAL_TICKS_MAX * (UINT64_C(1) << 31U) < STEP_QUANTA / INTERVAL_TICKS_MAX >>
+                  (unsigned)CHANGE_SHIFT,
+              "no acceleration may change the speed of pulses that come so fast by more than that");
 static_assert(STEP_SKIP_MAX * (STEP_QUANTA >> 32U) < (UINT64_C(1) << 32U) - (UINT64_C(1) << 28U),
               "the way that is skipped must fit 32 bits, with half a tick's travel");
 
@@ -35,8 +38,7 @@ bool step_skip(struct step_generator *generator, uint32_t pulses)
     uint64_t slope = generator->slope;
     int64_t accel = generator->accel;
     uint32_t about = skip_ticks(pulses, generator->residual, slope);
-    uint64_t change = about * wide_from_signed(accel < 0 ? -accel : accel);
-    if (about > pulses * (uint32_t)INTERVAL_TICKS_MAX || change > slope >> (unsigned)CHANGE_SHIFT) {
+    if (about > pulses * (uint32_t)INTERVAL_TICKS_MAX) {
         return false;
     }
     uint32_t ticks = skip_ticks(pulses, generator->residual, slope + wide_from_signed(accel * (int64_t)about));

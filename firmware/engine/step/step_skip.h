@@ -17,7 +17,7 @@
 
 /* Moves on by so many pulses at once, from 1 to STEP_SKIP_MAX, which the segment must have left. All but the interval,
  * which is their mean, is then as if step_generator_next had been called for each. False, and nothing is changed, where
- * they come more than 40 us apart or change their speed fast, or where one look does not find the tick. */
+ * they come more than 40 us apart, or where one look does not find the tick. */
 bool step_skip(struct step_generator *generator, uint32_t pulses);
 
 #endif

@@ -106,18 +106,6 @@ void test_pulses_that_come_slowly_are_not_skipped(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &generator, sizeof before);
 }
 
-void test_pulses_that_change_their_speed_fast_are_not_skipped(void)
-{
-    struct step_generator generator = generator_at(50000, 0);
-    uint32_t about = 8U * (uint32_t)(TICK_HZ / 50000U);
-
-    generator.accel = (int32_t)(generator.slope / about / 7U < INT32_MAX ? generator.slope / about / 7U : INT32_MAX);
-    TEST_ASSERT_FALSE(step_skip(&generator, 8));
-    generator.accel = -generator.accel;
-
-    TEST_ASSERT_FALSE(step_skip(&generator, 8));
-}
-
 /* 840 ticks for two pulses; the position after that is just half a tick's travel off. */
 static bool skips_to(uint64_t residual, uint64_t slope)
 {
