@@ -19,7 +19,7 @@ from tab import visited
 
 BUILD = Path(__file__).resolve().parents[2] / "build"
 EXAMPLES = Path(__file__).resolve().parents[2] / "tools/examples/gve"
-ZIPPED_BYTES_MAX = 33_000
+ZIPPED_BYTES_MAX = 34_500
 LONG = "V1000\n" + "C100,50\nC-100,50\n" * 200
 
 
@@ -136,6 +136,22 @@ def test_a_file_with_errors_shows_their_places_and_cannot_be_started(
     expect(page.at("file-facts")).to_have_text("1 error: nothing of it can be sent")
     expect(page.at("start")).to_be_disabled()
     assert words in page.page.locator("#problems li").inner_text()
+
+
+def test_what_is_wrong_in_files_is_told_in_czech_and_in_english_again(page: GvePage) -> None:
+    page.at("machine-file").set_input_files(EXAMPLES / "mill.rkm")
+    expect(page.at("machine-shown")).to_have_text("Small mill")
+    page.at("language").select_option("cs")
+    page.open("a.nc", "G1 X1 F0\n")
+    problem, mark = page.page.locator("#problems li"), page.page.locator("#code-lines mark")
+    expect(problem).to_have_text("1:7 F0: posuv musí být větší než 0")
+    expect(mark).to_have_attribute("title", "F0: posuv musí být větší než 0")
+    machine = {"name": "b.rkm", "mimeType": "text/plain", "buffer": b"{}"}
+    page.at("machine-file").set_input_files(machine)  # type: ignore[arg-type]
+    expect(page.at("file-trouble")).to_contain_text("b.rkm: není to soubor stroje: chybí")
+    page.at("language").select_option("en")
+    expect(problem).to_have_text("1:7 F0: a feed is more than 0")
+    expect(mark).to_have_attribute("title", "F0: a feed is more than 0")
 
 
 def test_gcode_without_a_machine_says_what_to_do(page: GvePage) -> None:

@@ -143,6 +143,10 @@ def test_errors_have_their_places_and_what_needs_the_service_is_said(page: GvePa
     expect(page.at("file-facts")).to_contain_text("nothing of it can be sent")
     expect(page.page.locator("#problems li").first).to_contain_text("2:")
     expect(page.at("start")).to_be_disabled()
+    page.at("language").select_option("cs")
+    czech = "2:10 C: počet parametrů je nejvýše 4; příklad: C"
+    expect(page.page.locator("#problems li").first).to_contain_text(czech)
+    page.at("language").select_option("en")
     gcode = {"name": "a.nc", "mimeType": "text/plain", "buffer": b"G1 X1 F100"}
     page.at("file").set_input_files(gcode)  # type: ignore[arg-type]
     expect(page.at("file-trouble")).to_contain_text("tools/gve134 gcode")

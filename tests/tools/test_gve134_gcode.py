@@ -5,15 +5,12 @@ from __future__ import annotations
 import re
 
 import pytest
+from gcode_bad import BAD
 from gcode_played import body, content, good, mill, play
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from rkm04_tools.gve134 import host
 from rkm04_tools.gve134.gcode.directives import Pause, Probe, Wait, directive_of
-
-CAM = "let the CAM program write grbl's G-code"
-LOOPS = "conditions, loops and jumps are not known here"
-SUBPROGRAMS = "subprograms are not: let the CAM program write them out"
 
 
 def test_a_file_begins_with_what_holds_for_all_of_it() -> None:
@@ -127,106 +124,6 @@ def test_where_vk_would_count_above_the_top_the_longest_axis_is_counted() -> Non
         "V184752", "C3200,3200,3200,0 ; line 2",
         "VK", "V200000", "C3200,0,0,0 ; line 3", "L0,0,0,0",
     ]  # fmt: skip
-
-
-NO_FEED = "the motion has no feed yet; write F"
-BAD = [
-    ("G1 X1", 1, 1, NO_FEED),
-    ("G93\nG1 F2 X1\nX2", 3, -1, "the motion has no feed of its own in G93; write F"),
-    ("X1", 1, 1, "X: no motion is in force; write G0, G1, G2 or G3"),
-    ("G80 X1", 1, 5, "X: no motion is in force; write G0, G1, G2 or G3"),
-    ("G1 F100 X1 X2", 1, 12, "X stands twice in the line"),
-    ("G0 G1 X1 F5", 1, 4, "G1: the line has another G of its group (motion)"),
-    ("M3 M5", 1, 4, "M5: the line has another M of its group (spindle)"),
-    ("G1 F0", 1, 4, "F0: a feed is more than 0"),
-    ("G1 F9000 X1", 1, 4, "F9000 is above the highest feed, 4608.69 mm/min"),
-    ("G20\nG1 F182 X1", 2, 4, "F182 is above the highest feed, 181.444 inch/min"),
-    ("F9000", 1, 1, "F9000 is above the highest feed, 4608.69 mm/min"),
-    ("F200\nG20 F200\nG1 X1", 3, 1, "F200 is above the highest feed, 181.444 inch/min"),
-    ("G1 A1 F3376", 1, 7, "F3376 is above the highest feed, 3375 degrees/min"),
-    ("G1 F1 X1", 1, 7, "the feed is too low: the unit makes 10 pulses/s at least"),
-    ("G0 X1000001", 1, 4, "X takes numbers up to 1000000"),
-    ("G0 Z1e3", 1, 6, "E is of 3D printers, and no exponent of a number"),
-    ("G0 X1 Y", 1, 7, "Y without a number, found Y"),
-    ("G0 X1 . 5", 1, 7, "a number without a letter: ."),
-    ("G0 X--1", 1, 4, "X without a number, found X--1"),
-    ("G1 X1 garbage", 1, 7, "G without a number, found garbage"),
-    ("G0 (one\nG0 X1", 1, 4, "a comment that does not end; write )"),
-    ("G0 X1 )", 1, 7, "a ) without its ("),
-    ("G0 X#5", 1, 4, "parameters (#) are not known here; write numbers"),
-    ("#1=5", 1, 1, "parameters (#) are not known here; write numbers"),
-    ("G0 X[1+2]", 1, 4, "expressions ([ ]) are not known here; write numbers"),
-    ("/G0 X1", 1, 1, "blocks that may be skipped (/) are not known here; remove the / or the line"),
-    ("N1 G0 X1 *57", 1, 10, "checksums (*) are of 3D printers; remove them"),
-    ("$H", 1, 1, "commands of a controller ($) do not belong in a program"),
-    ("O1000", 1, 1, "programs with numbers and subprograms (O) are not known; let one file be one "
-                    "program"),
-    ("G0 X1 E5", 1, 7, "E is of 3D printers, and no exponent of a number"),
-    ("M104 S200", 1, 1, "M104 is not known; M0 to M9 and M30 are; M codes from 82 on are of 3D "
-                        "printers"),
-    ("G0 B5", 1, 4, "the machine has no axis B"),
-    ("G43 H1 Z5", 1, 1, "G43: tool lengths are not known; set Z with G92 after a tool change"),
-    ("G81 Z-5 R1 F100", 1, 1, "G81: canned cycles are not known; let the CAM program write single "
-                              "moves"),
-    ("G53 G0 X0", 1, 1, "G53: machine positions are not known; use G28 and G92"),
-    ("G55", 1, 1, "G55: one coordinate system is known; set it with G92"),
-    ("G77", 1, 1, "G77 is not known"),
-    ("G1.5 X1", 1, 1, "G1.5 is not known"),
-    ("M-3", 1, 1, "M-3 is not known; M0 to M9 and M30 are"),
-    ("CYCLE83(1,2)", 1, 1, "calls with parameters are Siemens' dialect; " + CAM),
-    ("N5 CALL_X(1)", 1, 4, "named commands are Klipper's, a 3D printer's; " + CAM),
-    ("G0 X=10", 1, 4, "assignments (=) are of another dialect; write numbers"),
-    ("G0 X1,5", 1, 6, "numbers have a point, no comma"),
-    ("0 BEGIN PGM TEST MM", 1, 1, "this is Heidenhain's dialect; " + CAM),
-    ("12 L X+10 Y-5 F100", 1, 1, "this is Heidenhain's dialect; " + CAM),
-    ("IF [#1 GT 5] GOTO 10", 1, 1, LOOPS + "; let the CAM program write them out"),
-    (" N10 WHILE [1] DO1", 1, 6, LOOPS + "; let the CAM program write them out"),
-    ("IN;SP1;PU0,0;", 1, 1, "this is HPGL, a plotter's language; " + CAM),
-    ("PD10,20;", 1, 1, "this is HPGL, a plotter's language; " + CAM),
-    ("M117 hello", 1, 1, "M117 and M118 show texts of 3D printers; remove them"),
-    ("<svg>", 1, 1, "this is XML or HTML, as SVG is; let a CAM program make G-code of it"),
-    ("C10,-20 ; line 2", 1, 1, "this is a vector file; name it .gve"),
-    ("M98 P1", 1, 1, "M98 is not known; M0 to M9 and M30 are; " + SUBPROGRAMS),
-    ("(never ends here", 1, 1, "a comment that does not end; write )"),
-    ("(one (two) three)", 1, 1, "a comment that does not end; write )"),
-    ("L X+10 R0 F", 1, 1, "L without a number, found L"),
-    ("G0 X1 I2", 1, 7, "I has no meaning in this line"),
-    ("G0 X1 P2", 1, 7, "P has no meaning in this line"),
-    ("G92.1 X1", 1, 7, "X has no meaning in this line"),
-    ("G4", 1, 1, "G4 takes how long to dwell: P, in seconds"),
-    ("G4 P-1", 1, 4, "G4 takes how long to dwell: P, in seconds"),
-    ("G92", 1, 1, "G92 takes the positions that axes are to have"),
-    ("G1 G92 X0 F5", 1, 1, "the line has two G that take its positions; divide it"),
-    ("G28 A0", 1, 5, "the machine file has no reference run of A"),
-    ("G38.2 F50", 1, 1, "G38.2 takes the position to which the probe may go"),
-    ("G38.2 Z0 F50", 1, 7, "G38.2: the way is shorter than a pulse"),
-    ("G38.2 Z0.001 F50", 1, 7, "G38.2: the way is shorter than a pulse"),
-    ("G93 G38.2 Z-1 F50", 1, 5, "G38.2 takes a feed of G94"),
-    ("F100 G2 X10", 1, 6, "the arc has no centre; write I and J, or R"),
-    ("F100 G2 X10 I5 R5", 1, 16, "the arc has both R and a centre; keep one of them"),
-    ("F100 G2 X10 K5", 1, 13, "K is not in the plane of the arc, G17"),
-    ("F100 G2 X10 I4", 1, 13, "the arc does not close: its start is 4.0000 mm from the centre, "
-                              "its end 6.0000 mm"),
-    ("F100 G2 X10 R4.9", 1, 13, "the arc does not close: R4.9 mm does not reach the end, 10.0000 "
-                                "mm away"),
-    ("F100 G2 X0 R4", 1, 12, "an arc with R must end elsewhere than it starts; write a circle with "
-                             "I, J, K"),
-    ("F100 G2 X10 I0", 1, 13, "the arc has no radius: its centre is its start or its end"),
-    ("M3", 1, 1, "M3: the spindle has no speed yet; write S"),
-    ("S99999", 1, 1, "S99999: the spindle turns with 0 to 24000 turns a minute"),
-    ("S100 M4", 1, 6, "M4: by the machine file the spindle turns one way only"),
-    ("M6", 1, 1, "M6: no tool has been chosen; write T"),
-    ("T1.5", 1, 1, "T takes the number of a tool, a whole one"),
-    ("M8 M9", 1, 4, "M9 stands beside M7 or M8; keep one of them"),
-    ("G0 N5", 1, 4, "a line's number stands at its beginning"),
-    ("N-1 G0 X1", 1, 1, "N-1: a line's number has no sign"),
-    ("F300\nG20\nG21\nG1 X1", 4, 1, "the motion has no feed since G21, with which that from before "
-                                    "does not hold; write F"),
-    ("G93\nG1 X1 F2\nG94\nX2", 4, -1, "the motion has no feed since G94, with which that from "
-                                     "before does not hold; write F"),
-    ("G0 X1 ž", 1, 7, "no word of G-code: ž"),
-    ("G0 X1 % 5", 1, 7, "% stands alone in its line"),
-]  # fmt: skip
 
 
 @pytest.mark.parametrize(("program", "line", "column", "message"), BAD)

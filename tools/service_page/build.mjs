@@ -1,6 +1,7 @@
 // Bundles the page into the directory $RKM04_SERVICE_OUT: index.html, page.js, page.css, engine.js (the
 // worker of a page without a service) of RKM04, gve134.html and positioning.html with a script
-// and a style each, gve134_unit.js and positioning_unit.js (likewise workers), and icon.svg, nothing else.
+// and a style each, file_words.js, which these two load when they need it, gve134_unit.js and positioning_unit.js
+// (likewise workers), and icon.svg, nothing else.
 import Ajv from "ajv/dist/2020.js";
 import standaloneCode from "ajv/dist/standalone/index.js";
 import { build } from "esbuild";
@@ -35,8 +36,10 @@ await build({
         { in: "gve134.css", out: "gve134" },
         { in: "src/positioning/main.ts", out: "positioning" },
         { in: "positioning.css", out: "positioning" },
+        { in: "src/file_words.ts", out: "file_words" },
     ],
     outdir: out,
+    external: ["/static/*"],
     plugins: [rules, helpPages],
     bundle: true,
     minify: true,

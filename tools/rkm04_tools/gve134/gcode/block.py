@@ -99,8 +99,7 @@ def read_block(words: list[Pair]) -> Block:
         elif letter in values:
             block.faults.append((index, f"{letter} stands twice in the line"))
         elif letter in "BCEO" or letter not in LETTERS:
-            words_for = FOREIGN_LETTERS.get(letter, f"{letter} is not known here")
-            block.faults.append((index, words_for))
+            block.faults.append((index, FOREIGN_LETTERS[letter]))
         else:
             value = float(text)
             if not -NUMBER_MAX <= value <= NUMBER_MAX:

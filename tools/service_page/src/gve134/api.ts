@@ -1,4 +1,5 @@
 import { alone } from "./alone/page";
+import { fileWords } from "./files";
 import { troubleText } from "./i18n";
 import { Refused } from "./refused";
 import type { FileText, MachineText, Trouble } from "./protocol";
@@ -11,7 +12,7 @@ async function fetched(path: string, init: RequestInit = {}): Promise<Response> 
         return response;
     }
     const { error } = (await response.json().catch(() => ({}))) as { error?: Trouble };
-    throw new Refused(error ? troubleText(error) : `${path}: ${response.status}`);
+    throw new Refused(error ? (await fileWords())(troubleText(error)) : `${path}: ${response.status}`);
 }
 
 /** Has a file or a machine file opened; all pages are told of it. */

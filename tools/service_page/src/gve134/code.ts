@@ -1,5 +1,7 @@
+import { asTold } from "../common/files";
 import { byId, make } from "../dom";
 import { fetchText } from "./api";
+import { fileWords } from "./files";
 import { isOpen } from "./job";
 import { language, t } from "./i18n";
 import type { FileText, Problem } from "./protocol";
@@ -19,6 +21,8 @@ export class Code {
     readonly #rows = byId("code-lines", HTMLElement);
     readonly #follow = byId("follow", HTMLInputElement);
     #number: number | null = null;
+    /** What is wrong, as it is told outside. */
+    #told: FileText | null = null;
     #lines: string[] = [];
     #problems = new Map<number, Problem>();
     #now: number | null = null;
@@ -28,7 +32,10 @@ export class Code {
         this.#box.addEventListener("scroll", () => this.#draw());
         new ResizeObserver(() => this.#draw()).observe(this.#box);
         unit.watch(() => this.#show());
-        language.onChange(() => this.#showLine());
+        language.onChange(() => {
+            this.#showLine();
+            void this.#showProblems();
+        });
     }
 
     #show(): void {
@@ -49,15 +56,27 @@ export class Code {
         const found = await fetchText(number).catch(() => null);
         if (found !== null && number === this.#number) {
             this.#lines = found.text.split(LINE_END).slice(0, ROWS_MAX);
-            this.#problems = new Map(found.problems.map((problem) => [problem.line, problem] as const).reverse());
+            this.#told = found;
+            this.#problems.clear();
             this.#rows.style.height = `${this.#lines.length * ROW_PX}px`;
             this.#box.scrollTop = 0;
-            this.#listProblems(found);
-            this.#draw();
+            await this.#showProblems();
         }
     }
 
-    #listProblems({ problems, more }: FileText): void {
+    async #showProblems(): Promise<void> {
+        const [told, name] = [this.#told, language.value];
+        const words = told === null || told.problems.length === 0 ? asTold : await fileWords();
+        if (told === null || told !== this.#told || name !== language.value) {
+            return;
+        }
+        const problems = told.problems.map((problem) => ({ ...problem, message: words(problem.message) }));
+        this.#problems = new Map(problems.map((problem) => [problem.line, problem] as const).reverse());
+        this.#listProblems(problems, told.more);
+        this.#draw();
+    }
+
+    #listProblems(problems: readonly Problem[], more: number): void {
         const list = byId("problems", HTMLElement);
         const rows = problems.map(({ severity, line, column, message }) => {
             const button = make("button", { type: "button", "data-severity": severity }, `${line}:${column} ${message}`);

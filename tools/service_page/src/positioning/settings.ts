@@ -1,6 +1,7 @@
 import { byId, make } from "../dom";
 import { numberText } from "../language";
 import type { Trouble } from "../protocol";
+import { servedWords } from "../common/files";
 import { settingWords } from "../common/outside";
 import { troubleText } from "../common/words";
 import { isAlone, language, t } from "./i18n";
@@ -230,7 +231,7 @@ export class SettingsPanel {
 async function readByService(file: File): Promise<AllSettings | string> {
     const answer = await fetch(`/api/settings?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
     const told = (await answer.json()) as AllSettings & { error?: Trouble };
-    return answer.ok ? told : told.error ? troubleText(told.error) : t("state.notSent");
+    return answer.ok ? told : told.error ? (await servedWords())(troubleText(told.error)) : t("state.notSent");
 }
 
 const partName = (part: Part): string => (part === "unit" ? t("settings.unit") : t("axis.name", { axis: PARTS.indexOf(part) }));

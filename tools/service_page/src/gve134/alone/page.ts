@@ -4,6 +4,7 @@ import type { NoMachine } from "../../machine_file";
 import { MACHINE_BYTES_MAX, troubleOf } from "../../machine_words";
 import { hasSerial, type SerialPorts } from "../../serial_ports";
 import { UnitLine, portsOf } from "../../unit_line";
+import { fileWords } from "../files";
 import { numberText, t } from "../i18n";
 import { isUnderWay } from "../job";
 import { AXES, type MachineText } from "../protocol";
@@ -135,7 +136,7 @@ class Alone {
     async #read(name: string, text: string): Promise<Opened> {
         const read = await this.#ask((id) => ({ kind: "read", id, name, text }));
         if (!("opened" in read)) {
-            throw new Refused("trouble" in read ? read.trouble : t("alone.failed"));
+            throw new Refused("trouble" in read ? (await fileWords())(read.trouble) : t("alone.failed"));
         }
         return read.opened;
     }
