@@ -5,7 +5,7 @@ export type Sentences = readonly (readonly [english: string, other: string])[];
 const ANY = "((?:(?!; )[^])*)";
 const SIGNS = /[\\^$.*+?()[\]{}|]/g;
 
-/** Puts sentences that come from outside, joined by "; ", each perhaps behind its place and ": "; others stay. */
+/** Puts sentences that come from outside, joined by "; ", each perhaps after its place and ": "; others stay. */
 export function translatorOf(sentences: Sentences): (text: string) => string {
     const rows = sentences.map(([english, other]) => {
         const parts = english.split(/\$\d/).map((part) => part.replace(SIGNS, "\\$&"));
