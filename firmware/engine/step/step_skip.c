@@ -11,8 +11,8 @@ enum {
 
 /* Positions are known modulo 2^64, which is ten steps: where the speed changes by an eighth at most, no other pulse
  * looks like the one that is wanted. */
-static_assert(STEP_SKIP_MAX * INTERVAL_TICKS_MAX * (UINT64_C(1) << 31U) < STEP_QUANTA / INTERVAL_TICKS_MAX >>
-                  (unsigned)CHANGE_SHIFT,
+static_assert(UINT64_C(1) * STEP_SKIP_MAX * INTERVAL_TICKS_MAX * (UINT64_C(1) << 31U) <
+                  STEP_QUANTA / INTERVAL_TICKS_MAX >> (unsigned)CHANGE_SHIFT,
               "no acceleration may change the speed of pulses that come so fast by more than that");
 static_assert(STEP_SKIP_MAX * (STEP_QUANTA >> 32U) < (UINT64_C(1) << 32U) - (UINT64_C(1) << 28U),
               "the way that is skipped must fit 32 bits, with half a tick's travel");
