@@ -34,10 +34,36 @@ static void merge(struct thin_column *column, struct thin_column *other)
     c->highest = *first_of(c->highest.position >= o->highest.position, &c->highest, &o->highest);
 }
 
+/* Takes the last point where it exceeds the others. Of points that go on in one direction only the last one can, so it
+ * waits until the next one, of this speed and position, does not go on. */
+static void take_last(struct thin_column *column, int64_t milli_speed, int64_t position)
+{
+    const struct thin_point *last = &column->last;
+    if (milli_speed >= last->milli_speed && last->milli_speed < column->slowest.milli_speed) {
+        column->slowest = *last;
+    }
+    if (milli_speed <= last->milli_speed && last->milli_speed > column->fastest.milli_speed) {
+        column->fastest = *last;
+    }
+    if (position >= last->position && last->position < column->lowest.position) {
+        column->lowest = *last;
+    }
+    if (position <= last->position && last->position > column->highest.position) {
+        column->highest = *last;
+    }
+}
+
+/* No point of the column follows. */
+static void close_column(struct thin_column *column)
+{
+    take_last(column, column->last.milli_speed, column->last.position);
+}
+
 /* Makes the columns twice as wide. */
 static void widen(struct thin *thin)
 {
     uint32_t count = 0;
+    close_column(&thin->columns[thin->count - 1U]);
     thin->shift++;
     thin->points = 0;
     for (uint32_t i = 0; i < thin->count; i++) {
@@ -55,21 +81,6 @@ static void widen(struct thin *thin)
     }
 }
 
-/* What the point exceeds: nearly all points go this way, and nearly none does. */
-static void take(struct thin_column *column, const struct thin_point *point)
-{
-    if (point->milli_speed < column->slowest.milli_speed) {
-        column->slowest = *point;
-    } else if (point->milli_speed > column->fastest.milli_speed) {
-        column->fastest = *point;
-    }
-    if (point->position < column->lowest.position) {
-        column->lowest = *point;
-    } else if (point->position > column->highest.position) {
-        column->highest = *point;
-    }
-}
-
 static bool is_in_last(const struct thin *thin, uint64_t tick)
 {
     return thin->count > 0 && thin->columns[thin->count - 1U].index == tick >> thin->shift;
@@ -79,6 +90,9 @@ static void begin_column(struct thin *thin, const struct thin_point *given)
 {
     struct thin_point point = *given;
     point.ordinal = thin->ordinals;
+    if (thin->count > 0) {
+        close_column(&thin->columns[thin->count - 1U]);
+    }
     thin->columns[thin->count++] =
         (struct thin_column){point.tick >> thin->shift, 1, point, point, point, point, point, point};
 }
@@ -88,9 +102,9 @@ void thin_put(struct thin *thin, const struct thin_point *point)
     bool is_one_more = true;
     if (is_in_last(thin, point->tick)) {
         struct thin_column *column = &thin->columns[thin->count - 1U];
+        take_last(column, point->milli_speed, point->position);
         column->last = *point;
         column->last.ordinal = thin->ordinals;
-        take(column, &column->last);
         is_one_more = column->taken < THIN_POINTS_PER_COLUMN;
         column->taken += is_one_more ? 1U : 0U;
     } else {
@@ -122,8 +136,10 @@ static unsigned insert(struct thin_point *points, unsigned count, const struct t
 
 unsigned thin_list_column(const struct thin_column *column, struct thin_point points[THIN_POINTS_PER_COLUMN])
 {
+    struct thin_column closed = *column;
+    close_column(&closed);
     const struct thin_point *all[THIN_POINTS_PER_COLUMN] = {
-        &column->first, &column->slowest, &column->fastest, &column->lowest, &column->highest, &column->last,
+        &closed.first, &closed.slowest, &closed.fastest, &closed.lowest, &closed.highest, &closed.last,
     };
     unsigned count = 0;
     for (unsigned i = 0; i < THIN_POINTS_PER_COLUMN; i++) {
