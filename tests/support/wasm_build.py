@@ -12,13 +12,15 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "wasm"
+LOCK = ROOT / "build" / "rkm04.lock"
+"""That of tools/rkm04, which builds there, too."""
 COMMANDS = (["cmake", "--preset", "wasm"], ["cmake", "--build", "--preset", "wasm"])
 
 
 def build_wasm() -> Path:
     """Return the folder of the programs. The first time the compiler makes its library, too."""
     BUILD.mkdir(parents=True, exist_ok=True)
-    with (BUILD / "lock").open("w") as lock:
+    with LOCK.open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         for command in COMMANDS:
             done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)

@@ -27,7 +27,7 @@ struct thin_column {
     uint32_t taken; /* points; more than stay are not counted */
     struct thin_point first;
     struct thin_point last;
-    struct thin_point slowest;
+    struct thin_point slowest; /* these four: of all but the last one, which counts once none follows it */
     struct thin_point fastest;
     struct thin_point lowest;
     struct thin_point highest;
