@@ -84,7 +84,7 @@ struct curve {
 /* Every motor stands at 0. False after a complaint; in both cases to be discarded. */
 bool curve_begin(struct curve *curve, struct outfile *file, const struct curve_range *range);
 
-/* Takes an event; events come in order of time. */
+/* Takes an event; those of a motor come in order of time, and so do those of outputs. */
 void curve_put(struct curve *curve, const struct timeline_event *event);
 
 /* A command of a motor, from 0, has begun at `tick`; in order of time. */

@@ -18,9 +18,6 @@ static void recorder_write(void *context, const struct timeline_event *event)
     if (outfile_is_open(&recorder->waves)) {
         waves_put(&recorder->drawing, event);
     }
-    if (outfile_is_open(&recorder->line)) {
-        curve_put(&recorder->curve, event);
-    }
 }
 
 static bool recorder_begin(struct recorder *recorder, const struct curve_range *range)
@@ -41,7 +38,8 @@ bool recorder_open(struct recorder *recorder, const struct recorder_paths *paths
 {
     recorder->kind = kind;
     timeline_init(&recorder->timeline, recorder_write, recorder);
-    recorder->active = paths->steps != NULL || paths->trace != NULL || paths->vcd != NULL || paths->curve != NULL;
+    recorder->sorts = paths->steps != NULL || paths->trace != NULL || paths->vcd != NULL;
+    recorder->active = recorder->sorts || paths->curve != NULL;
     recorder->steps = (struct outfile){.path = NULL};
     recorder->trace = recorder->steps;
     recorder->waves = recorder->steps;
@@ -58,6 +56,12 @@ bool recorder_open(struct recorder *recorder, const struct recorder_paths *paths
 
 void recorder_put(struct recorder *recorder, const struct timeline_event *event, uint64_t now_ticks)
 {
+    if (outfile_is_open(&recorder->line)) {
+        curve_put(&recorder->curve, event);
+    }
+    if (!recorder->sorts) {
+        return;
+    }
     timeline_put(&recorder->timeline, event, now_ticks);
     if (event->kind == TIMELINE_STEP && outfile_is_open(&recorder->waves)) {
         struct timeline_event fall = *event;

@@ -32,6 +32,7 @@ struct recorder {
     struct waves drawing;
     struct outfile line;
     struct curve curve;
+    bool sorts;  /* there is a file of all that happens; a curve needs the order of each motor only */
     bool active; /* there is a file */
 };
 

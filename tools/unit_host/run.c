@@ -28,11 +28,11 @@ static void tell_progress(struct run *run, uint64_t real_ns, uint64_t tick)
     }
 }
 
-/* The pin is up, the step interrupt has not counted the pulse yet. */
+/* What else changes a position does so in main, see take_positions. */
 static void hear_step(void *context, uint64_t tick, unsigned motor, bool backward)
 {
     struct run *run = context;
-    int64_t position = run->kind->position_steps(run->unit, motor) + (backward ? -1 : 1);
+    int64_t position = run->positions[motor] + (backward ? -1 : 1);
     run->positions[motor] = position;
     if (run->progress_ns != 0 && ++run->steps % STEPS_PER_LOOK == 0) {
         tell_progress(run, units_real_ns(), tick); /* a long run makes many pulses in few passes */
@@ -121,10 +121,13 @@ static void hear_trace(void *context, uint64_t tick, unsigned motor, enum hal_tr
             .tick = tick, .kind = TIMELINE_TRACE, .motor = (uint8_t)motor, .detail = (uint8_t)event, .value = value});
 }
 
-static void record_positions(struct run *run)
+/* To ask the unit at each pulse would take longer than the pulse. */
+static void take_positions(struct run *run)
 {
     for (unsigned motor = 1; motor <= UNIT_MOTORS; motor++) {
-        if (!run->kind->is_moving(run->unit, motor - 1U)) {
+        if (run->kind->is_moving(run->unit, motor - 1U)) {
+            run->positions[motor - 1U] = run->kind->position_steps(run->unit, motor - 1U);
+        } else {
             record_position(run, motor, run->machine.now);
         }
     }
@@ -142,9 +145,7 @@ static uint64_t run_pass(void *context)
 {
     struct run *run = context;
     uint64_t wake = run->kind->poll(run->unit);
-    if (run->recorder.active) {
-        record_positions(run);
-    }
+    take_positions(run);
     uint64_t next = run->partner.pass != NULL ? run->partner.pass(run->partner.context) : TICK_NEVER;
     uint64_t wanted = next == TICK_NEVER ? next : run->machine.epoch + next;
     return wanted < wake ? wanted : wake;

@@ -28,7 +28,7 @@ struct run {
     struct run_partner partner;
     struct recorder recorder;
     struct tally tally[UNIT_MOTORS];
-    int64_t positions[UNIT_MOTORS]; /* as recorded last */
+    int64_t positions[UNIT_MOTORS]; /* after the last pulse, or the last pass of main */
     uint64_t begin_ns;              /* real time of the beginning, as units_real_ns */
     uint64_t progress_ns;           /* of real time, from telling the progress to telling it again; 0: never */
     uint64_t told_ns;               /* real time at which it was told last */
