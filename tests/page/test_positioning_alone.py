@@ -207,6 +207,7 @@ def test_what_the_unit_and_its_table_say_is_in_the_language_of_the_page(page: Al
     expect(page.at("alarm")).to_contain_text("všechny osy stojí: 1 na")
     expect(page.answers.first).to_contain_text("všechny osy stojí: 1 na")
     page.at("connect").click()
+    expect(page.answers.first).to_contain_text("port je uzavřen")  # a hold would go before it
     page.at("hold-1").click()
     expect(page.answers.first).to_contain_text("Žádná jednotka není připojena")
     page.at("language").select_option("en")
