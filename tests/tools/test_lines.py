@@ -31,6 +31,34 @@ def test_a_master_is_spoken_to_by_the_numbers_of_its_header(
     assert [each.name for each in spoken] == names[: len(spoken)]
 
 
+def numbers_of(header: str, prefix: str) -> dict[str, int]:
+    """The enumerators of a header that count from 0, without their prefix."""
+    text = (ROOT / "tools" / header).read_text(encoding="utf-8")
+    lists = re.findall(r"enum \w+ \{(.*?)\};", text, re.DOTALL)
+    names = [re.findall(rf"^ *{prefix}(\w+),", told, re.MULTILINE) for told in lists]
+    return {name: number for told in names for number, name in enumerate(told)}
+
+
+@pytest.mark.parametrize(
+    ("script", "header", "prefix", "least"),
+    [
+        ("serial_line.ts", "master/master.h", "MASTER_", 2),
+        ("gve134/alone/wire.ts", "gve134_master/gve_master.h", "GVE_MASTER_", 9),
+        ("gve134/alone/link.ts", "gve134_master/gve_master.h", "GVE_MASTER_", 2),
+        ("positioning/alone/master.ts", "positioning_master/pos_master.h", "POS_MASTER_", 5),
+    ],
+)
+def test_a_page_speaks_to_a_master_by_the_numbers_of_its_header(
+    script: str, header: str, prefix: str, least: int
+) -> None:
+    text = (ROOT / "tools/service_page/src" / script).read_text(encoding="utf-8")
+    numbers = numbers_of(header, prefix)
+    told = dict(re.findall(r"^(?:export )?const ([A-Z_]+) = (\d+);$", text, re.MULTILINE))
+    spoken = {name: int(number) for name, number in told.items() if name in numbers}
+    assert len(spoken) >= least
+    assert spoken == {name: numbers[name] for name in spoken}
+
+
 @pytest.mark.parametrize("unit", ["rkm04", "gve134", "positioning"])
 def test_as_much_is_handed_in_as_there_is_room_for(unit: str) -> None:
     header = (ROOT / f"tools/lines/lines_{unit}.h").read_text(encoding="utf-8")
