@@ -199,6 +199,34 @@ def test_a_scan_finds_the_unit_and_nobody_else(page):
     scan(page, NODE)
 
 
+class Twice(SerialBridge):
+    """Each frame of the units comes twice."""
+
+    rest = b""
+
+    def to_page(self, data: bytes) -> bytes:
+        self.rest += data
+        if self.rest.count(b"\x7e") % 2:
+            return b""
+        whole, self.rest = self.rest, b""
+        return 2 * whole
+
+
+def test_a_scan_tells_of_two_units_with_one_address(open_page, unit):
+    bridge = Twice(unit.place)
+    try:
+        page = open_page(bridge.script)
+        connect(page)
+        scan(page, NODE)
+        found = page.locator("#found button")
+        expect(found).to_have_attribute(
+            "title", re.compile("answers twice: two units with this address")
+        )
+        expect(found).to_have_class(re.compile("danger"))
+    finally:
+        bridge.close()
+
+
 def test_a_cable_pulled_in_motion_is_told_in_the_largest_letters_and_nothing_happens_later(
     page, bridge
 ):

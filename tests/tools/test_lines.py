@@ -60,6 +60,17 @@ def test_a_page_speaks_to_a_master_by_the_numbers_of_its_header(
 
 
 @pytest.mark.parametrize("unit", ["rkm04", "gve134", "positioning"])
+def test_a_module_of_a_page_has_the_functions_that_the_page_calls(unit: str) -> None:
+    sources = (ROOT / "tools/service_page/src").rglob("*.ts")
+    text = "".join(path.read_text(encoding="utf-8") for path in sources)
+    made = (ROOT / "tools/lines/CMakeLists.txt").read_text(encoding="utf-8")
+    (exports,) = re.findall(
+        rf"^add_lines\({unit} .*?EXPORTS (.*?)\)", made, re.DOTALL | re.MULTILINE
+    )
+    assert set(re.findall(rf"lines_{unit}_(\w+)", text)) == set(exports.split())
+
+
+@pytest.mark.parametrize("unit", ["rkm04", "gve134", "positioning"])
 def test_as_much_is_handed_in_as_there_is_room_for(unit: str) -> None:
     header = (ROOT / f"tools/lines/lines_{unit}.h").read_text(encoding="utf-8")
     assert f"LINES_{unit.upper()}_HEARD_BYTES = {lines.HEARD_BYTES}" in header

@@ -11,10 +11,11 @@ interface Exports {
     lines_rkm04_ask: (
         line: number, node: number, session: number, length: number, patience_ms: number, attempts: number, now: bigint,
     ) => void;
+    lines_rkm04_scan: (line: number, node: number, patience_ms: number, attempts: number, now: bigint) => void;
+    lines_rkm04_twice: (line: number) => number;
     lines_rkm04_take: (line: number, length: number, now: bigint) => void;
     lines_rkm04_poll: (line: number, now: bigint) => number;
     lines_rkm04_hurry: (line: number, now: bigint) => void;
-    lines_rkm04_forget: (line: number, node: number) => void;
     lines_rkm04_sessions: (line: number, node: number) => number;
     lines_rkm04_out: (line: number) => number;
     lines_rkm04_take_out: (line: number) => number;
@@ -83,15 +84,19 @@ export class SerialLine implements Place {
         return performance.now() / 1000;
     }
 
-    ask(node: number, request: Bytes, { session, patience_ms, attempts }: Wait): Promise<Bytes> {
+    ask(node: number, request: Bytes, { session, patience_ms, attempts, scans }: Wait): Promise<Bytes> {
         if (this.#lost !== null) {
             return Promise.reject(this.#lost);
         }
-        const { memory, lines_rkm04_request, lines_rkm04_ask } = this.#exports;
+        const { memory, lines_rkm04_request, lines_rkm04_ask, lines_rkm04_scan } = this.#exports;
         new Uint8Array(memory.buffer, lines_rkm04_request(this.#line), request.length).set(request);
         return new Promise((take, fail) => {
             this.#waiting = { node, take, fail };
-            lines_rkm04_ask(this.#line, node, Number(session), request.length, patience_ms, attempts, this.#now);
+            if (scans) {
+                lines_rkm04_scan(this.#line, node, patience_ms, attempts, this.#now);
+            } else {
+                lines_rkm04_ask(this.#line, node, Number(session), request.length, patience_ms, attempts, this.#now);
+            }
             this.#goOn();
         });
     }
@@ -120,12 +125,12 @@ export class SerialLine implements Place {
         this.#settled()?.fail(why);
     }
 
-    sessions(node: number): number {
-        return this.#exports.lines_rkm04_sessions(this.#line, node);
+    get isTwice(): boolean {
+        return this.#exports.lines_rkm04_twice(this.#line) !== 0;
     }
 
-    forget(node: number): void {
-        this.#exports.lines_rkm04_forget(this.#line, node);
+    sessions(node: number): number {
+        return this.#exports.lines_rkm04_sessions(this.#line, node);
     }
 
     hurry(): void {

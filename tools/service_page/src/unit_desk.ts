@@ -77,7 +77,9 @@ export class UnitDesk {
             get text_bytes_max() {
                 return (desk.#place ?? virtual).text_bytes_max;
             },
-            forget: (node: number) => this.#place?.forget(node),
+            get isTwice() {
+                return desk.#place?.isTwice ?? false;
+            },
             tell: (done: number, total: number) =>
                 total > 1 && this.#tell({ type: "progress", id: this.#asked, from: 1, value: done / total }),
         };

@@ -26,6 +26,7 @@ export interface Exchange {
     answer: Bytes;
 }
 
+const TWO = "two units with this address?";
 const NOTHING: Exchange = { request: new Uint8Array(), answer: new Uint8Array() };
 
 /** What orders speak through: the unit that the desk is connected to. */
@@ -34,7 +35,7 @@ export interface Talk {
     /** A unit of another session may be another one. */
     readonly session: number;
     readonly text_bytes_max: number;
-    forget(node: number): void;
+    readonly isTwice: boolean;
     tell(done: number, total: number): void;
 }
 
@@ -299,7 +300,6 @@ export class UnitOrders {
         const found: FoundUnit[] = [];
         for (let node = 1; node <= NODES_MAX; node += 1) {
             this.#talk.tell(node - 1, NODES_MAX);
-            this.#talk.forget(node);
             const unit = await this.#lookFor(node);
             if (unit !== null) {
                 found.push(unit);
@@ -312,14 +312,15 @@ export class UnitOrders {
     async #lookFor(node: number): Promise<FoundUnit | null> {
         try {
             const answer = await this.#talk.ask(Uint8Array.of(messages.VERSION), SCANNING, node);
-            return { node, ...messages.version(answer), remark: "" };
+            const remark = this.#talk.isTwice ? `answers twice: ${TWO}` : "";
+            return { node, ...messages.version(answer), remark };
         } catch (error) {
             const kind = error instanceof Refusal ? error.trouble.kind : "";
             if (kind === "NoAnswer") {
                 return null;
             }
             if (kind === "GarbledAnswer" || kind === "WrongAnswer") {
-                return { node, version: null, date: null, remark: "damaged answers: two units with this address?" };
+                return { node, version: null, date: null, remark: `damaged answers: ${TWO}` };
             }
             throw error;
         }

@@ -8,11 +8,13 @@ export interface Wait {
     attempts: number;
     /** Whether it must not be executed twice, so that it needs a session. */
     session: boolean;
+    /** Whether a second answer is waited for. */
+    scans?: true;
 }
 
 export const USUAL: Wait = { patience_ms: 400, attempts: 4, session: true };
 export const STORING: Wait = { patience_ms: 2500, attempts: 3, session: true };
-export const SCANNING: Wait = { patience_ms: 100, attempts: 2, session: true };
+export const SCANNING: Wait = { patience_ms: 100, attempts: 2, session: true, scans: true };
 export const OPENING: Wait = { patience_ms: 400, attempts: 2, session: true };
 /** For what may be executed twice: questions, and K. */
 export const LOOKING: Wait = { patience_ms: 400, attempts: 2, session: false };
@@ -31,12 +33,12 @@ export interface Place {
     readonly now_s: number;
     /** For how long in all the time of the unit has stood; null: it is not known to. */
     readonly stood_s: number | null;
+    /** Whether the last scan has got two answers. */
+    readonly isTwice: boolean;
     /** The answer; of all units (node 0) it is empty. Fails with a LineTrouble. */
     ask(node: number, request: Bytes, wait: Wait): Promise<Bytes>;
     /** How many sessions were begun with a node: after another one it may be another unit. */
     sessions(node: number): number;
-    /** The next request to a node begins a session. */
-    forget(node: number): void;
     /** Something else waits: what is under way is not repeated any more. */
     hurry(): void;
     setInput(input: number, level: 0 | 1): void;

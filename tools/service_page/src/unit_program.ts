@@ -24,6 +24,7 @@ const seconds = (time_ns: bigint): number => Number(time_ns) / 1e9;
 export class UnitProgram implements Place {
     readonly port = VIRTUAL;
     readonly isVirtual = true;
+    readonly isTwice = false;
     readonly text_bytes_max = TEXT_BYTES_MAX;
     readonly #exports: Exports;
     readonly #unit: number;
@@ -65,8 +66,6 @@ export class UnitProgram implements Place {
     sessions(): number {
         return 0;
     }
-
-    forget(): void {}
 
     hurry(): void {}
 }
