@@ -212,19 +212,20 @@ class Twice(SerialBridge):
         return 2 * whole
 
 
-def test_a_scan_tells_of_two_units_with_one_address(open_page, unit):
+def test_a_scan_tells_of_two_units_with_one_address(open_page, tmp_path):
+    unit = Served("--tcp", "0", "--node", str(NODE), cwd=tmp_path)
     bridge = Twice(unit.place)
     try:
         page = open_page(bridge.script)
         connect(page)
         scan(page, NODE)
         found = page.locator("#found button")
-        expect(found).to_have_attribute(
-            "title", re.compile("answers twice: two units with this address")
-        )
+        told = re.compile("answers twice: two units with this address")
+        expect(found).to_have_attribute("title", told)
         expect(found).to_have_class(re.compile("danger"))
     finally:
         bridge.close()
+        unit.end()
 
 
 def test_a_cable_pulled_in_motion_is_told_in_the_largest_letters_and_nothing_happens_later(
