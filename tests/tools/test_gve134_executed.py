@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rkm04_tools.bar import Bar
 from rkm04_tools.gve134.client_send import Progress
-from rkm04_tools.gve134.executed import Executed, is_on
+from rkm04_tools.gve134.executed import Executed
 from rkm04_tools.gve134.job import Command, Job, job_of
 from rkm04_tools.gve134.link import Link
 from rkm04_tools.gve134.sending import Interrupted, Sender
@@ -83,15 +83,6 @@ def test_on_a_path_that_never_comes_back_the_number_is_right(path: list[tuple[in
         if middle[0] and between != place:
             assert executed.look(told(between)) == number
         assert executed.look(told(place)) == number + 1
-
-
-def test_a_place_is_on_a_vector_only_as_the_pulses_are_made() -> None:
-    assert is_on((4, 2, 0, -1), (3, 1, 0, 0))
-    assert not is_on((4, 2, 0, -1), (3, 2, 0, 0))
-    assert not is_on((4, 2, 0, -1), (3, 1, 0, -1))
-    assert not is_on((4, 2, 0, -1), (3, 1, 1, 0))
-    assert not is_on((4, 2, 0, -1), (5, 2, 0, -1))
-    assert is_on((4, 2, 0, -1), (4, 2, 0, -1))
 
 
 def test_what_the_queue_cannot_hold_is_executed() -> None:

@@ -3,7 +3,6 @@
 #include <assert.h>
 #include <string.h>
 
-#include "gve_command.h"
 #include "gve_float.h"
 
 enum {
@@ -86,9 +85,14 @@ void gve_reply_put_command(struct text *out, const uint8_t *text, uint32_t lengt
     text_put_byte(out, '\r');
 }
 
+struct gve_reading gve_reply_reading(const uint8_t *text, uint32_t length)
+{
+    return reading_of(addressed(text, length));
+}
+
 unsigned gve_reply_opcode(const uint8_t *text, uint32_t length)
 {
-    return reading_of(addressed(text, length)).command.opcode;
+    return gve_reply_reading(text, length).command.opcode;
 }
 
 enum gve_values gve_reply_values(unsigned opcode)

@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 #include "base_text.h"
-#include "gve_table.h"
+#include "gve_command.h"
 
 enum {
     GVE_REPLY_LINE_BYTES_MAX = 127, /* what comes; what is longer is damage */
@@ -49,7 +49,8 @@ struct gve_reply_form {
  * their four numbers, as a checksum is then never taken for one of them. */
 void gve_reply_put_command(struct text *out, const uint8_t *text, uint32_t length, bool sums);
 
-/* The opcode of a command as files have it; GVE_OPCODES: there is no such command. */
+/* A command as files have it; and its opcode, GVE_OPCODES: there is no such command. */
+struct gve_reading gve_reply_reading(const uint8_t *text, uint32_t length);
 unsigned gve_reply_opcode(const uint8_t *text, uint32_t length);
 
 /* What the answer to an opcode looks like where it is done. */

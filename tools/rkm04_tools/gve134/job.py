@@ -43,6 +43,11 @@ class Command:
         """Whether it is C or B."""
         return self.letter in ("C", "B")
 
+    @property
+    def steps(self) -> tuple[int, ...]:
+        """What a vector has on each axis."""
+        return tuple(map(int, self.text[1:].split(",")))
+
 
 @dataclass(frozen=True)
 class Job:

@@ -22,7 +22,7 @@ from dataclasses import dataclass, field
 from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.gve134 import answers
 from rkm04_tools.gve134.answers import SWITCH_NOT_FOUND, Answer, encoded
-from rkm04_tools.gve134.executed import Executed, Steps, steps_of
+from rkm04_tools.gve134.executed import Executed
 from rkm04_tools.gve134.gcode.directives import Pause, Probe, Wait
 from rkm04_tools.gve134.job import Asked, Command, Job
 from rkm04_tools.gve134.known import Known
@@ -82,7 +82,7 @@ class Sender:
     _under_way: list[Command] = field(default_factory=list)
     _waits: int = 0
     _probes_from: Positions | None = None
-    _probed: Steps = (0, 0, 0, 0)
+    _probed: tuple[int, ...] = (0, 0, 0, 0)
     """The vector that probes."""
     _commands: Iterator[Command] | None = None
     _pending: deque[Command] = field(default_factory=deque)
@@ -129,7 +129,7 @@ class Sender:
             require_stands(flags)
         self.executed = Executed(self.unit.positions())
         if flags.bits & (INTA | RUN):
-            self.executed.done = None
+            self.executed.lose()
         if self.inta and first is not None and first.letter not in BEGINS_ANEW:
             raise Failure(f"the unit is {flags.text}; nothing was sent", NOT_SO)
         return iter(self.job)
@@ -199,7 +199,7 @@ class Sender:
         if command.letter == "L" and self._is_probe_next():
             self._wait_until_stands()
             self._probes_from = self.unit.positions()
-            self._probed = steps_of(command)
+            self._probed = command.steps
         while True:
             answer = self._packet(whole) if command.text == "*S" else self._ask(command)
             is_cut_off = command.letter == "W" and answer.inta

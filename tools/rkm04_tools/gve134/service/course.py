@@ -51,7 +51,7 @@ def course_of(job: Job, is_gcode: bool) -> Course:
     absolute: list[int | None] = [None] * len(AXES)
     for command in job:
         if command.is_vector:
-            part = [int(each) for each in command.text[1:].split(",")]
+            part = list(command.steps)
             if any(part):
                 parts.append(part)
                 begins.append(list(at))

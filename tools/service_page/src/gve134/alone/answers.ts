@@ -6,6 +6,8 @@ export const BOUNDS = 5;
 export const NOTHING_TO_GO_ON = 6;
 export const NOT_WHILE_MOVING = 7;
 const INTA_BIT = 8;
+/** GVE_WIRE_TEXT_BYTES */
+const TEXT_BYTES_MAX = 6400;
 const WORDS = [
     "done",
     "no room for the vector",
@@ -52,4 +54,10 @@ export function canonical(command: string): string {
     }
     const parts = [match[2] ?? "0", ...(match[3] ?? "").split(",").slice(1)];
     return (match[1] ?? "") + [0, 1, 2, 3].map((axis) => parts[axis] ?? "0").join(",");
+}
+
+/** Commands as the module gve134-unit has them; null: it has no room for so many. */
+export function bytesOf(commands: string[]): Uint8Array | null {
+    const text = Uint8Array.from(commands.join("\n"), (letter) => letter.charCodeAt(0));
+    return text.length > TEXT_BYTES_MAX ? null : text;
 }

@@ -1,116 +1,68 @@
-import { isVector, stepsOf, type Command } from "./job_text";
+import { bytesOf } from "./answers";
+import type { Command } from "./job_text";
 import type { Positions } from "./told";
 
-/** Of the queue; a vector without a way takes none. */
-const PLACES = 128;
-/** What drops vectors, or puts others in their place. */
-const LOSES_TRACK = ["D", "K", "R", "J", "!7J"];
-const AXES = "XYZA";
+/** GVE_EXECUTED_UNKNOWN, as numbers of WebAssembly have it. */
+const UNKNOWN = -1;
 
-/** Which of the vectors that the unit has taken are over, by where the axes are. */
+/** What the module gve134-unit exports of a job; see tools/lines/lines_gve134_executed.h. */
+export interface ExecutedExports {
+    memory: WebAssembly.Memory;
+    lines_gve134_executed_begin: () => number;
+    lines_gve134_executed_request: (line: number) => number;
+    lines_gve134_executed_start: (line: number, x: number, y: number, z: number, a: number) => void;
+    lines_gve134_executed_lose: (line: number) => void;
+    lines_gve134_executed_take: (line: number, length: number) => void;
+    lines_gve134_executed_stand: (line: number, x: number, y: number, z: number, a: number) => void;
+    lines_gve134_executed_look: (line: number, length: number, x: number, y: number, z: number, a: number) => number;
+    lines_gve134_executed_place: (line: number) => number;
+}
+
+/** Which of the vectors that the unit has taken are over, by where the axes are: tools/gve134_job/gve_executed.h. */
 export class Executed {
-    /** So many are over; null: it is not known any more. */
-    done: number | null = 0;
-    /** Where the first vector begins that is not over. */
-    place: Positions;
-    readonly #waiting: number[][] = [];
-    /** Pulses of all axes that were seen of the first of them. */
-    #gone = 0;
-    #places = 0;
-    /** The axes that the job has moved; of a coupled A the positions are those of another. */
-    readonly #moved = [false, false, false, false];
+    readonly #exports: ExecutedExports;
+    readonly #line: number;
 
-    /** `place`: where the first vector begins. */
-    constructor(place: Positions) {
-        this.place = [...place];
+    constructor(exports: ExecutedExports) {
+        this.#exports = exports;
+        this.#line = exports.lines_gve134_executed_begin();
+    }
+
+    /** A job begins; `place`: where its first vector does. */
+    start([x = 0, y = 0, z = 0, a = 0]: Positions): void {
+        this.#exports.lines_gve134_executed_start(this.#line, x, y, z, a);
+    }
+
+    /** From now on the number is not known. */
+    lose(): void {
+        this.#exports.lines_gve134_executed_lose(this.#line);
     }
 
     /** The unit has taken these. */
     taken(commands: Command[]): void {
-        for (const command of commands) {
-            if (isVector(command)) {
-                if (command.letter === "L") {
-                    this.#pass(this.#waiting.length);
-                }
-                this.#append(stepsOf(command));
-            } else if (command.letter === "N") {
-                this.#countAnew(command.text.slice(1));
-            } else if (command.letter === "W" || LOSES_TRACK.includes(command.text)) {
-                this.done = null;
-            }
-        }
+        this.#exports.lines_gve134_executed_take(this.#line, this.#put(commands));
     }
 
     /** All that was taken is over, and the axes stand there. */
-    stood(place: Positions): void {
-        this.#pass(this.#waiting.length);
-        this.place = [...place];
+    stood([x = 0, y = 0, z = 0, a = 0]: Positions): void {
+        this.#exports.lines_gve134_executed_stand(this.#line, x, y, z, a);
     }
 
-    /** How many are over when the axes are there; `perhaps` these were taken, too. */
-    look(place: Positions, perhaps: Command[]): number | null {
-        let at = this.place;
-        const known = this.#waiting.length;
-        const ahead = [...this.#waiting, ...perhaps.filter(isVector).map(stepsOf)];
-        for (const [number, steps] of ahead.entries()) {
-            const ways = at.map((from, axis) => (this.#moved[axis] === true ? ((place[axis] ?? 0) - from) | 0 : 0));
-            const gone = ways.reduce((sum, way) => sum + Math.abs(way), 0);
-            if (isOn(steps, ways) && (number > 0 || gone >= this.#gone)) {
-                const over = number + (ways.every((way, axis) => way === steps[axis]) ? 1 : 0);
-                this.#pass(Math.min(over, known));
-                this.#gone = over === number && number < known ? gone : 0;
-                return this.done === null ? null : this.done + Math.max(0, over - known);
-            }
-            at = at.map((from, axis) => from + (steps[axis] ?? 0));
-        }
-        return this.done;
+    /** How many are over when the axes are there; `perhaps` these were taken, too. Null: it is not known. */
+    look([x = 0, y = 0, z = 0, a = 0]: Positions, perhaps: Command[]): number | null {
+        const over = this.#exports.lines_gve134_executed_look(this.#line, this.#put(perhaps), x, y, z, a);
+        return over === UNKNOWN ? null : over;
     }
 
-    #append(steps: number[]): void {
-        this.#waiting.push(steps);
-        this.#places += steps.some((each) => each !== 0) ? 1 : 0;
-        steps.forEach((each, axis) => (this.#moved[axis] ||= each !== 0));
-        while (this.#places > PLACES) {
-            this.#pass(1);
-        }
+    /** Where the first vector begins that is not over. */
+    get place(): Positions {
+        return [...new Int32Array(this.#exports.memory.buffer, this.#exports.lines_gve134_executed_place(this.#line), 4)];
     }
 
-    #pass(count: number): void {
-        this.#gone = count > 0 ? 0 : this.#gone;
-        for (const steps of this.#waiting.splice(0, count)) {
-            this.#places -= steps.some((each) => each !== 0) ? 1 : 0;
-            this.place = this.place.map((from, axis) => from + (steps[axis] ?? 0));
-            this.done = this.done === null ? null : this.done + 1;
-        }
-    }
-
-    #countAnew(parameters: string): void {
-        this.#pass(this.#waiting.length);
-        const axis = AXES.indexOf(parameters[0] ?? " ");
-        const written = Number(parameters.slice(1).replace(/^,/, ""));
-        this.place = this.place.map((at, each) => (parameters === "" ? 0 : each === axis ? written : at));
+    /** The length of their text; what the line has no room for is never under way. */
+    #put(commands: Command[]): number {
+        const bytes = bytesOf(commands.map(({ text }) => text)) ?? new Uint8Array();
+        new Uint8Array(this.#exports.memory.buffer, this.#exports.lines_gve134_executed_request(this.#line)).set(bytes);
+        return bytes.length;
     }
 }
-
-/**
- * Whether the axes come by a place on a vector, given from where that begins: axis j makes its pulse k when the path has
- * come to the part k / |d_j| of the vector. Parts are compared as whole numbers, as those of long vectors lie close.
- */
-function isOn(steps: number[], ways: number[]): boolean {
-    let begin: [bigint, bigint] = [0n, 1n];
-    let end: [bigint, bigint] = [2n, 1n];
-    for (const [axis, step] of steps.entries()) {
-        const way = ways[axis] ?? 0;
-        if (Math.sign(step) * Math.sign(way) < 0 || Math.abs(way) > Math.abs(step)) {
-            return false;
-        }
-        if (step !== 0) {
-            const [from, whole] = [BigInt(Math.abs(way)), BigInt(Math.abs(step))];
-            begin = isLess(begin, [from, whole]) ? [from, whole] : begin;
-            end = isLess([from + 1n, whole], end) ? [from + 1n, whole] : end;
-        }
-    }
-    return isLess(begin, end);
-}
-
-const isLess = ([a, b]: [bigint, bigint], [c, d]: [bigint, bigint]): boolean => a * d < c * b;

@@ -1,6 +1,6 @@
 import { LineTrouble, Refusal } from "../../unit_place";
 import { BOUNDS, DONE, NOT_WHILE_MOVING, NO_ROOM, answerWords, type Answer } from "./answers";
-import { Executed } from "./executed";
+import type { Executed } from "./executed";
 import { goesInPackets, isVector, stepsOf, type Asked, type Command } from "./job_text";
 import { Refused, type UnitLink } from "./link";
 import { INTA, INTCOM, RUN, causesOf, flagsText, positionsText, type Positions } from "./told";
@@ -97,7 +97,7 @@ export class Sender {
 
     /** How many vectors are over, by where the axes are; null: it is not known. */
     look(positions: Positions): number | null {
-        return this.executed === null || this.executed.done === null ? null : this.executed.look(positions, this.#underWay);
+        return this.executed?.look(positions, this.#underWay) ?? null;
     }
 
     /** The command so many places ahead of the next one; null: there are not so many. */
@@ -126,10 +126,12 @@ export class Sender {
     async #begin(): Promise<void> {
         const flags = await this.#link.flags();
         this.#inta = (flags & INTA) !== 0;
-        this.executed = new Executed(await this.#link.positions());
+        const { executed } = this.#link.wire;
+        executed.start(await this.#link.positions());
         if (flags & (INTA | RUN)) {
-            this.executed.done = null;
+            executed.lose();
         }
+        this.executed = executed;
         const first = this.#ahead(0);
         if (this.#inta && first !== null && !BEGINS_ANEW.includes(first.letter)) {
             throw new Refusal(`the unit is ${flagsText(flags)}`, "nothing was sent");

@@ -1,10 +1,10 @@
 import type { Bytes } from "../../program_host";
 import { instantiated, ns } from "../../unit_module";
 import { Refusal } from "../../unit_place";
-import { answerOf, type Answer } from "./answers";
+import { answerOf, bytesOf, type Answer } from "./answers";
+import { Executed, type ExecutedExports } from "./executed";
 
-/** GVE_WIRE_TEXT_BYTES, LINES_GVE134_HEARD_BYTES */
-const TEXT_BYTES_MAX = 6400;
+/** LINES_GVE134_HEARD_BYTES */
 const HEARD_BYTES = 4096;
 
 /** What is asked for: enum gve_master_kind of tools/gve134_master/gve_master.h. */
@@ -21,8 +21,7 @@ const WAITS = 0;
 export const ANSWERED = 1;
 
 /** What the module gve134-unit exports of a line; see tools/lines/lines_gve134.h. */
-interface Exports {
-    memory: WebAssembly.Memory;
+interface Exports extends ExecutedExports {
     lines_gve134_begin: (baud: number, sums: number) => number;
     lines_gve134_request: (line: number) => number;
     lines_gve134_heard: (line: number) => number;
@@ -53,6 +52,8 @@ export interface BytePort {
 /** A line with a unit: the master of tools/gve134_master, and the bytes of a port. */
 export class Wire {
     readonly port: BytePort;
+    /** Of the job that was begun last. */
+    readonly executed: Executed;
     /** Looked at again and again while something is waited for; may throw what ends that. */
     look: () => void = () => undefined;
     /** Told of every request: what is sent, and the answer if any came. */
@@ -69,6 +70,7 @@ export class Wire {
         if (this.#line === 0) {
             throw new Error("there is not memory enough for the line");
         }
+        this.executed = new Executed(this.#exports);
     }
 
     /** The unit's answer to ?. */
@@ -111,8 +113,8 @@ export class Wire {
     /** How a request has ended. `wait_ms`: for the axes to stand. */
     async ask(kind: number, commands: string[], wait_ms = 0): Promise<number> {
         const { memory, lines_gve134_request, lines_gve134_ask, lines_gve134_forget } = this.#exports;
-        const text = Uint8Array.from(commands.join("\n"), (letter) => letter.charCodeAt(0));
-        if (text.length > TEXT_BYTES_MAX) {
+        const text = bytesOf(commands);
+        if (text === null) {
             throw new Refusal(`${commands.length} commands are too many for a packet`, "nothing was sent");
         }
         new Uint8Array(memory.buffer, lines_gve134_request(this.#line), text.length).set(text);
