@@ -335,6 +335,20 @@ def test_a_unit_that_restarts_or_falls_silent_in_a_job_is_told_loudly(lined: Lin
         line.close()
 
 
+def test_a_unit_that_restarts_at_an_h_of_the_file_gets_nothing_more(lined: Lined) -> None:
+    unit = FakeGve(restarts_at="H")
+    line = FakeGveLine(unit)
+    try:
+        page, _ = lined(SerialBridge(line.port))
+        page.open("halts.gve", "C5\nH\nD\nC7\n")
+        page.at("start").click()
+        expect(page.at("loud")).to_contain_text("THE UNIT HAS RESTARTED")
+        expect(page.at("job-words")).to_contain_text("halts.gve has ended")
+        assert unit.taken == [(5, 0, 0, 0)]
+    finally:
+        line.close()
+
+
 def connect_again(page: GvePage) -> None:
     expect(page.at("connect")).to_have_text("Connect")
     page.at("connect").click()

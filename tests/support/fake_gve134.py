@@ -77,6 +77,8 @@ class FakeGve:
     """Used up one by one, one for each answer."""
     restart_after: int = -1
     """Restarts by itself when so many further commands were executed."""
+    restarts_at: str = ""
+    """Restarts by itself, once, instead of executing this."""
     mute: bool = False
     now: float = 0.0
     out: bytearray = field(default_factory=bytearray)
@@ -214,8 +216,8 @@ class FakeGve:
                 return
             self._send(b"0,%d" % self.index if body == "@" else b"", apart=True)
             return
-        if self.restart_after == 0:
-            self.restart_after = -1
+        if self.restart_after == 0 or body == self.restarts_at:
+            self.restart_after, self.restarts_at = -1, ""
             self.restart()
             return
         self.restart_after -= 1

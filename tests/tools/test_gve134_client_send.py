@@ -307,6 +307,14 @@ def test_a_unit_that_restarts_ends_the_job() -> None:
     assert len(unit.taken) < 300
 
 
+def test_a_unit_that_restarts_at_an_h_of_the_file_ends_the_job() -> None:
+    unit = FakeGve(restarts_at="H")
+
+    with pytest.raises(Restarted, match="nothing was sent after it"):
+        send(unit, "C5\nH\nD\nC7\n")
+    assert unit.taken == [(5, 0, 0, 0)]
+
+
 @pytest.mark.parametrize("by_fault", [False, True])
 def test_a_unit_that_restarts_when_all_is_sent_is_told(by_fault: bool) -> None:
     unit = FakeGve(vector_s=1.0)

@@ -26,7 +26,7 @@ from rkm04_tools.gve134.executed import Executed
 from rkm04_tools.gve134.gcode.directives import Pause, Probe, Wait
 from rkm04_tools.gve134.job import Asked, Command, Job
 from rkm04_tools.gve134.known import Known
-from rkm04_tools.gve134.link_errors import Refused
+from rkm04_tools.gve134.link_errors import Refused, Restarted
 from rkm04_tools.gve134.probing import BEFORE, HALTED, UNTOUCHED, WORDS
 from rkm04_tools.gve134.state import INTA, INTCOM, RUN, Flags, Positions, named, positions_text
 from rkm04_tools.gve134.unit import POLL_SECONDS, Unit
@@ -233,7 +233,8 @@ class Sender:
         if command.letter == "W":
             return self.unit.link.ask_long(command.text, LONG_SECONDS)
         if command.text == "H":
-            self.unit.halt()
+            if self.unit.halt().restarted:
+                raise Restarted(self.unit.link.name, executed=False)
             self.inta = True
             return Answer(answers.DONE, inta=True)
         if command.text in ("J", "!7J"):

@@ -78,7 +78,7 @@ export class UnitLink {
         return this.wire.version;
     }
 
-    get #name(): string {
+    get name(): string {
         return this.wire.port.isVirtual ? "the virtual unit" : this.wire.port.name;
     }
 
@@ -140,7 +140,7 @@ export class UnitLink {
         const { restarted } = this.wire;
         const flags = await this.flags();
         if (!stands(flags)) {
-            throw new NotConfirmed(`${this.#name}: the unit tells that it is ${flagsText(flags)}`);
+            throw new NotConfirmed(`${this.name}: the unit tells that it is ${flagsText(flags)}`);
         }
         return { flags, positions: await this.positions(), restarted };
     }
@@ -171,11 +171,11 @@ export class UnitLink {
         if (end === NOT_CONFIRMED) {
             const silent = `H has no answer in ${HALT_MS / 1000} s`;
             const what = kind === HALT ? silent : "no answer for a long time, and it is NOT KNOWN whether the axes move";
-            throw new NotConfirmed(`${this.#name}: ${what}`);
+            throw new NotConfirmed(`${this.name}: ${what}`);
         }
         const isPacket = kind === PACKET || kind === PACKET_ONCE;
         const command = isPacket ? `*E${commands.length}` : (commands[0] ?? "");
-        const trouble = TROUBLES[end]?.(this.#name, { command, other: this.wire.other.slice(0, OTHER_CHARACTERS_MAX) });
+        const trouble = TROUBLES[end]?.(this.name, { command, other: this.wire.other.slice(0, OTHER_CHARACTERS_MAX) });
         throw trouble ?? new Error(`the line has ended a request by ${end}`);
     }
 }

@@ -2,7 +2,7 @@ import { LineTrouble, Refusal } from "../../unit_place";
 import { BOUNDS, DONE, NOT_WHILE_MOVING, NO_ROOM, answerWords, type Answer } from "./answers";
 import type { Executed } from "./executed";
 import { goesInPackets, isVector, stepsOf, type Asked, type Command } from "./job_text";
-import { Refused, type UnitLink } from "./link";
+import { Refused, Restarted, type UnitLink } from "./link";
 import { INTA, INTCOM, RUN, causesOf, flagsText, positionsText, type Positions } from "./told";
 
 const PACKET_COMMANDS_MAX = 64;
@@ -244,7 +244,9 @@ export class Sender {
             return this.#link.askLong(command.text, LONG_MS);
         }
         if (command.text === "H") {
-            await this.#link.halt();
+            if ((await this.#link.halt()).restarted) {
+                throw new Restarted(this.#link.name, false);
+            }
             this.#inta = true;
             return { code: DONE, inta: true, values: "" };
         }
