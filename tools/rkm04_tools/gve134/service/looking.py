@@ -34,9 +34,12 @@ class Looks:
     _before: tuple[float, Positions] | None = None
 
     def look(self, unit: Unit, with_inputs: bool = True) -> dict[str, Any]:
-        """Ask for positions and state, and less often for what seldom changes."""
-        positions, now = unit.positions(), time.monotonic()
+        """Ask for state and positions, and less often for what seldom changes.
+
+        In this order, so that axes which stand by their flags are at these positions.
+        """
         flags = Flags(int(unit.order("F").values, 16))
+        positions, now = unit.positions(), time.monotonic()
         if with_inputs or self._inputs is None:
             bits = [int(unit.order(port).values, 16) for port in ("I1", "I2")]
             self._inputs = [(bits[0] | bits[1] << 8) >> n & 1 for n in INTERRUPTS]

@@ -80,7 +80,8 @@ class Work:
         if at is None:
             return {"at": None, "line": None, "level": None, "sent": taken, "left_s": None}
         left = float(np.sum(file.seconds[at:])) / (factor or 1.0)
-        line = int(file.course.lines[at]) if at < taken or not flags.stands else None
+        runs = at < len(file.course) and (at < taken or not flags.stands)
+        line = int(file.course.lines[at]) if runs else None
         return {
             "at": at,
             "line": line,

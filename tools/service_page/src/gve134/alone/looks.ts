@@ -30,11 +30,14 @@ export class Looks {
     #seldom_due_ms = 0;
     #before: { at_s: number; positions: Positions } | null = null;
 
-    /** Asks for positions and state, and less often for what seldom changes. */
+    /**
+     * Asks for state and positions, and less often for what seldom changes. In this order, so that axes which stand by
+     * their flags are at these positions.
+     */
     async look(link: UnitLink, isWithInputs: boolean): Promise<Seen> {
+        const flags = await link.byte("F");
         const positions = await link.positions();
         const now_ms = performance.now();
-        const flags = await link.byte("F");
         if (isWithInputs || this.#inputs === null) {
             const bits = (await link.byte("I1")) | ((await link.byte("I2")) << 8);
             this.#inputs = INTERRUPTS.map(([number]) => (bits >> number) & 1);
