@@ -17,7 +17,7 @@ ESBUILD = PACKAGES / "esbuild" / "lib" / "main.js"
 
 
 def ask_source(
-    source: str, asked: Sequence[Sequence[Any]], names: Mapping[str, Any] | None = None
+    source: str | Path, asked: Sequence[Sequence[Any]], names: Mapping[str, Any] | None = None
 ) -> list[Any]:
     """What functions of a file return; bytes go as hex, and `names` follows the arguments."""
     coded = [

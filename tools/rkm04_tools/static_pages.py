@@ -38,15 +38,15 @@ def _script(path: Path) -> dict[str, str]:
 
 PAGES = (
     StaticPage(
-        "index.html", "page", "engine.js",
+        "index.html", "page", "engine.js", "told_rkm04.json",
         {"program": "rkm04-host.wasm", "unit": "rkm04-unit.wasm"}, _of_rkm04,
     ),
     StaticPage(
-        "gve134.html", "gve134", "gve134_unit.js",
+        "gve134.html", "gve134", "gve134_unit.js", "told_gve134.json",
         {"program": "gve134-host.wasm", "unit": "gve134-unit.wasm"}, gve134.brought,
     ),
     StaticPage(
-        "positioning.html", "positioning", "positioning_unit.js",
+        "positioning.html", "positioning", "positioning_unit.js", "told_positioning.json",
         {"program": "positioning-host.wasm", "unit": "positioning-unit.wasm"}, _of_positioning,
     ),
 )  # fmt: skip

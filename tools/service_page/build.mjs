@@ -1,22 +1,26 @@
 // Bundles the page into the directory $RKM04_SERVICE_OUT: index.html, page.js, page.css, engine.js (the
 // worker of a page without a service) of RKM04, gve134.html and positioning.html with a script
-// and a style each, file_words.js, which these two load when they need it, gve134_unit.js and positioning_unit.js
-// (likewise workers), and icon.svg, nothing else.
+// and a style each, file_words.js, which these two load when they need it, and told_*.json, which all do, gve134_unit.js
+// and positioning_unit.js (likewise workers), and icon.svg, nothing else.
 import Ajv from "ajv/dist/2020.js";
 import standaloneCode from "ajv/dist/standalone/index.js";
 import { build } from "esbuild";
-import { copyFile, mkdir, readFile } from "node:fs/promises";
+import { copyFile, mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { helpPages } from "./help_pages.mjs";
 import { registerTable } from "./register_table.mjs";
 
 const out = process.env.RKM04_SERVICE_OUT ?? "../../build/service";
 
-/** The schema of machine files as code: the page may not make code of a text itself. */
+/** What a schema says to people. */
+const withoutWords = (name, value) => (name === "description" && typeof value === "string" ? undefined : value);
+
+/** The schema of machine files as code, without what nobody reads: the page may not make code of a text itself. */
 async function machineRules() {
-    const ajv = new Ajv({ allErrors: true, verbose: true, code: { source: true, esm: true } });
-    const schema = JSON.parse(await readFile("src/machine.schema.json", "utf8"));
-    return { contents: standaloneCode(ajv, ajv.compile(schema)), resolveDir: process.cwd() };
+    const ajv = new Ajv({ allErrors: true, messages: false, code: { source: true, esm: true } });
+    const schema = JSON.parse(await readFile("src/machine.schema.json", "utf8"), withoutWords);
+    const code = standaloneCode(ajv, ajv.compile(schema));
+    return { contents: code.replace(/schemaPath:"[^"]*",/g, ""), resolveDir: process.cwd() };
 }
 
 const rules = {
@@ -65,6 +69,15 @@ await build({
     legalComments: "eof",
     logLevel: "warning",
 });
+/** What units say, in Czech: tables, of which a page without a service has its part (told/NAME.ts). */
+async function writeTold(name) {
+    const entryPoints = [`src/told/${name}.ts`];
+    const { outputFiles } = await build({ entryPoints, bundle: true, write: false, format: "esm", charset: "utf8" });
+    const { ALONE, SERVICE } = await import(`data:text/javascript,${encodeURIComponent(outputFiles[0].text)}`);
+    await writeFile(join(out, `told_${name}.json`), JSON.stringify({ alone: ALONE, service: SERVICE }));
+}
+
+await Promise.all(["rkm04", "gve134", "positioning"].map(writeTold));
 for (const name of ["index.html", "gve134.html", "positioning.html", "icon.svg"]) {
     await copyFile(name, join(out, name));
 }

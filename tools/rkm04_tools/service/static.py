@@ -25,13 +25,15 @@ INDENT = re.compile("^ +", re.MULTILINE)
 class StaticPage:
     """A page that is written as one file.
 
-    `script` names its script and style, `worker` the script of its worker. `programs` are those
+    `script` names its script and style, `worker` the script of its worker, `words` the file of
+    what that says in other languages. `programs` are those
     for WebAssembly, each under the name by which the page finds it, and so is what `more` returns.
     """
 
     name: str
     script: str
     worker: str
+    words: str
     programs: Mapping[str, str]
     more: Callable[[], dict[str, Any]]
 
@@ -65,7 +67,8 @@ def write(folder: Path, pages: Sequence[StaticPage], shown: str) -> int:
 
 def _needed(pages: Sequence[StaticPage], source: Path, wasm: Path) -> list[Path]:
     programs = [wasm / name for page in pages for name in page.programs.values()]
-    return [*(source / page.worker for page in pages), *programs]
+    brought = [source / name for page in pages for name in (page.worker, page.words)]
+    return [*brought, *programs]
 
 
 def _put(place: Path, text: str) -> None:
@@ -85,6 +88,7 @@ def _whole(page: StaticPage, pages: Sequence[StaticPage], source: Path, wasm: Pa
     brought = {
         **{key: _packed(wasm / name) for key, name in page.programs.items()},
         "worker": (source / page.worker).read_text(encoding="utf-8"),
+        "words": json.loads((source / page.words).read_text(encoding="utf-8"))["alone"],
         **page.more(),
     }
     icon = base64.b64encode((source / "icon.svg").read_bytes()).decode("ascii")
@@ -94,7 +98,7 @@ def _whole(page: StaticPage, pages: Sequence[StaticPage], source: Path, wasm: Pa
     parts = {
         f'<link rel="stylesheet" href="/static/{page.script}.css">': _element("style", style),
         f'<script type="module" src="/static/{page.script}.js"></script>': _element(
-            'script type="application/json" id="alone"', json.dumps(brought)
+            'script type="application/json" id="alone"', json.dumps(brought, ensure_ascii=False)
         )
         + _element('script type="module"', script),
         "/static/icon.svg": f"data:image/svg+xml;base64,{icon}",

@@ -1,3 +1,4 @@
+import { told } from "./common/told";
 import { isKey, numberText, t } from "./i18n";
 import type { Answer, FoundUnit } from "./protocol";
 import { troubleText } from "./trouble";
@@ -16,17 +17,17 @@ function perMotor(
 function sent(values: Values): string {
     const words = { commands: numberText(values.commands ?? 0), messages: numberText(values.messages ?? 1) };
     const overflow = values.overflow ? [t("answer.overflow")] : [];
-    return [t("answer.send", words), ...overflow, ...(values.notes ?? [])].join("; ");
+    return [t("answer.send", words), ...overflow, ...(values.notes ?? []).map(told)].join("; ");
 }
 
 function sentToAll(commands: Record<string, number>, values: Values): string {
     const overflow = values.overflow ? [t("answer.overflow")] : [];
     const start = t(values.together ? "answer.together" : "answer.apart");
-    return [perMotor(commands, "answer.sendAll"), start, ...overflow, ...(values.notes ?? [])].join("; ");
+    return [perMotor(commands, "answer.sendAll"), start, ...overflow, ...(values.notes ?? []).map(told)].join("; ");
 }
 
 function foundWords(found: FoundUnit[]): string {
-    const units = found.map(({ node, version, remark }) => `${node} (${[version, remark].filter(Boolean).join(", ")})`);
+    const units = found.map(({ node, version, remark }) => `${node} (${[version, told(remark)].filter(Boolean).join(", ")})`);
     return units.length > 0 ? t("answer.found", { units: units.join(", ") }) : t("scan.none");
 }
 
@@ -74,5 +75,5 @@ export function answerWords(answer: Answer): string {
     const words = answer.values ? valueWords(answer.message, answer.values) : null;
     const fixed = `answer.${answer.message}.done`;
     const nobody = answer.values?.everywhere ? `${t("answer.everywhere")} ` : "";
-    return nobody + (words ?? (isKey(fixed) ? t(fixed) : (answer.text ?? t("log.done"))));
+    return nobody + (words ?? (isKey(fixed) ? t(fixed) : told(answer.text ?? t("log.done"))));
 }

@@ -306,18 +306,4 @@ export const cs: Dictionary = {
     "answer.reset.done": "reset, paměť programu je prázdná",
     "answer.disconnect.done": "port je uzavřen",
 
-    "trouble.PortMissing": "Port neexistuje, nebo na něm nikdo není. Zkontrolujte kabel a zvolte jiný port.",
-    "trouble.PortForbidden": "K portu nemáte oprávnění.",
-    "trouble.PortBusy": "Port používá jiný program. Ukončete jej.",
-    "trouble.PortLost": "Port zmizel za provozu. Zkontrolujte kabel a připojte se znovu.",
-    "trouble.NoAnswer": "Jednotka neodpovídá. Zkontrolujte napájení, linku a DNode (přepínač S1).",
-    "trouble.GarbledAnswer": "Odpověď byla poškozená. Zkontrolujte linku a zda nemají dvě jednotky stejné DNode.",
-    "trouble.UnitRestarted": "Jednotka byla restartována a povel neprovedla znovu. Zkontrolujte její stav, než povel zopakujete.",
-    "trouble.UnitRefused": "Jednotka povel odmítla.",
-    "trouble.WrongAnswer": "Odpověď není od jednotky RKM04. Není na lince jiný přístroj nebo program?",
-    "trouble.NotConnected": "Žádná jednotka není připojena. Připojte se nejdříve.",
-    "trouble.Stopped": "Zrušeno povelem Stop.",
-    "trouble.Late": "Přišlo to příliš pozdě, nic nebylo odesláno. Podívejte se na jednotku a zopakujte to.",
-    "trouble.Unsent": "Jednotka tehdy nebyla dosažitelná, nic nebylo odesláno. Podívejte se na ni a zopakujte to.",
-    "trouble.NotConfirmed": "STOP není potvrzen. Použijte nouzové zastavení.",
 };

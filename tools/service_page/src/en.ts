@@ -304,18 +304,4 @@ export const en = {
     "answer.reset.done": "reset, the program memory is empty",
     "answer.disconnect.done": "the port is closed",
 
-    "trouble.PortMissing": "",
-    "trouble.PortForbidden": "",
-    "trouble.PortBusy": "",
-    "trouble.PortLost": "",
-    "trouble.NoAnswer": "",
-    "trouble.GarbledAnswer": "",
-    "trouble.UnitRestarted": "",
-    "trouble.UnitRefused": "",
-    "trouble.WrongAnswer": "",
-    "trouble.NotConnected": "",
-    "trouble.Stopped": "",
-    "trouble.Late": "",
-    "trouble.Unsent": "",
-    "trouble.NotConfirmed": "",
 };

@@ -1,3 +1,4 @@
+import type { Sentences } from "./common/patterns";
 import type { Order, Told } from "./engine_worker";
 import { t } from "./i18n";
 import type { Bytes } from "./program_host";
@@ -18,6 +19,8 @@ interface Brought {
     /** The script of the worker. */
     worker: string;
     examples: Example[];
+    /** What the workers say, in Czech. */
+    words: Sentences;
 }
 
 /** The simulator cannot be had; the message is why. */
@@ -31,6 +34,7 @@ interface Waiting {
 /** The simulator in a worker, so that the page, and STOP on it, never wait for it. */
 export class Engine {
     readonly examples: Example[];
+    readonly words: Sentences;
     /** Whether the page has a unit of its own. */
     readonly hasUnit = typeof WebAssembly !== "undefined";
     readonly #brought: Brought;
@@ -42,6 +46,7 @@ export class Engine {
 
     constructor(brought: Brought) {
         this.examples = brought.examples;
+        this.words = brought.words;
         this.#brought = brought;
         this.#worker = this.hasUnit ? begun(brought) : null;
         if (this.#worker !== null) {

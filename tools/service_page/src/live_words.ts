@@ -1,19 +1,6 @@
-import { language, numberText, t } from "./i18n";
+import { told } from "./common/told";
+import { numberText, t } from "./i18n";
 import type { LiveUnit, MotorLive } from "./protocol";
-
-/** Names of errors, which units tell by number and the service in English. */
-const CZECH: Record<string, string> = {
-    "label not found": "návěští nenalezeno",
-    "E without L": "E bez L",
-    "more than 8 nested loops": "více než 8 vnořených smyček",
-    "more than 6 nested calls": "více než 6 vnořených volání",
-    ". without a call": ". bez volání",
-    "more than 10 sections": "více než 10 úseků",
-    "change of direction inside a compound move": "změna směru uvnitř složeného pohybu",
-    "Y without F or B": "Y bez F nebo B",
-    "the stored program is damaged": "uložený program je poškozen",
-    "no motion without the crystal": "bez krystalu se nepohybuje",
-};
 
 /** Counters of the link that mean bytes or frames were lost. */
 const FAULTS = ["stray", "broken", "fcs", "abort", "escape", "short", "long", "gap", "unsent"];
@@ -40,8 +27,7 @@ function awaited({ awaited: what }: MotorLive): string {
 
 function halted(motor: MotorLive): [Kind, string] | null {
     if (motor.failed) {
-        const error = motor.error ?? "";
-        return ["failed", t("live.failed", { error: language.value === "cs" ? (CZECH[error] ?? error) : error })];
+        return ["failed", t("live.failed", { error: told(motor.error ?? "") })];
     }
     if (motor.ended) {
         return ["stopped", t("live.ended")];
@@ -92,7 +78,7 @@ function clockFacts({ clock }: LiveUnit): { words: string; isBad: boolean }[] {
 
 /** What is to be known of a unit beside its motors, the unusual first. */
 export function unitFacts(unit: LiveUnit): { words: string; isBad: boolean }[] {
-    const cause = CAUSES[unit.cause]?.() ?? (unit.cause === "power-on" ? "" : unit.cause);
+    const cause = CAUSES[unit.cause]?.() ?? (unit.cause === "power-on" ? "" : told(unit.cause));
     const bad = [
         unit.no_crystal ? t("live.noCrystal") : "",
         unit.not_started ? t("live.notStarted") : "",

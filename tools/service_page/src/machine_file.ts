@@ -88,7 +88,7 @@ export function judged(content: unknown): MachineContent | NoMachine {
         return no("machine.later");
     }
     if (!validate(content)) {
-        return no("machine.wrong", (validate.errors ?? []).map(ruleWords));
+        return no("machine.wrong", (validate.errors ?? []).map((error) => ruleWords(error, content)));
     }
     const machine = content as MachineContent;
     const problems = [...crossed(machine)];

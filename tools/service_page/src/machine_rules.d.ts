@@ -5,7 +5,6 @@ declare module "machine-rules" {
         instancePath: string;
         keyword: string;
         params: Record<string, unknown>;
-        data: unknown;
     }
     const validate: ((content: unknown) => boolean) & { errors: RuleError[] | null };
     export default validate;

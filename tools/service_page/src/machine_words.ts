@@ -16,14 +16,16 @@ const PROBLEMS_MAX = 5;
 const LIMITS = ["minimum", "maximum", "exclusiveMinimum", "minLength", "maxLength", "minItems", "maxItems"];
 
 /** What a rule of the schema says of a file. */
-export function ruleWords({ instancePath, keyword, params, data }: RuleError): Words {
-    const [, first, second, ...rest] = instancePath.split("/");
+export function ruleWords({ instancePath, keyword, params }: RuleError, content: unknown): Words {
+    const [, ...path] = instancePath.split("/");
+    const [first, second, ...rest] = path;
     const isMotor = first === "motors" && second !== undefined;
     const names = isMotor ? rest : [first, second, ...rest].filter((name) => name !== undefined);
     const place = { motor: isMotor ? Number(second) + 1 : null, names };
     const key = `machine.rule.${keyword === "type" ? String(params["type"]) : keyword}`;
     const name = String(params["missingProperty"] ?? params["additionalProperty"] ?? "");
     const limit = LIMITS.includes(keyword) ? Number(params["limit"]) : "";
+    const data = path.reduce((part, step) => Object(part)[step] as unknown, content);
     const value = typeof data === "number" ? String(data) : "";
     return { place, key: isMachineKey(key) ? key : "machine.rule.other", values: { name: name.slice(0, 40), limit, value } };
 }

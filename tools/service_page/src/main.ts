@@ -2,6 +2,7 @@ import { AllPrograms } from "./all_programs";
 import { Commission } from "./commission";
 import { Commands } from "./commands";
 import { Compare } from "./compare";
+import { bringWords } from "./common/told";
 import { Connection } from "./connection";
 import { byId } from "./dom";
 import { engine } from "./engine";
@@ -32,6 +33,7 @@ import { StoreAll } from "./store_all";
  * here. Nothing on this page acts on a unit except what the user presses (stop.ts, commands.ts, connection.ts).
  */
 const link = new Link(() => (engine === null ? new ServiceLine() : engine.line()));
+bringWords("rkm04", engine?.words);
 setUpLanguage(byId("language", HTMLSelectElement));
 
 const plan: Plan = new Plan(() => programs.texts(), () => compare.forget());

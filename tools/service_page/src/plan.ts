@@ -1,5 +1,6 @@
 import { Refused, computeCurve } from "./api";
 import { Chart, type Range } from "./chart";
+import { told } from "./common/told";
 import { singleSteps, toChartData, valueAt, type Quantity } from "./curve";
 import { byId, debounced, make } from "./dom";
 import { language, numberText, t } from "./i18n";
@@ -251,7 +252,7 @@ export class Plan {
             return t("plan.cursor", { seconds: numberText(seconds, 3) });
         }
         if (this.#unknown !== null) {
-            return t("plan.unknown", { cause: this.#unknown });
+            return t("plan.unknown", { cause: told(this.#unknown) });
         }
         if (this.#trouble !== null) {
             return t(this.#curve ? "plan.old" : "plan.none");
@@ -267,7 +268,7 @@ export class Plan {
         if (seconds === null) {
             const peak = t("plan.peak", { speed: speedWords(motor, one.peak) });
             const pulses = t("plan.pulses", { pulses: numberText(one.pulses) });
-            return [one.error ?? beyondWords(motor, one) ?? pulses, isLeftOut(motor) ? t("scale.none") : peak];
+            return [wrongWords(motor, one) ?? pulses, isLeftOut(motor) ? t("scale.none") : peak];
         }
         const speed = valueAt(one, "speed", seconds) ?? 0;
         const position = valueAt(one, "position", seconds);
@@ -276,7 +277,7 @@ export class Plan {
 
     #hint(motor: number, one: MotorCurve): string {
         const moves = t("plan.moves", { moves: numberText(one.moves) });
-        return [moves, one.error ?? one.state_text ?? "", beyondWords(motor, one) ?? ""].filter((part) => part !== "").join("; ");
+        return [moves, told(one.error ?? one.state_text ?? ""), beyondWords(motor, one) ?? ""].filter((part) => part !== "").join("; ");
     }
 
     /** A legend of the motors, which also switches them on and off. */
@@ -326,3 +327,7 @@ export class Plan {
         this.#zoom.by(Math.sign(-event.deltaY), chart.xAt(event.clientX));
     }
 }
+
+/** What ends the program of a motor wrongly, or leads it beyond its limits. */
+const wrongWords = (motor: number, one: MotorCurve): string | null =>
+    one.error ? told(one.error) : beyondWords(motor, one);

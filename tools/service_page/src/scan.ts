@@ -1,4 +1,5 @@
 import type { Commands } from "./commands";
+import { told } from "./common/told";
 import { byId, make } from "./dom";
 import { language, t } from "./i18n";
 import type { Link } from "./link";
@@ -45,7 +46,7 @@ export class Scan {
     #unit(unit: FoundUnit): HTMLElement {
         const isShown = unit.node === this.#state?.node;
         const { node, version, date, remark } = unit;
-        const about = [t("scan.goTo", { node }), version, date, remark].filter(Boolean).join("; ");
+        const about = [t("scan.goTo", { node }), version, date, told(remark)].filter(Boolean).join("; ");
         const attributes = { type: "button", title: about, "aria-label": about, "aria-pressed": String(isShown) };
         const button = make("button", attributes, String(node));
         button.classList.toggle("danger", unit.remark !== "");

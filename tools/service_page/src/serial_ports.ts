@@ -1,3 +1,4 @@
+import { told } from "./common/told";
 import type { SerialWords } from "./common/serial_words";
 import type { Bytes } from "./program_host";
 import type { Port, Trouble } from "./protocol";
@@ -167,7 +168,7 @@ export class SerialPorts {
 
     /** A damaged character ends a stream, and the port has another one; when it is lost, it has none any more. */
     async #read(open: Open): Promise<void> {
-        let [last, cause]: [ReadableStream<Bytes> | null, string] = [null, "closed"];
+        let [last, cause]: [ReadableStream<Bytes> | null, string] = [null, told("closed")];
         while (open.port.readable !== null && open.port.readable !== last && !open.isClosing) {
             last = open.port.readable;
             open.reader = last.getReader();
@@ -220,4 +221,4 @@ export class SerialPorts {
     }
 }
 
-const words = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+const words = (error: unknown): string => told(error instanceof Error ? error.message : String(error));

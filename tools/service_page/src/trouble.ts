@@ -1,10 +1,12 @@
-import { isKey, t } from "./i18n";
+import { told, troubleText as toldTrouble } from "./common/told";
+import { translateProblem } from "./problem_words";
 import type { Trouble } from "./protocol";
 
-/** Cause and next step in the language of the page where it knows the kind, else as the service says it. */
+/** What the parser says of a program that was not sent, perhaps after its motor, and what to do. */
+const WRONG = /^(motor \d: )?(.+?)((?:; nothing was sent to any motor)?; correct it, then send again)$/;
+
+/** Cause and next step in the language of the page. */
 export function troubleText(trouble: Trouble): string {
-    const key = `trouble.${trouble.kind ?? ""}`;
-    const words = isKey(key) && t(key) !== "" ? t(key) : "";
-    const original = trouble.next ? `${trouble.cause}; ${trouble.next}` : trouble.cause;
-    return words ? `${words} (${trouble.cause})` : original;
+    const [, motor = "", problem, rest = ""] = WRONG.exec(`${trouble.cause}; ${trouble.next}`) ?? [];
+    return problem === undefined ? toldTrouble(trouble) : `${motor}${translateProblem(problem)}; ${told(rest.slice(2))}`;
 }

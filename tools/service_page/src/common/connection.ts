@@ -2,7 +2,8 @@ import { byId, make } from "../dom";
 import { language, numberText } from "../language";
 import type { Port } from "../protocol";
 import type { Known } from "./known";
-import { troubleText, type CommonWords } from "./words";
+import { troubleText } from "./told";
+import type { CommonWords } from "./words";
 
 const VIRTUAL = "virtual";
 const OTHER = "";

@@ -2,7 +2,7 @@ import { byId } from "../dom";
 import { language } from "../language";
 import { listenForStop } from "../stop_press";
 import type { Answer, Known } from "./known";
-import { answerWords } from "./outside";
+import { told } from "./told";
 import type { CommonWords } from "./words";
 
 const DONE_MS = 4000;
@@ -70,7 +70,7 @@ export class Halt {
     #show(): void {
         const open = this.#own === "asked" || this.#last === "asked" ? "asked" : this.#own ?? this.#last;
         const kind = open ?? (this.#done === "" ? "none" : "done");
-        const words = kind === "none" ? "" : this.#t(`halt.${kind}`, { words: answerWords(this.#done) });
+        const words = kind === "none" ? "" : this.#t(`halt.${kind}`, { words: told(this.#done) });
         this.#alarm.dataset.kind = kind;
         this.#alarm.hidden = kind === "none";
         if (this.#alarm.textContent !== words) {

@@ -2,8 +2,8 @@ import { byId, make } from "../dom";
 import { language } from "../language";
 import type { Trouble } from "../protocol";
 import type { Answer, Known } from "./known";
-import { answerWords } from "./outside";
-import { troubleText, type CommonWords } from "./words";
+import { told, troubleText } from "./told";
+import type { CommonWords } from "./words";
 
 const KEPT_MAX = 200;
 
@@ -40,7 +40,7 @@ export class Log {
     }
 
     #add({ message, text, error }: Answer): void {
-        const entry = { at: new Date(), message, words: () => (error === null ? answerWords(text) : troubleText(error)), isBad: error !== null };
+        const entry = { at: new Date(), message, words: () => (error === null ? told(text) : troubleText(error)), isBad: error !== null };
         this.#entries.unshift(entry);
         this.#entries.length = Math.min(this.#entries.length, KEPT_MAX);
         this.#showAll();

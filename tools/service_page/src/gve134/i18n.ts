@@ -19,4 +19,4 @@ export const isKey = (name: string): name is Key => name in en;
 
 export const setUpLanguage = (chooser: HTMLSelectElement): void => setUpWords<Key>(chooser, t);
 
-export { troubleText } from "../common/words";
+export { told, troubleText } from "../common/told";

@@ -1,7 +1,7 @@
 import type { Danger } from "../danger";
 import { byId, make } from "../dom";
 import { Refused, fetchExamples, openExample, openFile } from "./api";
-import { clockText, language, numberText, t, troubleText } from "./i18n";
+import { clockText, language, numberText, t, told, troubleText } from "./i18n";
 import type { FileState, Job, UnitState } from "./protocol";
 import type { Unit } from "./unit";
 
@@ -156,7 +156,7 @@ export class JobPanel {
         const progress = this.#unit.now?.progress;
         const trouble = job?.trouble ? `${job.phase === "failed" ? ":" : ""} ${troubleText(job.trouble)}` : "";
         const isLost = isUnderWay(job) && progress?.at === null ? ` (${t("job.lost")})` : "";
-        const words = job === null ? "" : t(`job.${job.phase}`, { name: job.name, text: job.text }) + trouble + isLost;
+        const words = job === null ? "" : t(`job.${job.phase}`, { name: told(job.name), text: job.text }) + trouble + isLost;
         this.#words.dataset.kind =
             job?.phase === "failed" ? "bad" : job?.phase === "held" || job?.phase === "waits" ? "warn" : "none";
         if (this.#words.textContent !== words) {

@@ -2,6 +2,7 @@ import { Connection } from "../common/connection";
 import { Halt } from "../common/halt";
 import { Log } from "../common/log";
 import { Loud } from "../common/loud";
+import { bringWords } from "../common/told";
 import { Danger } from "../danger";
 import { byId } from "../dom";
 import { Link } from "../link";
@@ -26,6 +27,7 @@ const MOVES = /^\s*(!0)?\s*[LCG]/i;
  * what the user presses.
  */
 const link = new Link<FromService, ToService>(() => alone?.line() ?? new ServiceLine());
+bringWords("gve134", alone?.words);
 setUpLanguage(byId("language", HTMLSelectElement));
 const presence = new Presence(link.isOpen);
 link.on("state", (state) => presence.setState(state));

@@ -1,7 +1,7 @@
 import type { Danger } from "../danger";
 import { byId } from "../dom";
 import { Card } from "./card";
-import { language } from "./i18n";
+import { language, t } from "./i18n";
 import { AXES } from "./protocol";
 import type { Unit } from "./unit";
 
@@ -17,6 +17,7 @@ export class Axes {
         unit.watch(show);
         unit.settings.onChange(show);
         danger.isConfirmed.onChange(show);
+        language.watch(() => byId("live", HTMLElement).setAttribute("aria-label", t("axes.title")));
         language.onChange(() => {
             cards.forEach((card) => card.name());
             show();

@@ -23,6 +23,7 @@ export const cs: Dictionary = {
     "loud.left": "NEPŘIPOJENO: TATO STRÁNKA NEMŮŽE NIC ZASTAVIT",
     "loud.leftMore": "Připojte se znovu.",
     "connection.node": "Jednotka",
+    "axes.title": "Osy",
     "axis.name": "Osa {axis}",
     "axis.steps": "kroků: {steps}",
     "axis.was": "naposledy: {mm} mm",

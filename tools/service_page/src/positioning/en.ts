@@ -22,6 +22,7 @@ export const en = {
     "loud.left": "NOT CONNECTED: THIS PAGE CANNOT STOP ANYTHING",
     "loud.leftMore": "Connect again to see.",
     "connection.node": "Unit",
+    "axes.title": "Axes",
     "axis.name": "Axis {axis}",
     "axis.steps": "{steps} steps",
     "axis.was": "last known: {mm} mm",

@@ -2,6 +2,7 @@ import { Connection } from "../common/connection";
 import { Halt } from "../common/halt";
 import { Log } from "../common/log";
 import { Loud } from "../common/loud";
+import { bringWords } from "../common/told";
 import { Danger } from "../danger";
 import { byId } from "../dom";
 import { Link } from "../link";
@@ -21,6 +22,7 @@ import { Unit } from "./unit";
  * what the user presses.
  */
 const link = new Link<FromService, ToService>(() => alone?.line() ?? new ServiceLine());
+bringWords("positioning", alone?.words);
 setUpLanguage(byId("language", HTMLSelectElement));
 const presence = new Presence(link.isOpen);
 link.on("state", (state) => presence.setState(state));

@@ -2,8 +2,7 @@ import { byId, make } from "../dom";
 import { numberText } from "../language";
 import type { Trouble } from "../protocol";
 import { servedWords } from "../common/files";
-import { settingWords } from "../common/outside";
-import { troubleText } from "../common/words";
+import { told, troubleText } from "../common/told";
 import { isAlone, language, t } from "./i18n";
 import { feedOf, feedValue } from "./numbers";
 import { AXES, FEED_PER_MM_MIN, STATUS, type Part, type Row, type Values } from "./protocol";
@@ -74,9 +73,9 @@ export class SettingsPanel {
             const field = CHOICES[row.name] ? make("select", {}, ...choices(row.name)) : make("input", { type: "number", class: "number", ...limits(row), required: "" });
             field.id = `setting-${row.name}`;
             field.addEventListener("input", () => this.#edit(row, field));
-            const unit = UNITS[row.unit] ?? settingWords(row.unit, row.unit);
+            const unit = UNITS[row.unit] ?? told(row.unit);
             const range = CHOICES[row.name] ? "" : rangeText(row);
-            const about = make("small", {}, [unit, range, settingWords(row.name, row.text)].filter((each) => each !== "").join(" · "));
+            const about = make("small", {}, [unit, range, told(row.text)].filter((each) => each !== "").join(" · "));
             const root = make("div", { class: "setting" }, make("label", { for: field.id }, row.name), field, about);
             this.#fields.set(row.name, { row, field, root });
             return root;
@@ -207,12 +206,12 @@ export class SettingsPanel {
         }
         this.#trouble = "";
         try {
-            const told = await (isAlone ? this.#readHere(file) : readByService(file));
-            if (typeof told === "string") {
-                this.#trouble = told;
+            const found = await (isAlone ? this.#readHere(file) : readByService(file));
+            if (typeof found === "string") {
+                this.#trouble = found;
             } else {
                 this.#forget();
-                PARTS.forEach((part) => Object.entries(told[part]).forEach(([name, value]) => this.#put(part, name, value)));
+                PARTS.forEach((part) => Object.entries(found[part]).forEach(([name, value]) => this.#put(part, name, value)));
             }
         } catch {
             this.#trouble = t("state.notSent");
@@ -222,16 +221,16 @@ export class SettingsPanel {
 
     /** The settings of a file, or what is wrong with it. */
     async #readHere(file: File): Promise<AllSettings | string> {
-        const told = readText(await file.text(), this.#all);
-        return "trouble" in told ? `${file.name}: ${t(told.trouble, { which: told.which })}; ${t("file.none")}` : told;
+        const found = readText(await file.text(), this.#all);
+        return "trouble" in found ? `${file.name}: ${t(found.trouble, { which: found.which })}; ${t("file.none")}` : found;
     }
 }
 
 /** Likewise, as the service reads it. */
 async function readByService(file: File): Promise<AllSettings | string> {
     const answer = await fetch(`/api/settings?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
-    const told = (await answer.json()) as AllSettings & { error?: Trouble };
-    return answer.ok ? told : told.error ? (await servedWords())(troubleText(told.error)) : t("state.notSent");
+    const found = (await answer.json()) as AllSettings & { error?: Trouble };
+    return answer.ok ? found : found.error ? (await servedWords())(troubleText(found.error)) : t("state.notSent");
 }
 
 const partName = (part: Part): string => (part === "unit" ? t("settings.unit") : t("axis.name", { axis: PARTS.indexOf(part) }));

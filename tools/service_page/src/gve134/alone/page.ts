@@ -1,3 +1,4 @@
+import type { Sentences } from "../../common/patterns";
 import { byId } from "../../dom";
 import type { Line } from "../../link";
 import type { NoMachine } from "../../machine_file";
@@ -23,6 +24,7 @@ interface Brought {
     /** The script of the workers. */
     worker: string;
     examples: { name: string; text: string }[];
+    words: Sentences;
 }
 
 const GCODE = /\.(nc|ngc|gcode|tap)$/i;
@@ -75,6 +77,11 @@ class Alone {
     }
 
     // ---- files ----
+
+    /** What its workers say, in Czech. */
+    get words(): Sentences {
+        return this.#brought.words;
+    }
 
     get examples(): string[] {
         return this.#brought.examples.map(({ name }) => name);

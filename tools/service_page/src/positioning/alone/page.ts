@@ -1,3 +1,4 @@
+import type { Sentences } from "../../common/patterns";
 import { byId } from "../../dom";
 import type { Line } from "../../link";
 import type { Bytes } from "../../program_host";
@@ -20,6 +21,7 @@ interface Brought {
     /** The script of the worker. */
     worker: string;
     names: Names;
+    words: Sentences;
 }
 
 const FORMS: Record<string, Omit<SerialForm, "baudRate">> = {
@@ -73,6 +75,11 @@ class Alone {
         const worker = new Worker(URL.createObjectURL(new Blob([this.#brought.worker], { type: "text/javascript" })));
         worker.postMessage(first);
         return worker;
+    }
+
+    /** What its workers say, in Czech. */
+    get words(): Sentences {
+        return this.#brought.words;
     }
 
     /** How a port is to be opened, as the page has it. */

@@ -1,6 +1,7 @@
 import { Chart, type Range } from "../../chart";
 import { toChartData } from "../../curve";
 import { byId, make } from "../../dom";
+import { told as inWords } from "../../common/told";
 import { numberText } from "../../language";
 import { MOTORS, type Curve, type Example } from "../../protocol";
 import { language, named, t } from "../i18n";
@@ -110,7 +111,7 @@ export class ScriptPanel {
     #show(): void {
         const words = byId("script-words", HTMLElement);
         words.dataset.kind = this.#trouble === "" ? "none" : "bad";
-        words.textContent = this.#trouble || (this.#isPlaying ? t("script.playing") : this.#isOld ? t("script.old") : this.#endText());
+        words.textContent = inWords(this.#trouble) || (this.#isPlaying ? t("script.playing") : this.#isOld ? t("script.old") : this.#endText());
         const played = this.#isOld || this.#isPlaying || this.#trouble !== "" ? null : this.#played;
         byId("script-axes", HTMLElement).replaceChildren(...(played?.axes ?? []).filter(isUsed).map((axis) => item(axisText(axis), axis.error !== 0)));
         const told = (played?.told ?? []).slice(0, TOLD_MAX).map((line) => item(lineText(line), line.result !== 0));
