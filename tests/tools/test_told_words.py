@@ -244,6 +244,26 @@ PIECES = {
     },
 }  # fmt: skip
 """What those are made of."""
+PARSED = [
+    "F (steps forward) takes a number from 1 to 16000000, found the end of the file",
+    "F (steps forward) takes a number from 1 to 16000000, found a blank; nothing may stand between "
+    "a command and its number",
+    "X (total stop by an input) takes a number from 1 to 8, found no number",
+    "C takes 1 to 8 (clear an output), 40 to 58 (switch a function off), 75 (resume), 80 to 95 "
+    "(clear a variable) or 100 (zero the position), found 101",
+    "G takes 1 to 2000000000 (go to a position), + (run forward without end) or - (run backward "
+    "without end), found no number",
+    "O takes 1 to 8 (wait until an input is 1) or 80 to 95 (wait until a variable is 1), found 9",
+    "I takes the number of an input (1 to 8) or variable (80 to 95), H or L, and a label from 1 to "
+    "80, as in I05H10, found 9H1",
+    "M (guard the moves by an input that is 1) takes a number from 1 to 8, found 9",
+    'unknown command "f"; commands are upper case: F',
+    "unknown command (soft hyphen, code 173)",
+    "motor 1, line 2, column 3: V100 is below S500; the move runs at V100 throughout",
+    "motor 2: the . after it closes L5; an E after the call is not its own; nothing was sent to any "
+    "motor; correct it, then send again",
+]
+"""What the parser makes of its pieces."""
 OTHERWISE = {
     # The page has these in words of its own: by the values of an answer, or by its kind.
     "7 commands in 7 message7 sent7", "7 steps made, command 7", "all motors stop",
@@ -294,12 +314,15 @@ def of_python(path: str, functions: set[str] | None) -> Iterator[str]:
             yield "".join(map(str, pieces))
 
 
-def of_scripts() -> Iterator[str]:
-    """What the program that plays scripts complains of in them."""
-    for path in ("positioning_host/pos_script.c", "unit_host/inputs.c"):
+def of_c(*paths: str) -> Iterator[str]:
+    """The texts of sources in C: what is after a command or a sentence has one before it."""
+    for path in paths:
         text = (TOOLS / path).read_text(encoding="utf-8")
-        text = re.sub(r'%" PRIu32 "|%[a-z]', SOME, text)
-        yield from re.findall(r'"((?:[^"\\]|\\.)*)"', text)
+        text = re.sub(r'"\s*\n\s*"', "", re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL))
+        text = re.sub(r'%(" PRI\w+( "|)|[a-z])', lambda m: SOME + ('"' if m[2] == "" else ""), text)
+        for literal in re.findall(r'"((?:[^"\\]|\\.)*)"', text):
+            words = literal.replace("\\\\", "\\").replace('\\"', '"')
+            yield f"F1{words}" if words.startswith(" ") else words.removeprefix("; ")
 
 
 def registers() -> list[str]:
@@ -360,8 +383,30 @@ def test_names_that_a_page_brings_along_are_czech_too() -> None:
     assert {told: words for told, words in english(shown).items() if told not in same} == {}
 
 
+PARSER = [
+    f"simulator/{name}.c" for name in ("refusal", "words", "lint", "lint_compounds", "lint_paths")
+]
+OF_COMMANDS = {
+    # Of commands of which a number is never wrong, as they have none, or are one of several.
+    "append a section to the compound move", "cancel the guards", "do the move", "end of a loop",
+    "end of a subroutine", "go to position 0", "hold the program", "release the program",
+    "reverse the direction", "run backward without end", "run forward without end",
+    "stop the program", "jump if an input or variable is 0", "jump if an input or variable is 1",
+    # Pieces of what is among PARSED.
+    "F1 to 7, as in I05H10", "no number",
+    "the number of an input (1 to 8) or variable (80 to 95), H or L, and a label from 7",
+}  # fmt: skip
+
+
+def test_all_that_the_parser_says_of_a_program_is_czech_too() -> None:
+    told = {text for text in of_c(*PARSER) if PROSE.search(text)} - OF_COMMANDS
+    assert len(told) > 70
+    assert english(as_shown("rkm04", alone=True, texts=[*told, *PARSED])) == {}
+
+
 def test_what_is_wrong_in_a_script_is_czech_too() -> None:
-    told = {text for text in of_scripts() if PROSE.search(text)}
+    paths = ("positioning_host/pos_script.c", "unit_host/inputs.c")
+    told = {text for text in of_c(*paths) if PROSE.search(text)}
     assert len(told) > 15
     assert english(as_shown("positioning", alone=True, texts=told)) == {}
 

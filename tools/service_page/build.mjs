@@ -6,7 +6,7 @@ import Ajv from "ajv/dist/2020.js";
 import standaloneCode from "ajv/dist/standalone/index.js";
 import { build } from "esbuild";
 import { copyFile, mkdir, readFile, writeFile } from "node:fs/promises";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import { helpPages } from "./help_pages.mjs";
 import { registerTable } from "./register_table.mjs";
 
@@ -31,6 +31,29 @@ const rules = {
     },
 };
 
+/** What a module exports. */
+async function evaluated(path) {
+    const { outputFiles } = await build({ entryPoints: [path], bundle: true, write: false, format: "esm", charset: "utf8" });
+    return import(`data:text/javascript,${encodeURIComponent(outputFiles[0].text)}`);
+}
+
+/** The Czech words of a page without their keys, which are those of the English ones. */
+const czechWords = {
+    name: "czech-words",
+    setup(builder) {
+        builder.onLoad({ filter: /\/src\/(gve134\/|positioning\/)?cs\.ts$/ }, async ({ path }) => {
+            const [{ cs }, { en }] = await Promise.all([path, path.replace(/cs\.ts$/, "en.ts")].map(evaluated));
+            const words = JSON.stringify(Object.keys(en).map((key) => cs[key]));
+            return {
+                contents: `import { en } from "./en";
+                    const words = ${words};
+                    export const cs = Object.fromEntries(Object.keys(en).map((key, at) => [key, words[at]]));`,
+                resolveDir: dirname(path),
+            };
+        });
+    },
+};
+
 await mkdir(out, { recursive: true });
 await build({
     entryPoints: [
@@ -44,7 +67,7 @@ await build({
     ],
     outdir: out,
     external: ["/static/*"],
-    plugins: [rules, helpPages],
+    plugins: [rules, helpPages, czechWords],
     bundle: true,
     minify: true,
     charset: "utf8",
@@ -69,12 +92,13 @@ await build({
     legalComments: "eof",
     logLevel: "warning",
 });
-/** What units say, in Czech: tables, of which a page without a service has its part (told/NAME.ts). */
+/** English and Czech, line by line. */
+const columns = (sentences) => [0, 1].map((column) => sentences.map((each) => each[column]).join("\n"));
+
+/** What units say, in Czech, of which a page without a service has its part (told/NAME.ts). */
 async function writeTold(name) {
-    const entryPoints = [`src/told/${name}.ts`];
-    const { outputFiles } = await build({ entryPoints, bundle: true, write: false, format: "esm", charset: "utf8" });
-    const { ALONE, SERVICE } = await import(`data:text/javascript,${encodeURIComponent(outputFiles[0].text)}`);
-    await writeFile(join(out, `told_${name}.json`), JSON.stringify({ alone: ALONE, service: SERVICE }));
+    const { ALONE, SERVICE } = await evaluated(`src/told/${name}.ts`);
+    await writeFile(join(out, `told_${name}.json`), JSON.stringify({ alone: columns(ALONE), service: columns(SERVICE) }));
 }
 
 await Promise.all(["rkm04", "gve134", "positioning"].map(writeTold));

@@ -1,7 +1,6 @@
-import { told } from "./common/told";
+import { told, troubleText } from "./common/told";
 import { isKey, numberText, t } from "./i18n";
 import type { Answer, FoundUnit } from "./protocol";
-import { troubleText } from "./trouble";
 
 type Values = NonNullable<Answer["values"]>;
 

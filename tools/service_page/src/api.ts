@@ -1,6 +1,6 @@
 import { NoEngine, engine } from "./engine";
 import type { Curve, CurveRequest, Example, Trouble, Verdict } from "./protocol";
-import { troubleText } from "./trouble";
+import { troubleText } from "./common/told";
 
 const SUPERSEDED = 409;
 

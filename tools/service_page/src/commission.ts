@@ -10,7 +10,7 @@ import type { Link } from "./link";
 import { Pace } from "./pace";
 import type { Presence } from "./presence";
 import { GOES_ON, MOTORS, type Live, type MotorLive, type UnitState } from "./protocol";
-import { translateProblem } from "./problem_words";
+import { told } from "./common/told";
 import { NotPossible, computeRamp, type Ramp } from "./ramp";
 import { besideWords, onScale, positionNumber } from "./scale";
 import type { Cell } from "./signal";
@@ -289,7 +289,7 @@ export class Commission {
     async #insertChecked(text: string): Promise<void> {
         try {
             const error = (await checkProgram(text)).problems.find(({ severity }) => severity === "error");
-            this.#say("homing-words", error ? translateProblem(error.message) : t("homing.done"));
+            this.#say("homing-words", error ? told(error.message) : t("homing.done"));
             if (error === undefined) {
                 this.#around.insert(text);
             }

@@ -5,7 +5,7 @@ import type { Link } from "./link";
 import type { Presence } from "./presence";
 import { ALL_MOTORS, type Port, type UnitState } from "./protocol";
 import { hasSerial } from "./serial_ports";
-import { troubleText } from "./trouble";
+import { troubleText } from "./common/told";
 
 const VIRTUAL = "virtual";
 const OTHER = "";

@@ -1,4 +1,4 @@
-import type { Sentences } from "./common/patterns";
+import type { Columns } from "./common/told";
 import type { Order, Told } from "./engine_worker";
 import { t } from "./i18n";
 import type { Bytes } from "./program_host";
@@ -20,7 +20,7 @@ interface Brought {
     worker: string;
     examples: Example[];
     /** What the workers say, in Czech. */
-    words: Sentences;
+    words: Columns;
 }
 
 /** The simulator cannot be had; the message is why. */
@@ -34,7 +34,7 @@ interface Waiting {
 /** The simulator in a worker, so that the page, and STOP on it, never wait for it. */
 export class Engine {
     readonly examples: Example[];
-    readonly words: Sentences;
+    readonly words: Columns;
     /** Whether the page has a unit of its own. */
     readonly hasUnit = typeof WebAssembly !== "undefined";
     readonly #brought: Brought;

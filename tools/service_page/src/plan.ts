@@ -237,7 +237,7 @@ export class Plan {
     /** Says what is under the cursor, or what the whole is. */
     #tell(seconds: number | null): void {
         this.#status.classList.toggle("is-old", this.#isOld);
-        this.#status.title = this.#trouble ?? "";
+        this.#status.title = told(this.#trouble ?? "");
         this.#status.textContent = this.#title(seconds);
         for (const [motor, words] of this.#legend) {
             const one = (seconds === null ? this.#curve : this.#drawn)?.motors[motor];

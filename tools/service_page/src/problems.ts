@@ -1,7 +1,7 @@
 import type { Diagnostic } from "@codemirror/lint";
 import type { Text } from "@codemirror/state";
 import type { Problem } from "./protocol";
-import { translateProblem } from "./problem_words";
+import { told } from "./common/told";
 
 /** Columns count characters, the editor counts UTF-16 units: they differ after characters outside the BMP. */
 function unitsBefore(line: string, column: number): number {
@@ -18,6 +18,6 @@ export function toDiagnostic(doc: Text, problem: Problem): Diagnostic {
         from: from === to ? Math.max(line.from, from - 1) : from,
         to,
         severity: problem.severity,
-        message: translateProblem(problem.message),
+        message: told(problem.message),
     };
 }

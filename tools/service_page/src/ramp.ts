@@ -1,6 +1,6 @@
 import { checkProgram, computeCurve } from "./api";
 import { moveOf, type Settings } from "./commission_programs";
-import { translateProblem } from "./problem_words";
+import { told } from "./common/told";
 
 /** Of the time that is computed, in seconds. */
 const LONGEST = 60;
@@ -27,7 +27,7 @@ export class NotPossible extends Error {}
 export async function computeRamp(settings: Settings, steps: number): Promise<Ramp | null> {
     const text = moveOf(settings, steps);
     const { problems } = await checkProgram(text);
-    const words = problems[0] ? translateProblem(problems[0].message) : "";
+    const words = problems[0] ? told(problems[0].message) : "";
     if (problems[0]?.severity === "error") {
         throw new NotPossible(words);
     }

@@ -2,18 +2,26 @@
 import { language, type Language } from "../language";
 import { listTranslatorOf, type Sentences } from "./patterns";
 
-/** As build.mjs writes told/NAME.ts; a page that no service serves brings its part of it along. */
+/** Sentences as build.mjs writes those of told/NAME.ts: lines, which take less of a page than pairs do. */
+export type Columns = [english: string, other: string];
+
+/** A page that no service serves brings its part of them along. */
 interface Told {
-    alone: Sentences;
-    service: Sentences;
+    alone: Columns;
+    service: Columns;
+}
+
+function paired([english, other]: Columns): Sentences {
+    const others = other.split("\n");
+    return english.split("\n").map((each, line) => [each, others[line] ?? each]);
 }
 
 const translators: Partial<Record<Language, (text: string) => string>> = {};
 
 /** `brought`: those that a page without a service has; a service has the others in a file. */
-export function bringWords(name: string, brought?: Sentences): void {
+export function bringWords(name: string, brought?: Columns): void {
     if (brought !== undefined) {
-        translators.cs = listTranslatorOf(brought);
+        translators.cs = listTranslatorOf(paired(brought));
     } else {
         language.watch(() => void loadWords(name));
     }
@@ -26,7 +34,7 @@ async function loadWords(name: string): Promise<void> {
     }
     try {
         const { alone, service } = (await (await fetch(`/static/told_${name}.json`)).json()) as Told;
-        translators.cs = listTranslatorOf([...alone, ...service]);
+        translators.cs = listTranslatorOf([...paired(alone), ...paired(service)]);
         language.set(language.value);
     } catch {
         // The service is gone: what it said stays English.

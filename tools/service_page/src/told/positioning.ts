@@ -123,6 +123,13 @@ export const ALONE: Sentences = [
     ["axis #1: $2 mm, $3", "osa #1: $2 mm, $3"],
     ["axis #1: $2", "osa #1: $2"],
     ["axis #1", "osa #1"],
+    // states, of which the names are those of the documents
+    ["FREE", "FREE (nikdo ji nemá)"],
+    ["TAKEN", "TAKEN (čeká na míru)"],
+    ["READY", "READY (stojí, má míru)"],
+    ["MOVING", "MOVING (na cestě)"],
+    ["REACHED", "REACHED (na míře)"],
+    ["FAULT", "FAULT (zastavena chybou)"],
     ["brakes", "brzdí"],
     ["homing", "najíždí referenci"],
     ["capture armed", "záchyt připraven"],

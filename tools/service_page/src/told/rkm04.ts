@@ -1,10 +1,13 @@
 /** What a unit RKM04, its page without a service, and its service say. */
 import type { Sentences } from "../common/patterns";
 import { ALONE_OF_ALL, SERVICE_OF_ALL } from "./common";
+import { PROGRAMS_CS } from "./programs";
 
 /** What the page without a service says itself, so that it brings these along. */
 export const ALONE: Sentences = [
     ...ALONE_OF_ALL,
+    ...PROGRAMS_CS,
+    ["motor #1, line #2, column #3: $4", "motor #1, řádek #2, sloupec #3: $4"],
     ["the stop is not confirmed by $1", "STOP není potvrzen: $1"],
     ["node #1 of $2", "DNode #1 na $2"],
     ["node #1", "DNode #1"],

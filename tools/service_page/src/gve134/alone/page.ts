@@ -1,4 +1,4 @@
-import type { Sentences } from "../../common/patterns";
+import type { Columns } from "../../common/told";
 import { byId } from "../../dom";
 import type { Line } from "../../link";
 import type { NoMachine } from "../../machine_file";
@@ -24,7 +24,7 @@ interface Brought {
     /** The script of the workers. */
     worker: string;
     examples: { name: string; text: string }[];
-    words: Sentences;
+    words: Columns;
 }
 
 const GCODE = /\.(nc|ngc|gcode|tap)$/i;
@@ -79,7 +79,7 @@ class Alone {
     // ---- files ----
 
     /** What its workers say, in Czech. */
-    get words(): Sentences {
+    get words(): Columns {
         return this.#brought.words;
     }
 

@@ -1,4 +1,4 @@
-import type { Sentences } from "../../common/patterns";
+import type { Columns } from "../../common/told";
 import { byId } from "../../dom";
 import type { Line } from "../../link";
 import type { Bytes } from "../../program_host";
@@ -21,7 +21,7 @@ interface Brought {
     /** The script of the worker. */
     worker: string;
     names: Names;
-    words: Sentences;
+    words: Columns;
 }
 
 const FORMS: Record<string, Omit<SerialForm, "baudRate">> = {
@@ -78,7 +78,7 @@ class Alone {
     }
 
     /** What its workers say, in Czech. */
-    get words(): Sentences {
+    get words(): Columns {
         return this.#brought.words;
     }
 
