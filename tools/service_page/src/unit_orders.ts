@@ -26,7 +26,6 @@ export interface Exchange {
     answer: Bytes;
 }
 
-const TWO = "two units with this address?";
 const NOTHING: Exchange = { request: new Uint8Array(), answer: new Uint8Array() };
 
 /** What orders speak through: the unit that the desk is connected to. */
@@ -312,7 +311,7 @@ export class UnitOrders {
     async #lookFor(node: number): Promise<FoundUnit | null> {
         try {
             const answer = await this.#talk.ask(Uint8Array.of(messages.VERSION), SCANNING, node);
-            const remark = this.#talk.isTwice ? `answers twice: ${TWO}` : "";
+            const remark = this.#talk.isTwice ? "answers twice: two units with this address?" : "";
             return { node, ...messages.version(answer), remark };
         } catch (error) {
             const kind = error instanceof Refusal ? error.trouble.kind : "";
@@ -320,7 +319,7 @@ export class UnitOrders {
                 return null;
             }
             if (kind === "GarbledAnswer" || kind === "WrongAnswer") {
-                return { node, version: null, date: null, remark: `damaged answers: ${TWO}` };
+                return { node, version: null, date: null, remark: "damaged answers: two units with this address?" };
             }
             throw error;
         }

@@ -46,6 +46,7 @@ export const ALONE: Sentences = [
     ["the program is too long for the memory", "program je pro paměť příliš dlouhý"],
     ["an error that this page does not know", "chyba, kterou tato stránka nezná"],
     ["damaged answers: two units with this address?", "poškozené odpovědi: nemají tuto adresu dvě jednotky?"],
+    ["answers twice: two units with this address?", "odpovídá dvakrát: nemají tuto adresu dvě jednotky?"],
     ["the answer is not one of an RKM04 ($1)", "odpověď není od jednotky RKM04 ($1)"],
     [
         "is it another unit, or does another program use this line?",
@@ -110,7 +111,6 @@ export const SERVICE: Sentences = [
     ["rkm04 scan shows who is there", "Hledat ukáže, kdo tam je"],
     ["look at the unit (rkm04 status) before you send it again", "podívejte se na jednotku, než to pošlete znovu"],
     ["the answer to $1 is not one of an RKM04 ($2)", "odpověď na $1 není od jednotky RKM04 ($2)"],
-    ["answers twice: two units with this address?", "odpovídá dvakrát: nemají tuto adresu dvě jednotky?"],
     ["the unit does not know $1 (message #2)", "jednotka nezná $1 (zpráva #2)"],
     ["an error that this tool does not know", "chyba, kterou tento nástroj nezná"],
     ["units have the addresses 1 to 16", "jednotky mají adresy 1 až 16"],
