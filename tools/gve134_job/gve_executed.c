@@ -194,7 +194,7 @@ static uint32_t ends(const struct search *search, const int32_t steps[GVE_EXECUT
     return memcmp(search->ways, steps, sizeof search->ways) == 0 ? 1U : 0U;
 }
 
-/* The same on what was perhaps taken. Axes that stand at the end of what was taken tell nothing of that. */
+/* The same on what was perhaps taken. Axes at the end of what was taken tell nothing of that. */
 static uint32_t look_ahead(struct gve_executed *executed, struct search *search, const struct commands *perhaps)
 {
     static const int32_t none[GVE_EXECUTED_AXES] = {0};
@@ -215,7 +215,7 @@ static uint32_t look_ahead(struct gve_executed *executed, struct search *search,
     return executed->done;
 }
 
-/* How many are over by where the axes are. */
+/* How many are over, by where the axes are. */
 static uint32_t look(struct gve_executed *executed, struct search *search, const struct commands *perhaps)
 {
     for (uint32_t i = 0; i < executed->waiting; i++) {

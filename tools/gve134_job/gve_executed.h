@@ -53,8 +53,7 @@ void gve_executed_take(struct gve_executed *executed, const uint8_t *text, uint3
 /* All that was taken is over, and the axes stand there. */
 void gve_executed_stand(struct gve_executed *executed, const int32_t place[GVE_EXECUTED_AXES]);
 
-/* How many are over when the axes are there; these commands were perhaps taken, too. GVE_EXECUTED_UNKNOWN: not known.
- */
+/* How many are over when the axes are there, or GVE_EXECUTED_UNKNOWN; these commands were perhaps taken, too. */
 uint32_t gve_executed_look(struct gve_executed *executed, const int32_t place[GVE_EXECUTED_AXES], const uint8_t *text,
                            uint32_t length);
 
