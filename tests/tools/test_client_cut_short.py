@@ -140,6 +140,19 @@ def test_a_send_that_is_cut_short_tells_what_may_run(tool, fake, unit, write, te
     assert known in result.complaint
 
 
+@pytest.mark.parametrize("text", ["\\ F100 R", LONG, OWN_BRACKETS])
+def test_a_send_to_a_unit_that_is_not_there_is_in_no_doubt(tool, fake, unit, write, text):
+    silent_after(fake, unit, lambda message: True)
+
+    result = tool("send", write(text))
+
+    assert result.status == 3
+    assert "does not answer" in result.complaint
+    assert "NOT CONFIRMED" not in result.complaint
+    assert "memory" not in result.complaint
+    assert acts(unit) == []
+
+
 def test_an_interrupted_send_tells_it_too(start, fake, unit, write):
     silent_after(fake, unit, has(b"[C100"))
     process = started(start, fake, unit, "send", write(LONG), "--node", NODE)

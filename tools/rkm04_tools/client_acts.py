@@ -80,6 +80,8 @@ def run_send(options: Namespace) -> int:
             _note_sending(doubt, plan, done, total)
             bar.show(done, total)
 
+        if node != BROADCAST:
+            motor.unit.begin()
         sent = send_program(motor, checked, show)
         return _tell_sent(options, motor, sent)
 

@@ -229,6 +229,10 @@ class Unit:
             raise Failure(f"motor {number}: a unit has the motors 1 to 4; 0 means all of them")
         return Motor(self, number)
 
+    def begin(self) -> None:
+        """See that it is there, before something is sent that is in doubt without an answer."""
+        self.ask(bytes([VERSION]))
+
     def version(self) -> Version:
         """Version and date of the software."""
         return messages.parse_version(self.ask(bytes([VERSION])))
