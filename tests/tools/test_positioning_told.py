@@ -19,17 +19,23 @@ from served import Served
 
 ROOT = Path(__file__).resolve().parents[2]
 PATIENCE_SECONDS = 15.0
-WRITE_AND_READ = 23
+READ, WRITE_AND_READ = 3, 23
+UPTIME = 8
 Tool = Callable[..., Any]
 Serve = Callable[..., Served]
 Call = Callable[..., str]
 
 
-class Line:
-    """A line to a unit, or to none, that loses requests to write and read, or all of them."""
+def writes_and_reads(asked: bytes) -> bool:
+    """What may act and is asked for at once."""
+    return asked[1] == WRITE_AND_READ
 
-    def __init__(self, place: str = "") -> None:
-        self._place = place
+
+class Line:
+    """A line to a unit that loses some requests, or to none, that loses all of them."""
+
+    def __init__(self, place: str = "", loses: Callable[[bytes], bool] = writes_and_reads) -> None:
+        self._place, self._loses = place, loses
         self._listener = socket.create_server(("127.0.0.1", 0))
         self.place = f"socket://127.0.0.1:{self._listener.getsockname()[1]}"
         self.has_lost = threading.Event()
@@ -46,7 +52,7 @@ class Line:
 
     def _talk(self, client: socket.socket) -> None:
         while asked := client.recv(1000):
-            if not self._place or asked[1] == WRITE_AND_READ:
+            if not self._place or self._loses(asked):
                 self.has_lost.set()
                 continue
             host, _, number = self._place.removeprefix("socket://").rpartition(":")
@@ -165,6 +171,15 @@ def interrupted(arguments: list[str], line: Line) -> tuple[int, str]:
 def test_ctrl_c_before_a_move_tells_that_nothing_was_sent(silent: Line):
     told = "positioning: interrupted; nothing was sent that takes or moves the axis\n"
     assert interrupted(["move", "5"], silent) == (130, told)
+
+
+def test_ctrl_c_in_a_move_that_has_only_looked_tells_it_too(pos_serve: Serve):
+    told = "positioning: interrupted; nothing was sent that takes or moves the axis\n"
+    line = Line(pos_serve().place, lambda asked: asked[1] == READ and asked[3] == UPTIME)
+    try:
+        assert interrupted(["move", "5"], line) == (130, told)
+    finally:
+        line.close()
 
 
 def test_ctrl_c_in_an_instruction_tells_what_is_not_known(losing: Line):

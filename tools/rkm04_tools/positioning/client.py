@@ -255,19 +255,22 @@ def _moved(options: Namespace, mm: float, work: Callable[[Axis, Tell], AxisState
         with unit_of(options) as unit, Stopper(unit.wire) as stopper:
             axis = unit.axis(options.axis)
             is_taken = axis.read().is_taken
-            begun = True
             try:
                 if not is_taken:
                     axis.init()
                 with Bar("um made") as bar:
                     state = work(axis, _shown(bar))
             except KeyboardInterrupt:
+                if not (is_taken or axis.instructed):
+                    raise
                 return _hold_at_signal(axis, stopper)
             except Restarted:
                 raise
             except LineError as error:
                 shout(str(error))
                 raise
+            finally:
+                begun = is_taken or axis.instructed
     except KeyboardInterrupt:
         if begun:
             raise

@@ -204,6 +204,8 @@ class Axis:
         self.unit = unit
         self.number = number
         self._base = AXIS_STEP * number
+        self.instructed = False
+        """Whether the unit may have got an instruction from here."""
         self._taken = False
         self._word: int | None = None
         """What was given here last."""
@@ -364,6 +366,7 @@ class Axis:
         self.unit.require_same_start()
         number = ((before.done >> 8) + 1) % NUMBERS
         word = number << 8 | instructions()[name]
+        self.instructed = True
         found, repeated = self.unit.wire.write_and_read(
             self._base, [word, *parameters], self._base + IN_FIRST, len(IN_NUMBERS)
         )
