@@ -291,3 +291,35 @@ def test_an_interrupt_is_status_1(gve: Tool, gve_line: FakeGveLine, tmp_path: Pa
 
     assert result.status == 1
     assert "INTERRUPTED by RefZ" in result.complaint
+
+
+def test_vectors_whose_answer_is_lost_may_have_been_taken(
+    gve: Tool, unit: FakeGve, tmp_path: Path
+) -> None:
+    path = tmp_path / "a.gve"
+    path.write_text("L1\nC1\nC1\n")
+    unit.faults.extend([lambda answer: b"" if unit.taken else answer] * 1000)
+
+    result = gve("send", str(path))
+
+    assert result.status == 3
+    assert "; 0 to 1 of 3 vectors were sent and go on by themselves: whether" in result.complaint
+
+
+def test_vectors_that_have_found_no_room_were_not_taken(
+    gve: Tool, unit: FakeGve, tmp_path: Path
+) -> None:
+    path = tmp_path / "a.gve"
+    path.write_text("L1000\nL5\n")
+
+    def fault(answer: bytes) -> bytes:
+        unit.mute = unit.mute or answer.startswith(b"1")
+        return answer
+
+    unit.vector_s = 0.5
+    unit.faults.extend([fault] * 1000)
+
+    result = gve("send", str(path))
+
+    assert result.status == 3
+    assert "; 1 of 2 vectors were sent and go on by themselves: whether" in result.complaint

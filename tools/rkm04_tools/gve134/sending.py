@@ -292,6 +292,11 @@ class Sender:
         return Failure(f"{self._where(command)}: {text}", NOT_SO)
 
     @property
+    def doubtful(self) -> int:
+        """How many more vectors the unit may have taken, as their answer has not come."""
+        return sum(command.is_vector for command in self._under_way)
+
+    @property
     def spindle_text(self) -> str:
         """Whether the spindle turns, as the file has set it: the unit cannot be asked."""
         if self.spindle is None:
@@ -355,6 +360,8 @@ class Sender:
             raise self.interrupted(self._where(command))
         self.inta = answer.inta
         waits = answer.code in (answers.NO_ROOM, answers.NOT_WHILE_MOVING) and not answer.inta
+        if waits:
+            self._under_way = []
         if answer.code != answers.DONE and not waits:
             raise self._refused(command, answer)
 
