@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from fake_unit import MOVING, RUNNING, FakeLine, FakeUnit
+from fake_unit import MOVING, RUNNING, STOPPED, FakeLine, FakeUnit
 from rkm04_tools import acting
 from rkm04_tools.client_base import PORT_VARIABLE
 from rkm04_tools.doubt import interrupted_by_any_end
@@ -151,6 +151,32 @@ def test_a_send_to_a_unit_that_is_not_there_is_in_no_doubt(tool, fake, unit, wri
     assert "NOT CONFIRMED" not in result.complaint
     assert "memory" not in result.complaint
     assert acts(unit) == []
+
+
+@pytest.mark.parametrize(
+    ("command", "last", "state"),
+    [
+        (["send"], b"F100", 0),
+        (["resume"], b"C75", STOPPED),
+        (["speed", "500"], b"V500", RUNNING | MOVING),
+    ],
+)
+def test_a_unit_that_restarts_after_an_order_is_told(tool, fake, unit, write, command, last, state):
+    unit.states[0] = state
+    is_last = has(last)
+
+    def fault(answer: bytes) -> bytes:
+        if is_last(unit.done[-1]):
+            unit.restart()
+        return answer
+
+    fake.faults += [fault] * 1000
+    file = [write("\\ F100 R")] if command == ["send"] else []
+
+    result = tool(*command, *file, "--motor", "1")
+
+    assert result.status == 3
+    assert "has restarted, the request was executed before that or not at all" in result.complaint
 
 
 def test_an_interrupted_send_tells_it_too(start, fake, unit, write):

@@ -14,7 +14,7 @@ from rkm04_tools.doubt import Doubt
 from rkm04_tools.failure import Failure
 from rkm04_tools.frame import BROADCAST
 from rkm04_tools.line import Unit
-from rkm04_tools.line_errors import UnknownMessage
+from rkm04_tools.line_errors import UnitRestarted, UnknownMessage
 from rkm04_tools.messages import ALL_MOTORS, MOTORS
 from rkm04_tools.status import MotorStatus
 
@@ -66,7 +66,7 @@ def resume(unit: Unit, number: int, doubt: Doubt) -> list[Told]:
     if unit.node == BROADCAST:
         return []
     doubt.what = "C75 was taken, but whether the motor goes on"
-    after = states(unit, number)
+    after = states_since(unit, number)
     if before is None or after is None:
         return [Told(each, "was told to go on", None) for each in numbers_of(number)]
     return [_resumed(*both) for both in zip(before, after, strict=True)]
@@ -118,6 +118,16 @@ def states(unit: Unit, number: int) -> list[MotorStatus] | None:
     except UnknownMessage:
         return None
     return [motors[each - 1] for each in numbers_of(number)]
+
+
+def states_since(unit: Unit, number: int) -> list[MotorStatus] | None:
+    """The same, of a unit that has not restarted since the last request to it."""
+    sessions = unit.line.sessions
+    session = sessions[unit.node]
+    found = states(unit, number)
+    if sessions[unit.node] != session:
+        raise UnitRestarted(f"unit {unit.node}", repeated=True)
+    return found
 
 
 def _after_stop(unit: Unit, number: int) -> list[Told]:
@@ -172,7 +182,7 @@ def _resumed(before: MotorStatus, after: MotorStatus) -> Told:
 
 def _sped(unit: Unit, number: int, steps_per_s: int) -> Told:
     """Look whether the move was still there: else V has become a command of the program."""
-    state = states(unit, number)
+    state = states_since(unit, number)
     if state and not state[0].moving:
         text = f"has come to a stand meanwhile: V{steps_per_s} may be in its memory now"
         return Told(number, text, False)

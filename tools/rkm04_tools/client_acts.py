@@ -141,7 +141,7 @@ def _tell_sent(options: Namespace, motor: Motor, sent: Sent) -> int:
             "warning: the program memory was full, the oldest commands were overwritten; "
             "jumps and loops do not find them any more; begin a program with \\ to empty it",
         )
-    states = acting.states(motor.unit, motor.number)
+    states = acting.states_since(motor.unit, motor.number)
     counts = f"{count_of(sent.commands, 'command')} in {count_of(sent.messages, 'message')}"
     lines = [f"{options.file}: {counts} sent to {name_of(motor)}"]
     for state in states or []:
