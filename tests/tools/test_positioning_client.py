@@ -18,6 +18,7 @@ from typing import Any
 
 import pytest
 from pymodbus.framer import FramerRTU
+from rkm04_tools.failure import Failure
 from rkm04_tools.line_errors import GarbledAnswer, NoAnswer
 from rkm04_tools.positioning.line_errors import (
     Faulted,
@@ -271,6 +272,25 @@ def test_an_instruction_that_is_repeated_moves_once(unit: Unit):
         assert found[2] == word
         unit.axis(1).wait()
     assert axis.read().position_um == 1000
+
+
+@pytest.mark.parametrize(("later_ms", "told"), [(1 << 20, "HAS RESTARTED"), (0, "given it back")])
+def test_what_is_refused_as_the_axis_is_free_again_tells_why(
+    unit: Unit, monkeypatch: pytest.MonkeyPatch, later_ms: int, told: str
+):
+    axis = unit.axis(1)
+    axis.init()
+    write_and_read = unit.wire.write_and_read
+
+    def freed(*asked: Any) -> Any:
+        monkeypatch.undo()
+        unit.axis(1).reset()
+        unit._uptime_ms = (unit._uptime_ms or 0) + later_ms
+        return write_and_read(*asked)
+
+    monkeypatch.setattr(unit.wire, "write_and_read", freed)
+    with pytest.raises(Failure, match=told):
+        axis.mode(1.0, 500)
 
 
 def test_a_restarted_unit_is_told(pos_serve: Serve, tmp_path: Path):

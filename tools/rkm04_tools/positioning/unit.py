@@ -379,6 +379,8 @@ class Axis:
                 "an instruction meanwhile", NOT_SO,
             )  # fmt: skip
         if state.result:
+            if self._taken:
+                self._require_taken(state)
             raise Refused(self.number, name, state.result, state.error if state.has_fault else 0)
         self._taken, self._word = state.is_taken, word
         return state
