@@ -344,6 +344,19 @@ def test_commands_of_somebody_else_are_noticed(link: Link, unit: FakeGve) -> Non
     assert unit.taken == [(1, 0, 0, 0)]
 
 
+@pytest.mark.parametrize("cut", ["!0*S,FA\r", "!0*S,FA\r!0C1,0,0,0,05\r"])
+@pytest.mark.parametrize("heard", [9, 2, 0])
+def test_what_has_become_single_vectors_as_a_packet_lost_its_begin_is_not_sent_again(
+    link: Link, unit: FakeGve, port: Ends, cut: str, heard: int
+) -> None:
+    port.requests.append(lambda data: data.removeprefix(cut.encode()))
+    unit.faults += [bytes] * heard + [lost] * 4
+
+    with pytest.raises(OutOfStep, match="may have been executed"):
+        link.send_packet(["C1,0,0,0", "C2,0,0,0", "C3,0,0,0"])
+    assert unit.taken == [(n, 0, 0, 0) for n in (1, 2, 3)][cut.count("C") :]
+
+
 def test_an_answer_that_is_overwritten_by_damage_is_told_as_not_known(
     link: Link, unit: FakeGve, port: Ends
 ) -> None:

@@ -137,7 +137,8 @@ static void after_request(struct gve_master *master, uint64_t now_ns)
 {
     const struct gve_wire *wire = &master->wire;
     bool is_long = master->order.kind == GVE_MASTER_LONG;
-    if (wire->found && wire->reply.code != GVE_DAMAGED) {
+    bool is_single = is_packet(master) && wire->reply.length == 0; /* *E was, and all before it: *S was lost */
+    if (wire->found && wire->reply.code != GVE_DAMAGED && !is_single) {
         master->index = (uint8_t)(master->index + master->counts);
         gve_master_finish_answered(master, &wire->reply);
     } else if (is_long && !wire->found) {

@@ -13,7 +13,8 @@
  *             late ones to the command itself. The unit has counted
  *               none of the command: it was not executed; it is sent again;
  *               all of it: > has told how it ended, it is answered;
- *               a part of a packet: a packet is taken whole or not at all, so it was not; it is sent again;
+ *               a part of a packet: a packet is taken whole or not at all, so it was not; it is sent again; but if
+ *               the last answer has no number, *S was lost and the rest was executed one by one: out of step;
  *               anything else: out of step.
  *             An answer without a checksum is that of a unit which has restarted: @ without a checksum proves it, here
  *             and when connecting.

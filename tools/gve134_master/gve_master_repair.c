@@ -44,11 +44,31 @@ static void take_last(struct gve_master *master)
     master->last = master->wire.reply;
 }
 
-/* It was executed, and `last` is its answer. */
+/* So many commands of the request has the unit counted. */
+static uint8_t counted(const struct gve_master *master)
+{
+    return (uint8_t)(master->index_told - master->index);
+}
+
+/* `last` is the answer to the last of a part of a packet: a number stands in that of a packet. */
+static void judge_part(struct gve_master *master, uint64_t now_ns)
+{
+    if (master->last.length > 0) {
+        gve_master_try_again(master, now_ns);
+    } else {
+        gve_master_finish(master, GVE_MASTER_OUT_OF_STEP); /* without *S they were executed one by one */
+    }
+}
+
+/* It was counted, and `last` is its answer. */
 static void judge_last(struct gve_master *master, uint64_t now_ns)
 {
     bool is_packet = master->counts > 1;
-    if (master->last.code != GVE_DAMAGED) {
+    bool is_part = counted(master) < master->counts;
+    master->index = master->index_told;
+    if (is_part) {
+        judge_part(master, now_ns);
+    } else if (master->last.code != GVE_DAMAGED) {
         gve_master_finish_answered(master, &master->last);
     } else if (is_packet && master->last.length > 0) {
         gve_master_try_again(master, now_ns); /* it was not taken after all */
@@ -59,13 +79,10 @@ static void judge_last(struct gve_master *master, uint64_t now_ns)
 
 static void end_repair(struct gve_master *master, uint64_t now_ns)
 {
-    uint8_t done = (uint8_t)(master->index_told - master->index);
+    uint8_t done = counted(master);
     if (done > master->counts) {
         gve_master_finish(master, GVE_MASTER_OUT_OF_STEP);
-        return;
-    }
-    master->index = master->index_told;
-    if (done < master->counts || master->counts == 0) {
+    } else if (done == 0) {
         gve_master_try_again(master, now_ns);
     } else if (master->has_last) {
         judge_last(master, now_ns);
