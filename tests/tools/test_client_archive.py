@@ -164,6 +164,7 @@ def test_restore_changes_nothing_if_a_unit_is_missing(tool, fake, folder, units)
 
     assert result.status == 3
     assert "unit 9 does not answer" in result.complaint
+    assert result.complaint.rstrip().endswith("; nothing was restored")
     assert set(units[0].done) == {b"\x01"}
 
 

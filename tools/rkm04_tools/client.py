@@ -193,7 +193,7 @@ def run_restore(options: Namespace) -> int:
     """Load and store the programs of a folder."""
     port = port_of(options)
     programs = archive.read_folder(named(options.folder))
-    doubt = Doubt(advice="restore again")
+    doubt = Doubt(advice="restore again", done="nothing was restored")
 
     def show(done: int, total: int) -> None:
         doubt.done = f"restored: {archive.names_of(programs[:done])}"
