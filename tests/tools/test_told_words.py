@@ -260,8 +260,8 @@ PARSED = [
     'unknown command "f"; commands are upper case: F',
     "unknown command (soft hyphen, code 173)",
     "motor 1, line 2, column 3: V100 is below S500; the move runs at V100 throughout",
-    "motor 2: the . after it closes L5; an E after the call is not its own; nothing was sent to any "
-    "motor; correct it, then send again",
+    "motor 2: the . after it closes L5; an E after the call is not its own; nothing was sent to "
+    "any motor; correct it, then send again",
 ]
 """What the parser makes of its pieces."""
 OTHERWISE = {

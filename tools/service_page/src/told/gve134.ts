@@ -5,8 +5,8 @@ import { ALONE_OF_ALL, SERVICE_OF_ALL } from "./common";
 
 /** Names of the files of reference runs, also before a place in them. */
 const RUNS: Sentences = ["", ":$1", ".nc", ".nc:$1"].flatMap((end) => [
-    [`home all${end}`, `reference všech os${end}`] as const,
-    ...[..."XYZA"].map((axis) => [`home ${axis}${end}`, `reference osy ${axis}${end}`] as const),
+    [`home all${end}`, `reference všech os${end.replace(".nc", "")}`] as const,
+    ...[..."XYZA"].map((axis) => [`home ${axis}${end}`, `reference osy ${axis}${end.replace(".nc", "")}`] as const),
 ]);
 
 export const ALONE: Sentences = [
@@ -34,7 +34,7 @@ export const ALONE: Sentences = [
     ["the queue is empty", "fronta je prázdná"],
     ["the axes stand at $1", "osy stojí na $1"],
     ["the job goes on", "práce pokračuje"],
-    ["$1 vectors made", "vykonáno vektorů: $1"],
+    ["#1 vectors made", "vykonáno vektorů: #1"],
     ["the port is closed", "port je uzavřen"],
     ["the unit is left as it is", "jednotka zůstává, jak je"],
     ["noted", "vzato na vědomí"],
@@ -119,7 +119,7 @@ export const ALONE: Sentences = [
         "no answer for a long time, and it is NOT KNOWN whether the axes move",
         "dlouho nepřišla odpověď a NENÍ ZNÁMO, zda se osy pohybují",
     ],
-    ["$1 commands are too many for a packet", "$1 příkazů je na paket příliš mnoho"],
+    ["#1 commands are too many for a packet", "#1 příkazů je na paket příliš mnoho"],
     // jobs
     ["a job is under way, and this would disturb it", "práce běží a toto by ji rušilo"],
     ["halt it first", "nejdříve ji zastavte"],
@@ -128,10 +128,10 @@ export const ALONE: Sentences = [
     ["a job is not done", "práce neskončila"],
     ["$1 is not done", "$1 neskončilo"],
     ["go on with it, or halt and delete it", "pokračujte v ní, nebo zastavte a smažte"],
-    ["$1 vectors were sent and go on by themselves", "odesláno vektorů: $1, pokračují samy"],
+    ["#1 vectors were sent and go on by themselves", "odesláno vektorů: #1, pokračují samy"],
     [
-        "$1 vectors were sent and go on by themselves: whether the axes move is NOT KNOWN",
-        "odesláno vektorů: $1, pokračují samy: zda se osy pohybují, NENÍ ZNÁMO",
+        "#1 vectors were sent and go on by themselves: whether the axes move is NOT KNOWN",
+        "odesláno vektorů: #1, pokračují samy: zda se osy pohybují, NENÍ ZNÁMO",
     ],
     ["another file was opened meanwhile", "mezitím byl otevřen jiný soubor"],
     ["look at it, then start again", "podívejte se na něj a spusťte to znovu"],

@@ -181,6 +181,8 @@ export const SERVICE: Sentences = [
     ["motor #1 (already sent to motor $2): $3", "motor #1 (už odesláno motoru $2): $3"],
     ["motor #1 (nothing was started): $2", "motor #1 (nic nebylo spuštěno): $2"],
     ["line #1, column #2: $3", "řádek #1, sloupec #2: $3"],
+    ["the program: $1", "program: $1"],
+    ["the program:$1: $2", "program:$1: $2"],
     ["the program", "program"],
     ["ask for fewer seconds", "zvolte méně sekund"],
     ["the simulation takes too long", "simulace trvá příliš dlouho"],
