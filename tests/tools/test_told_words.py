@@ -105,6 +105,7 @@ ASSEMBLED: dict[str, list[str]] = {
         "the unit refuses the command Q (flag 2)", "the unit refuses the value after V (flag 1)",
         "motor 1 runs no move: nothing was sent, motor 2 runs no move: nothing was sent",
         "the stop is not confirmed by node 1, node 3 of COM4; use the emergency stop",
+        "status 3, state 10", "state 5",
         "motor 1: there is no program in it; nothing was sent to any motor; send it alone",
         "the unit could not store the program (error 1): the memory reports an error; the old "
         "program stays",

@@ -1,6 +1,6 @@
 import { NoEngine, engine } from "./engine";
 import type { Curve, CurveRequest, Example, Trouble, Verdict } from "./protocol";
-import { troubleText } from "./common/told";
+import { told, troubleText } from "./common/told";
 
 const SUPERSEDED = 409;
 
@@ -26,7 +26,7 @@ async function post<T>(path: string, body: unknown): Promise<T | null> {
 /** What the page does itself where there is no service. */
 async function alone<T>(work: Promise<T>): Promise<T> {
     return work.catch((error: unknown) => {
-        throw error instanceof NoEngine ? new Refused(error.message) : error;
+        throw error instanceof NoEngine ? new Refused(told(error.message)) : error;
     });
 }
 

@@ -1,3 +1,4 @@
+import { told } from "./common/told";
 import { boards, type BoardPage } from "help-pages";
 import { DfuTrouble, FLASH_ADDRESS, IMAGE_BYTES_MAX, LOADER, Loader, isImage, type UsbDevice } from "./dfu";
 import { byId, make } from "./dom";
@@ -109,7 +110,7 @@ export class FirmwarePanel {
             this.#say(t("firmware.done"));
         } catch (error) {
             const kind = error instanceof DfuTrouble ? error.kind : "lost";
-            const words = t(`firmware.${kind}`, { words: error instanceof Error ? error.message : String(error) });
+            const words = t(`firmware.${kind}`, { words: told(error instanceof Error ? error.message : String(error)) });
             this.#say(`${words} ${t(hasBegun ? "firmware.half" : "firmware.nothing")}`, true);
         }
         await loader.close().catch(() => undefined);

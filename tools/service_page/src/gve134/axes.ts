@@ -1,7 +1,7 @@
 import type { Danger } from "../danger";
 import { byId, make } from "../dom";
 import { fixedText } from "../language";
-import { language, numberText, t } from "./i18n";
+import { language, numberText, t, told } from "./i18n";
 import { isOpen } from "./job";
 import { AXES, FLAG, type Live, type MachineAxis } from "./protocol";
 import { Reach } from "./reach";
@@ -184,7 +184,7 @@ export class Axes {
 
 function moreOf({ causes, flags, late, stood_s = 0 }: Live): string {
     const found = [
-        causes.length > 0 ? t("live.stoppedBy", { causes: causes.join(", ") }) : "",
+        causes.length > 0 ? t("live.stoppedBy", { causes: causes.map(told).join(", ") }) : "",
         flags & FLAG.full ? t("live.full") : "",
         late ? t("live.late", { count: late }) : "",
         stood_s >= 1 ? t("live.stood", { seconds: numberText(stood_s) }) : "",

@@ -103,6 +103,11 @@ export const ALONE: Sentences = [
     ["change of direction inside a compound move", "změna směru uvnitř složeného pohybu"],
     ["Y without F or B", "Y bez F nebo B"],
     ["the stored program is damaged", "uložený program je poškozen"],
+    // the loader of a board, and what browsers say of USB
+    ["status #1, state #2", "status #1, stav #2"],
+    ["state #1", "stav #1"],
+    ["The device was disconnected.", "zařízení bylo odpojeno"],
+    ["Access denied.", "přístup odepřen"],
     ["no motion without the crystal", "bez krystalu se nepohybuje"],
 ];
 
