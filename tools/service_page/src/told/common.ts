@@ -23,8 +23,8 @@ export const ALONE_OF_ALL: Sentences = [
     ["only the virtual unit's can be clicked", "klepnutím lze měnit jen vstupy virtuální jednotky"],
     ["error #1", "chyba #1"],
     // what browsers say of serial ports
-    ["Failed to execute 'requestPort' on 'Serial': No port selected by the user.", "žádný nebyl zvolen"],
-    ["Failed to open serial port.", "nelze jej otevřít"],
+    ["Failed to execute 'requestPort' on 'Serial': No port selected by the user.", "výběr byl zrušen"],
+    ["Failed to open serial port.", "prohlížeč jej neotevřel"],
     ["The port is already open.", "už je otevřen"],
     ["The device has been lost.", "zařízení bylo odpojeno"],
     ["closed", "uzavřen"],
