@@ -100,7 +100,8 @@ bool group_stop(struct group *group, enum axis_cause cause);
 bool group_stop_isr(struct group *group, enum axis_cause cause);
 
 /* Takes a stop back: the motion goes on from the first step at which a change can take effect, with the speeds that its
- * sections have. False if there is no stop, or it comes to rest before: to be asked again, or started after the end. */
+ * sections have. False if there is no stop, or it comes to rest before: to be asked again, or started after the end;
+ * and where it is one for AXIS_CAUSE_FAULT, which is not taken back. */
 bool group_resume(struct group *group);
 
 /* Plans a stop that was asked for. */

@@ -244,7 +244,9 @@ bool group_stop_isr(struct group *group, enum axis_cause cause)
 bool group_stop(struct group *group, enum axis_cause cause)
 {
     hal_run_hold_plan();
+    hal_step_hold();
     bool stops = group_stop_isr(group, cause);
+    hal_step_release();
     if (stops) {
         plan_stop(group);
     }
@@ -264,21 +266,23 @@ void group_set_speeds(struct group *group, const struct group_speeds *speeds)
     hal_run_release_plan();
 }
 
-/* The tick interrupt may stop it meanwhile: then that counts. */
+/* The tick interrupt may stop it at any time: then that counts. */
 bool group_resume(struct group *group)
 {
     hal_run_hold_plan();
-    unsigned cause = atomic_load_explicit(&group->cause, memory_order_relaxed);
     bool planned = is_in(group, AXIS_STOPPING);
-    bool resumes = axis_state_enter(&group->state, AXIS_RESUME);
+    hal_step_hold();
+    bool resumes = group_cause(group) != AXIS_CAUSE_FAULT && axis_state_enter(&group->state, AXIS_RESUME);
+    hal_step_release();
     if (resumes && planned && change(group) != CHANGED) {
         (void)axis_state_enter(&group->state, AXIS_HALT);
         resumes = false;
     }
-    if (resumes) {
-        (void)atomic_compare_exchange_strong_explicit(&group->cause, &cause, AXIS_CAUSE_NONE, memory_order_relaxed,
-                                                      memory_order_relaxed);
+    hal_step_hold();
+    if (resumes && is_in(group, AXIS_MOVING)) {
+        atomic_store_explicit(&group->cause, AXIS_CAUSE_NONE, memory_order_relaxed);
     }
+    hal_step_release();
     hal_run_release_plan();
     return resumes;
 }

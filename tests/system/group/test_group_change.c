@@ -267,6 +267,22 @@ void test_a_stop_that_is_yet_to_be_planned_is_taken_back_without_a_plan(void)
     assert_arrived();
 }
 
+/* The tick interrupt may put it there between the owner's look at the cause and what it does then. */
+void test_a_stop_for_a_fault_is_not_taken_back(void)
+{
+    add(2000, 0, 0, 0, 5000);
+    start();
+    run_us(60000);
+    TEST_ASSERT_TRUE(group_stop(&group, AXIS_CAUSE_PAUSE));
+    TEST_ASSERT_TRUE(group_stop_isr(&group, AXIS_CAUSE_FAULT));
+    TEST_ASSERT_FALSE(group_resume(&group));
+    group_plan_isr(&group);
+    TEST_ASSERT_FALSE(group_resume(&group));
+    TEST_ASSERT_EQUAL_INT(AXIS_CAUSE_FAULT, group_cause(&group));
+    run_to_the_end();
+    TEST_ASSERT_TRUE(group_has_rest(&group));
+}
+
 void test_what_has_not_been_handed_over_before_a_place_is_handed_over_first(void)
 {
     for (unsigned i = 0; i < RING; i++) {
