@@ -1,5 +1,5 @@
-"""Checks the models in tests/proofs, the line, the ring of segments and the edges that the DMA
-moves, with Spin: every run of them, to the end.
+"""Checks the models in tests/proofs, the line, the ring of segments, its recall and the edges that
+the DMA moves, with Spin: every run of them, to the end.
 
     python tests/support/line_model.py [--all]
 
@@ -26,6 +26,10 @@ from pathlib import Path
 MODELS = Path(__file__).resolve().parents[2] / "tests/proofs"
 RING = "ring.pml"
 EDGES = "edges.pml"
+RECALL = "recall.pml"
+TWO_AXES = ("AXES=2", "STOPS=0", "PUSHES=2", "FIRST=1")
+NO_STOPS = ("STOPS=0", "CHANGES=2", "PUSHES=4")
+GROUP = ("STOPS=2", "FAULTS", "RESUMES=1", "CHANGES=0", "PUSHES=1", "FIRST=1")
 COMMANDS = ("spin", "gcc")
 EXPLORED = MODELS / "explored.json"
 
@@ -63,6 +67,11 @@ HOLD = (
         "late pulses are counted, none is missing", ("PULSES=4", "CHANGES=0", "LATE"), model=EDGES
     ),
     Variant("the same with a change", ("PULSES=3", "LATE"), model=EDGES),
+    Variant("a path recalled twice: each pulse made once, as intended", NO_STOPS, model=RECALL),
+    Variant("the same with a stop at any time, which wins", model=RECALL),
+    Variant("the same with a halt of all", ("ABORTS=1", "STOPS=0"), model=RECALL),
+    Variant("all axes are recalled or none, and go on at once", TWO_AXES, model=RECALL),
+    Variant("a stop is told, planned, hardened and taken back", GROUP, model=RECALL),
 )
 FAIL = (
     Variant("planted: a unit that has started refuses nothing", ("ACTIONS=1", "PLANT_NO_REFUSAL")),
@@ -127,6 +136,46 @@ FAIL = (
         ("PULSES=4", "LATE", "PLANT_LOADED_NOT_CHECKED"),
         model=EDGES,
     ),
+    Variant("planted: laid over the place", (*NO_STOPS, "PLANT_PLACE_LAID_OVER"), model=RECALL),
+    Variant(
+        "planted: nothing laid while frozen",
+        (*NO_STOPS, "PLANT_NOTHING_LAID_WHILE_FROZEN"),
+        model=RECALL,
+    ),
+    Variant("planted: a rest while frozen", (*NO_STOPS, "PLANT_REST_WHILE_FROZEN"), model=RECALL),
+    Variant(
+        "planted: what is recalled stays queued", (*NO_STOPS, "PLANT_QUEUE_KEPT"), model=RECALL
+    ),
+    Variant(
+        "planted: a way back over a place", (*NO_STOPS, "PLANT_WAY_BACK_OVER_PLACE"), model=RECALL
+    ),
+    Variant("planted: recalled and counted", (*NO_STOPS, "PLANT_COUNT_KEPT"), model=RECALL),
+    Variant("planted: thawed where it was laid", (*NO_STOPS, "PLANT_CURSOR_LEFT"), model=RECALL),
+    Variant("planted: thawed, and nobody asks", (*NO_STOPS, "PLANT_NOT_RUN"), model=RECALL),
+    Variant("planted: frozen without room", (*NO_STOPS, "PLANT_ROOM_NOT_LOOKED_AT"), model=RECALL),
+    Variant(
+        "planted: refused in part, and frozen", (*NO_STOPS, "PLANT_FROZEN_IN_PART"), model=RECALL
+    ),
+    Variant(
+        "planted: a motor at rest that stays so", (*NO_STOPS, "PLANT_REST_NOT_LEFT"), model=RECALL
+    ),
+    Variant("planted: recalled twice over", (*NO_STOPS, "PLANT_RECALLED_KEPT"), model=RECALL),
+    Variant("planted: halted while frozen", (*NO_STOPS, "PLANT_HALTED_WHILE_FROZEN"), model=RECALL),
+    Variant("planted: thawed one by one", (*TWO_AXES, "PLANT_THAWED_APART"), model=RECALL),
+    Variant("planted: planned without one axis", (*TWO_AXES, "PLANT_ONE_LEFT_OUT"), model=RECALL),
+    Variant(
+        "planted: refused, and others frozen", (*TWO_AXES, "PLANT_OTHERS_STAY_FROZEN"), model=RECALL
+    ),
+    Variant(
+        "planted: a stop that is interrupted", (*GROUP, "PLANT_STOP_WITHOUT_HOLD"), model=RECALL
+    ),
+    Variant("planted: a fault taken back", (*GROUP, "PLANT_FAULT_TAKEN_BACK"), model=RECALL),
+    Variant(
+        "planted: a new stop's cause forgotten", (*GROUP, "PLANT_CAUSE_FORGOTTEN"), model=RECALL
+    ),
+    Variant(
+        "planted: a fault planned as a pause", (*GROUP, "PLANT_CAUSE_NOT_COMPARED"), model=RECALL
+    ),
 )
 
 
@@ -176,7 +225,7 @@ def is_right(variant: Variant) -> bool:
     """Whether a variant does what it must, which is told."""
     started = time.monotonic()
     must_hold = variant in HOLD
-    explored = explore(variant, 2 if must_hold else 0)
+    explored = explore(variant, 1 if must_hold else 0)
     verdict = "holds" if explored.holds() else "fails" if explored.errors > 0 else "unknown"
     right = verdict == ("holds" if must_hold else "fails")
     print(
