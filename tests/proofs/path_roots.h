@@ -1,5 +1,5 @@
 /*
- * Contract of path_root.h, proved with path_root.acsl.
+ * Contract of path_root.h, proved with path_root_nearest.acsl.
  */
 #ifndef PATH_ROOTS_H
 #define PATH_ROOTS_H

@@ -69,6 +69,18 @@ PLANTED = [
         "WORD_BITS - 1U - shift", "WORD_BITS - shift",
     ),
     (
+        "path_root", "root_of_two_words", "firmware/engine/path/path_root.c",
+        "if (rest < way)", "if (rest <= way)",
+    ),
+    (
+        "path_root_wide", "root_of_four_words", "firmware/engine/path/path_root.c",
+        "if (left >= high.root)", "if (left > high.root)",
+    ),
+    (
+        "path_root_nearest", "path_root", "firmware/engine/path/path_root.c",
+        "rest > root ? root + 1U : root", "rest >= root ? root + 1U : root",
+    ),
+    (
         "path_segment_pieces", "ticks_of", "firmware/engine/path/path_segment.c",
         "slope / 16U : slope / 4U", "slope / 8U : slope / 4U",
     ),
@@ -186,9 +198,8 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
-    "path_divide_wide", "path_root", "path_section_mind_turns", "path_section_take",
-    "path_segment_lay", "residual_at", "root_of_four_words", "root_of_two_words", "share_of",
-    "slope_at",
+    "path_divide_wide", "path_section_mind_turns", "path_section_take", "path_segment_lay",
+    "residual_at", "share_of", "slope_at",
 }  # fmt: skip
 
 
