@@ -1,5 +1,6 @@
 /*
- * Contracts of path_divide.h, proved with path_divide.acsl: exact for all operands that the header allows.
+ * Contracts of path_divide.h, proved with path_divide.acsl, path_divide_fixed.acsl and path_divide_wide.acsl: exact for
+ * all operands that the header allows.
  */
 #ifndef PATH_QUOTIENTS_H
 #define PATH_QUOTIENTS_H
