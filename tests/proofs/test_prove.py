@@ -202,8 +202,8 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
-    "path_section_mind_turns", "path_section_take", "path_segment_lay", "residual_at", "share_of",
-    "slope_at",
+    "fine_root", "path_fixed_pace", "path_fixed_slope", "path_section_mind_turns",
+    "path_section_take", "path_segment_lay", "residual_at", "shift_right", "share_of", "slope_at",
 }  # fmt: skip
 
 
