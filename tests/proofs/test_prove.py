@@ -73,6 +73,10 @@ PLANTED = [
         "left = pushed_out(dividend.high, shift)", "left = pushed_out(dividend.low, shift)",
     ),
     (
+        "path_fixed", "path_fixed_multiply", "firmware/engine/path/path_fixed.c",
+        "whole.low > PATH_FIXED_NEVER", "false",
+    ),
+    (
         "path_root", "root_of_two_words", "firmware/engine/path/path_root.c",
         "if (rest < way)", "if (rest <= way)",
     ),
@@ -203,7 +207,7 @@ ONLY_MODELLED = {
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
     "fine_root", "path_fixed_pace", "path_fixed_slope", "path_section_mind_turns",
-    "path_section_take", "path_segment_lay", "residual_at", "shift_right", "share_of", "slope_at",
+    "path_section_take", "path_segment_lay", "residual_at", "share_of", "slope_at",
 }  # fmt: skip
 
 
