@@ -206,8 +206,8 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
-    "path_fixed_pace", "path_fixed_slope", "path_section_mind_turns", "path_section_take",
-    "path_segment_lay", "residual_at", "share_of", "slope_at",
+    "path_fixed_slope", "path_section_mind_turns", "path_section_take", "path_segment_lay",
+    "residual_at", "share_of", "slope_at",
 }  # fmt: skip
 
 
