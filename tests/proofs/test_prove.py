@@ -210,7 +210,7 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
-    "path_section_mind_turns", "path_section_take", "path_segment_lay", "residual_at", "slope_at",
+    "path_section_mind_turns", "path_section_take", "path_segment_lay", "slope_at",
 }  # fmt: skip
 
 
