@@ -266,23 +266,31 @@ void group_set_speeds(struct group *group, const struct group_speeds *speeds)
     hal_run_release_plan();
 }
 
+/* The stop has been taken back, but for one that has come since. */
+static void forget_cause(struct group *group)
+{
+    hal_step_hold();
+    if (is_in(group, AXIS_MOVING)) {
+        atomic_store_explicit(&group->cause, AXIS_CAUSE_NONE, memory_order_relaxed);
+    }
+    hal_step_release();
+}
+
 /* The tick interrupt may stop it at any time: then that counts. */
 bool group_resume(struct group *group)
 {
     hal_run_hold_plan();
     bool planned = is_in(group, AXIS_STOPPING);
     hal_step_hold();
-    bool resumes = group_cause(group) != AXIS_CAUSE_FAULT && axis_state_enter(&group->state, AXIS_RESUME);
+    bool resumes = (group_cause(group) != AXIS_CAUSE_FAULT) && axis_state_enter(&group->state, AXIS_RESUME);
     hal_step_release();
     if (resumes && planned && change(group) != CHANGED) {
         (void)axis_state_enter(&group->state, AXIS_HALT);
         resumes = false;
     }
-    hal_step_hold();
-    if (resumes && is_in(group, AXIS_MOVING)) {
-        atomic_store_explicit(&group->cause, AXIS_CAUSE_NONE, memory_order_relaxed);
+    if (resumes) {
+        forget_cause(group);
     }
-    hal_step_release();
     hal_run_release_plan();
     return resumes;
 }
