@@ -135,6 +135,9 @@ ASSEMBLED: dict[str, list[str]] = {
         "was sent after it",
         "USB 1234:5678: the unit does not answer; 9 vectors were sent and go on by themselves: "
         "whether the axes move is NOT KNOWN",
+        "USB 1234:5678: the unit does not answer; 9 to 41 vectors were sent and go on by "
+        "themselves: whether the axes move is NOT KNOWN",
+        "the unit does not answer; 0 to 1 vectors were sent and go on by themselves",
         "the unit HAS RESTARTED, its positions count anew; the axes stand at X 0  Y 0  Z 0  A 0; "
         "stopped, the rest of the vectors waits (Go on, or Delete); confirmed by the unit",
     ],

@@ -74,10 +74,9 @@ def run_send(options: Namespace) -> int:
             raise Failure(f"{error}; {sender.spindle_text}", error.status) from None
         except LineError as error:
             what = "no vector was sent"
-            if at_most := sender.sent + sender.doubtful:
-                sent = f"{sender.sent} to {at_most}" if sender.doubtful else f"{at_most}"
-                what = f"{sent} of {count_of(job.vectors, 'vector')} were sent and go on"
-                what += " by themselves"
+            if sender.sent_text != "0":
+                what = f"{sender.sent_text} of {count_of(job.vectors, 'vector')} were sent and go"
+                what += " on by themselves"
             text = f"{error}; {what}: whether the axes move is NOT KNOWN"
             raise Failure(f"{text}; {sender.spindle_text}", error.status) from None
         except Failure as error:

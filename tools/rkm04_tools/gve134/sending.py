@@ -292,9 +292,10 @@ class Sender:
         return Failure(f"{self._where(command)}: {text}", NOT_SO)
 
     @property
-    def doubtful(self) -> int:
-        """How many more vectors the unit may have taken, as their answer has not come."""
-        return sum(command.is_vector for command in self._under_way)
+    def sent_text(self) -> str:
+        """How many vectors were sent; to how many, where the answer to the last has not come."""
+        doubtful = sum(command.is_vector for command in self._under_way)
+        return f"{self.sent} to {self.sent + doubtful}" if doubtful else str(self.sent)
 
     @property
     def spindle_text(self) -> str:

@@ -103,7 +103,7 @@ class Jobs:
             line.enter(working.HELD)
             raise
         except Failure as failure:
-            ended = _end_of(failure, job.sender.sent)
+            ended = _end_of(failure, job.sender.sent_text)
             line.end_job(working.FAILED, ended)
             raise ended from None
         line.look(unit)
@@ -166,7 +166,7 @@ class Jobs:
         return False
 
 
-def _end_of(failure: Failure, sent: int) -> Failure:
+def _end_of(failure: Failure, sent: str) -> Failure:
     """Why a job has ended, with what is not known then."""
     if isinstance(failure, Stopped):
         return Cut()

@@ -170,7 +170,7 @@ export class UnitDesk {
         const { cause, next } = why.trouble;
         const { job } = this.#line;
         this.#lost = why;
-        this.#line.drop(new LineTrouble("PortLost", `${cause}; ${job?.sender.sent ?? 0} vectors were sent and go on by themselves`, next));
+        this.#line.drop(new LineTrouble("PortLost", `${cause}; ${job?.sender.sentText ?? 0} vectors were sent and go on by themselves`, next));
         const { restarted, job: told } = this.#line.state.now;
         this.#line.state.leave({ error: why.trouble, restarted, job: told });
         this.#giveUp(UNSENT);

@@ -144,7 +144,7 @@ export class Jobs {
             line.enter("held");
             return error;
         }
-        const ended = error === STOPPED ? CUT : endOf(error, job.sender.sent, error instanceof Restarted);
+        const ended = error === STOPPED ? CUT : endOf(error, job.sender.sentText, error instanceof Restarted);
         if (line.job === job && job.isOpen) {
             line.endJob(ended);
         }

@@ -95,6 +95,12 @@ export class Sender {
         }
     }
 
+    /** How many vectors were sent; to how many, where the answer to the last has not come. */
+    get sentText(): string {
+        const doubtful = this.#underWay.filter(isVector).length;
+        return doubtful > 0 ? `${this.sent} to ${this.sent + doubtful}` : String(this.sent);
+    }
+
     /** How many vectors are over, by where the axes are; null: it is not known. */
     look(positions: Positions): number | null {
         return this.executed?.look(positions, this.#underWay) ?? null;
@@ -335,6 +341,9 @@ export class Sender {
         }
         this.#inta = answer.inta;
         const waits = [NO_ROOM, NOT_WHILE_MOVING].includes(answer.code) && !answer.inta;
+        if (waits) {
+            this.#underWay = [];
+        }
         if (answer.code !== DONE && !waits) {
             throw this.#refused(command, answer);
         }
@@ -394,7 +403,7 @@ export class Sender {
 }
 
 /** Why a job has ended, with what is not known then. */
-export function endOf(error: Refusal, sent: number, isRestart: boolean): Refusal {
+export function endOf(error: Refusal, sent: string, isRestart: boolean): Refusal {
     if (!(error instanceof LineTrouble) || isRestart) {
         return error;
     }
