@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import json
 import re
 from collections.abc import Callable, Iterator
@@ -15,6 +14,7 @@ import pytest
 from gcode_bad import BAD
 from gcode_played import content, mill, play
 from page_source import ask_source
+from python_texts import texts_of
 from rkm04_tools.failure import Failure
 from rkm04_tools.gve134 import host
 from rkm04_tools.gve134.gcode.axes import mill_of
@@ -212,26 +212,8 @@ def messages() -> list[str]:
 
 def of_python(path: str, functions: set[str] | None) -> Iterator[list[str]]:
     """The sentences of a source, in pieces between what differs."""
-    tree: ast.AST = ast.parse((TOOLS / path).read_text(encoding="utf-8"))
-    roots = [tree]
-    if functions is not None:
-        roots = [
-            each for each in ast.walk(tree)
-            if isinstance(each, ast.FunctionDef) and each.name in functions
-        ]  # fmt: skip
-        assert len(roots) >= len(functions)
-    nodes = [node for root in roots for node in ast.walk(root)]
-    documents = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
-    parts = {id(p) for node in nodes if isinstance(node, ast.JoinedStr) for p in node.values}
-    for node in nodes:
-        if id(node) in documents | parts:
-            continue
-        if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            yield [node.value]
-        elif isinstance(node, ast.JoinedStr):
-            yield [
-                str(part.value) if isinstance(part, ast.Constant) else "" for part in node.values
-            ]
+    for pieces in texts_of(TOOLS / path, functions):
+        yield [piece or "" for piece in pieces]
 
 
 def of_c(name: str) -> Iterator[list[str]]:

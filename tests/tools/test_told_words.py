@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import ast
 import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import pytest
 from page_source import ask_source
+from python_texts import texts_of
 from rkm04_tools.positioning import state
 from rkm04_tools.report import STATES
 from rkm04_tools.service.words import Words
@@ -298,24 +298,8 @@ def of_page(path: str) -> Iterator[str]:
 
 def of_python(path: str, functions: set[str] | None) -> Iterator[str]:
     """The texts of a source in Python."""
-    roots: list[ast.AST] = [ast.parse((PYTHON / path).read_text(encoding="utf-8"))]
-    if functions is not None:
-        roots = [
-            each for each in ast.walk(roots[0])
-            if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef) and each.name in functions
-        ]  # fmt: skip
-        assert len(roots) >= len(functions), path
-    nodes = [node for root in roots for node in ast.walk(root)]
-    documents = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
-    parts = {id(p) for node in nodes if isinstance(node, ast.JoinedStr) for p in node.values}
-    for node in nodes:
-        if id(node) in documents | parts:
-            continue
-        if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            yield node.value
-        elif isinstance(node, ast.JoinedStr):
-            pieces = [p.value if isinstance(p, ast.Constant) else SOME for p in node.values]
-            yield "".join(map(str, pieces))
+    for pieces in texts_of(PYTHON / path, functions):
+        yield "".join(SOME if piece is None else piece for piece in pieces)
 
 
 def of_c(*paths: str) -> Iterator[str]:

@@ -26,6 +26,9 @@ export class Executed {
     constructor(exports: ExecutedExports) {
         this.#exports = exports;
         this.#line = exports.lines_gve134_executed_begin();
+        if (this.#line === 0) {
+            throw new Error("there is not memory enough for the line");
+        }
     }
 
     /** A job begins; `place`: where its first vector does. */
