@@ -4,16 +4,16 @@
  *
  * The planner hands segments of the path over, for each axis by itself. It changes the path from a place: the channels
  * take back what is laid after it and freeze, the path is planned, other segments come instead, and all go on at once. A
- * place is a pulse of each axis, any that has been handed over since the last change: the motors may have gone past it,
- * and then what was frozen goes on. The tick interrupt stops the group at any time that no hold is in force, main stops
+ * place is a pulse of each axis, any that has been handed over: the motors may have gone past it, and then what was
+ * frozen goes on. The tick interrupt stops the group at any time that no hold is in force, main stops
  * it too, takes a stop back and, where it aborts all, halts the channels. The backend asks for pulses when no hold is in
  * force, and the hardware makes them at any time at all; what is taken back may be refused in part or as a whole. Spin
  * tries all orders. Main and the plan interrupt, which hold each other off, are one planner. The counters wrap after
  * COUNTS.
  *
  * A pulse is named by its segment and its place there, as in ring.pml, and `intended` has the names of each axis in the
- * order in which they must be made. A cursor has the name of the pulse that its generator stands on. After a recall that
- * is none, until the next segment begins: no place before it is looked for (README.md). Left out are ticks and turns.
+ * order in which they must be made. A cursor has the name of the pulse that its generator stands on. Left out are ticks
+ * and turns.
  *
  * PLANT_...: an error, to see that it is found.
  */
@@ -48,12 +48,11 @@
 #define DISTANCE(head, tail) ((head + COUNTS - tail) % COUNTS)
 #define NAME(segment, place) (segment * 4 + place)
 #define CH channel[a]
-/* Which of `cursor` is that of axis `a`, which are the places that it keeps, and one of the planner's. */
+/* Which of `cursor` is that of axis `a`, and which are the places that it keeps. */
 #define CURSOR (a * 3)
 #define KEPT (a * 3 + 1)
 #define YOUNG (a * 3 + 1 + CH.young)
 #define OLD (a * 3 + 2 - CH.young)
-#define WAY (AXES * 3)
 
 typedef slot {
     byte segment;
@@ -87,13 +86,12 @@ typedef course {
     byte name;    /* of the segment handed over last */
     byte left;    /* segments that are yet to be handed over */
     byte planned; /* pulses that have been */
-    byte anew;    /* the pulse from which it was changed last */
     byte place;   /* of a change */
     byte intended[PULSES + 1]
 };
 
 step_channel channel[AXES];
-step_cursor cursor[AXES * 3 + 1];
+step_cursor cursor[AXES * 3];
 output out[AXES];
 course path[AXES];
 bool held, thawing;
@@ -319,6 +317,7 @@ inline truncate(last)
     end_with(KEPT + 1, last);
     end_with(CURSOR, last);
     cut = last - cursor[CURSOR].pulse - cursor[CURSOR].left; /* pulses to be kept in the queue */
+#ifndef PLANT_QUEUE_KEPT
     CH.head = cursor[CURSOR].tail;
     do
     :: cut > 0 ->
@@ -330,7 +329,11 @@ inline truncate(last)
         CH.head = NEXT(CH.head)
     :: else -> break
     od;
-    CH.pushed = last
+#endif
+#ifndef PLANT_COUNT_KEPT
+    CH.pushed = last;
+#endif
+    cut = 0
 }
 
 /* channel_end_at */
@@ -338,16 +341,9 @@ inline end_at(last)
 {
     cursor[CURSOR].pulse = last;
     cursor[CURSOR].left = 0;
-#ifndef PLANT_COUNT_KEPT
     CH.pushed = last;
-#endif
-#ifndef PLANT_QUEUE_KEPT
     CH.head = cursor[CURSOR].tail;
-#endif
-#ifndef PLANT_WAY_BACK_OVER_PLACE
-    keep_nothing();
-#endif
-    skip
+    keep_nothing()
 }
 
 /* step_channel_base */
@@ -359,32 +355,34 @@ inline base(c, upto)
     fi
 }
 
-inline forget_way()
+/* channel_go_back */
+inline go_back()
 {
-    cursor[WAY].segment = 0;
-    cursor[WAY].place = 0;
-    cursor[WAY].left = 0;
-    cursor[WAY].tail = 0;
-    cursor[WAY].pulse = 0
+    if
+    :: CH.recalled > 0 ->
+        laid = cursor[CURSOR].pulse - CH.recalled;
+#ifndef PLANT_CURSOR_LEFT
+        base(CURSOR, laid);
+        follow(CURSOR, laid);
+        assert(cursor[CURSOR].pulse == laid && STANDS(CURSOR));
+#endif
+#ifndef PLANT_WAY_BACK_OVER_PLACE
+        copy(YOUNG, CURSOR);
+#endif
+        laid = 0
+    :: else
+    fi;
+#ifndef PLANT_RECALLED_KEPT
+    CH.recalled = 0;
+#endif
+    skip
 }
 
 /* step_channel_thaw_held */
 inline thaw_held()
 {
     atomic {
-        if
-        :: CH.recalled > 0 ->
-            laid = cursor[CURSOR].pulse - CH.recalled;
-#ifndef PLANT_CURSOR_LEFT
-            base(CURSOR, laid);
-            follow(CURSOR, laid);
-            assert(cursor[CURSOR].pulse == laid && (STANDS(CURSOR) || laid == path[a].anew));
-#endif
-            copy(YOUNG, CURSOR);
-            laid = 0
-        :: else
-        fi;
-        CH.recalled = 0;
+        go_back();
         CH.frozen = false
     };
     if
@@ -420,17 +418,17 @@ inline freeze()
         hold();
         laid = CH.pushed - (path[a].planned - path[a].place);
         much = (laid < cursor[CURSOR].pulse -> cursor[CURSOR].pulse - laid : 0);
+        find_room(laid);
+#ifdef PLANT_ROOM_NOT_LOOKED_AT
         in_time = true;
+#else
+        in_time = i < SEGMENTS;
+#endif
         if
         :: much > 0 ->
             hal_step_take_back(much);
             CH.recalled = back
-        :: else ->
-            find_room(laid);
-#ifndef PLANT_ROOM_NOT_LOOKED_AT
-            in_time = i < SEGMENTS;
-#endif
-            skip
+        :: else
         fi;
         CH.until = laid;
         CH.frozen = true;
@@ -532,24 +530,10 @@ inline recall()
 {
     atomic {
         hold();
+        go_back();
         laid = CH.pushed - much;
-        base(WAY, laid);
-        if
-        :: CH.recalled > 0 ->
-            end_at(laid);
-            if
-            :: steps == 0 ->
-                follow(WAY, laid);
-                assert(cursor[WAY].pulse == laid);
-                cursor[CURSOR].segment = cursor[WAY].segment;
-                cursor[CURSOR].place = cursor[WAY].place
-            :: else
-            fi
-        :: else -> truncate(laid)
-        fi;
-#ifndef PLANT_RECALLED_KEPT
-        CH.recalled = 0;
-#endif
+        truncate(laid);
+        laid = 0;
         if
         :: steps > 0 ->
             append();
@@ -559,8 +543,6 @@ inline recall()
             skip
         :: else
         fi;
-        forget_way();
-        laid = 0;
         release()
     }
 }
@@ -577,7 +559,6 @@ inline plan_anew()
     :: else -> break
     od;
     path[a].planned = path[a].place;
-    path[a].anew = path[a].place;
     path[a].left = PUSHES - path[a].name;
     do
     :: path[a].left > 0 -> path[a].left--
@@ -644,7 +625,7 @@ inline plan_from()
 
 inline choose_place(k)
 {
-    select(place: path[k].anew .. path[k].planned);
+    select(place: 0 .. path[k].planned);
     path[k].place = place;
     place = 0
 }
@@ -853,7 +834,6 @@ inline halt()
     };
     atomic {
         much = cursor[CURSOR].pulse - back;
-        base(WAY, much);
         end_at(much);
         CH.closed = true;
         i = much;
@@ -868,8 +848,7 @@ inline halt()
     :: laid > 0 -> laid = 0; hal_step_run()
     :: else
     fi;
-    release();
-    forget_way()
+    release()
 }
 
 #define IS_OVER(k) (path[k].left == 0 && !channel[k].running)

@@ -30,7 +30,7 @@ enum {
  * The way back from the pulse that was laid last is the way on from one before it, pulse by pulse, as exact as the
  * first time. Two places are kept: the younger is one that `cursor` has passed; when all pulses up to it have been
  * made, it becomes the older one. So there is always one at or before the first pulse that can be taken back, unless
- * what had been laid was planned anew: no way leads back beyond that.
+ * the motor brakes or its brake has been replaced: no way leads back beyond that.
  */
 struct step_channel {
     struct step_cursor cursor;  /* stands on the pulse laid last; at rest on the last one made */

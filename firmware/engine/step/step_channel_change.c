@@ -198,7 +198,7 @@ void step_channel_halt(struct step_channel *channel)
 }
 
 /* The cursor goes back to the last pulse that is laid. */
-void step_channel_thaw_held(struct step_channel *channel)
+static void channel_go_back(struct step_channel *channel)
 {
     uint64_t laid = step_cursor_pulse(&channel->cursor) - channel->recalled;
     if (channel->recalled != 0) {
@@ -208,6 +208,11 @@ void step_channel_thaw_held(struct step_channel *channel)
         channel_turn_back(channel);
     }
     channel->recalled = 0;
+}
+
+void step_channel_thaw_held(struct step_channel *channel)
+{
+    channel_go_back(channel);
     channel->frozen = false;
     if (step_channel_is_running(channel)) {
         hal_step_run(channel->motor);
@@ -232,7 +237,7 @@ bool step_channel_freeze(struct step_channel *channel, uint64_t back)
     uint64_t pulse = channel->pushed - back;
     uint64_t laid = step_cursor_pulse(&channel->cursor);
     uint32_t much = pulse < laid ? (uint32_t)(laid - pulse) : 0;
-    bool room = much != 0 || channel_has_room_after(channel, pulse);
+    bool room = channel_has_room_after(channel, pulse);
     channel->recalled = much != 0 ? hal_step_take_back(channel->motor, much) : 0;
     channel->until = pulse;
     channel->frozen = true;
@@ -247,22 +252,12 @@ bool step_channel_freeze(struct step_channel *channel, uint64_t back)
 void step_channel_recall(struct step_channel *channel, uint64_t back, const struct step_segment *segment, bool backward)
 {
     hal_step_hold();
-    uint64_t pulse = channel->pushed - back;
-    struct step_cursor way = *step_channel_base(channel, pulse);
-    bool ends = channel->recalled != 0 && segment == NULL;
-    if (channel->recalled != 0) {
-        channel_end_at(channel, pulse);
-    } else {
-        channel_truncate(channel, pulse);
-    }
-    channel->recalled = 0;
+    channel_go_back(channel);
+    channel_truncate(channel, channel->pushed - back);
     if (segment != NULL) {
         channel->turn = backward;
         step_channel_append(channel, segment);
         atomic_store_explicit(&channel->running, true, memory_order_relaxed);
     }
     hal_step_release();
-    if (ends) {
-        channel->cursor.generator.tick = channel_tick_of(channel, pulse, &way);
-    }
 }

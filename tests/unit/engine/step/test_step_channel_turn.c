@@ -225,6 +225,65 @@ void test_a_move_that_is_recalled_ends_with_the_last_pulse_that_stays(void)
     }
 }
 
+static void recall_again(uint32_t stays, uint32_t stays_then, const struct step_segment *segment)
+{
+    begin_pieces(AHEAD);
+    assert_pulses(1, 1);
+    TEST_ASSERT_TRUE(step_channel_freeze(&channel, TOTAL - stays));
+    struct step_segment first = segment_after(stays, NEW_STEPS);
+    step_channel_recall(&channel, TOTAL - stays, &first, false);
+    thaw();
+    TEST_ASSERT_TRUE(step_channel_freeze(&channel, stays + NEW_STEPS - stays_then));
+    step_channel_recall(&channel, stays + NEW_STEPS - stays_then, segment, false);
+    thaw();
+}
+
+void test_a_move_that_is_recalled_twice_ends_with_the_last_pulse_that_stays(void)
+{
+    for (uint32_t stays = 2; stays <= TOTAL; stays++) {
+        for (uint32_t then = 1; then <= stays + NEW_STEPS; then++) {
+            recall_again(stays, then, NULL);
+            (void)run_to_the_end();
+            TEST_ASSERT_EQUAL_UINT32(START + then * INTERVAL, step_channel_end_tick(&channel));
+        }
+    }
+}
+
+void test_a_move_is_recalled_from_before_where_it_was_recalled(void)
+{
+    for (uint32_t stays = 2; stays <= TOTAL; stays++) {
+        for (uint32_t then = 1; then <= stays + NEW_STEPS; then++) {
+            struct step_segment segment = segment_after(then, NEW_STEPS);
+            recall_again(stays, then, &segment);
+            for (uint32_t k = 2; k <= then + NEW_STEPS; k++) {
+                TEST_ASSERT_EQUAL_UINT32(START + k * INTERVAL, laid_make_pulse());
+            }
+            TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+        }
+    }
+}
+
+void test_a_recall_before_the_last_one_that_comes_too_late_counts_what_is_laid(void)
+{
+    for (uint32_t stays = 3; stays <= pieces[0].steps + pieces[1].steps; stays++) {
+        for (uint32_t late = 1; late < stays; late++) {
+            struct step_segment segment = segment_after(stays, NEW_STEPS);
+            begin_pieces(AHEAD);
+            TEST_ASSERT_TRUE(step_channel_freeze(&channel, TOTAL - stays));
+            step_channel_recall(&channel, TOTAL - stays, &segment, false);
+            thaw();
+            laid.too_late = late;
+            TEST_ASSERT_FALSE(step_channel_freeze(&channel, stays + NEW_STEPS - late + 1U));
+            TEST_ASSERT_EQUAL_INT64(0, step_channel_position(&channel));
+            laid.too_late = 0;
+            for (uint32_t k = 1; k <= stays + NEW_STEPS; k++) {
+                TEST_ASSERT_EQUAL_UINT32(START + k * INTERVAL, laid_make_pulse());
+            }
+            TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+        }
+    }
+}
+
 void test_what_cannot_be_taken_back_any_more_is_not_frozen(void)
 {
     for (uint32_t late = 1; late <= pieces[0].steps + pieces[1].steps; late++) {
