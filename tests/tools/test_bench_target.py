@@ -154,7 +154,7 @@ def test_a_motor_without_a_move_rests(rig):
 @on_target
 def test_steps_that_come_too_fast_are_late_or_end_in_a_safe_stop(rig, monkeypatch):
     monkeypatch.setattr(target_run, "BENCH_SECONDS_MAX", 1.0)
-    moves = target_figures.fast_moves(4, 600_000, 8_000_000, (0,) * 4)
+    moves = target_figures.fast_moves(4, 800_000, 8_000_000, (0,) * 4)
 
     ran = rig.run_moves(moves, stop_at_late=True)
 

@@ -62,6 +62,14 @@ pointer: push {lr}
         .thumb_func
 table:  tbb [pc, r0]
         bx lr
+        .type middle, %function
+        .thumb_func
+middle: cbz r0, 2f
+1:      subs r0, #1
+2:      cbz r1, 3f
+        subs r1, #1
+        b 1b
+3:      bx lr
 """
 
 
@@ -100,6 +108,7 @@ def of_small(image: Path, name: str, never: frozenset[str] = frozenset(), rounds
         ("either", 4 + 12 + 4 + 4),
         ("caller", 3 + 4 + 24 + 4 + 5 + 3 + 3),
         ("pointer", 2 + 4 + 5 + 2 + 3),
+        ("middle", 4 + 1 + 4 + 9 * (1 + 4 + 1 + 4) + 4),
     ],
 )
 def test_the_longest_way_counts_the_dearer_branch_all_rounds_and_what_is_called(

@@ -31,8 +31,6 @@ PIPELINED = re.compile(r"ldr(s?[bh])?")
 RAM = range(0x2000_0000, 0x2002_0000)
 END = -1
 """Where a return leads."""
-ROUND = -2
-"""Where a loop begins again."""
 
 
 class Unknown(Exception):
@@ -272,23 +270,31 @@ class Longest:
         longest = {begin: 0}
         for component in _components(nodes, begin, edges):
             heads = [node for node in component if node in longest]
-            if len(heads) != 1:
-                raise Unknown(f"{name}: a loop that begins at {len(heads)} places")
-            head = heads[0]
-            is_loop = len(component) > 1 or head in edges[head]
-            ways = self._loop(name, set(component), head, edges) if is_loop else edges[head]
-            for node, cycles in ways.items():
-                longest[node] = max(longest.get(node, 0), longest[head] + cycles)
+            rounds = []
+            for head in heads:
+                is_loop = len(component) > 1 or head in edges[head]
+                ways = self._loop(name, set(component), head, edges) if is_loop else edges[head]
+                rounds += [self.round_cycles.pop(head)] if is_loop else []
+                for node, cycles in ways.items():
+                    longest[node] = max(longest.get(node, 0), longest[head] + cycles)
+            if rounds:
+                self._keep_round(heads, max(rounds))
         return {node: way for node, way in longest.items() if node not in nodes}
+
+    def _keep_round(self, heads: Sequence[int], cycles: int) -> None:
+        """A loop that may be come to at some places is kept as one, by the first."""
+        for head in heads:
+            self.round_cycles.pop(head, None)
+        self.round_cycles[heads[0]] = cycles
 
     def _loop(self, name: str, nodes: set[int], head: int, edges: Edges) -> dict[int, int]:
         """From the begin of a loop to the places after it."""
         opened = {
-            node: {(ROUND if to == head else to): cost for to, cost in edges[node].items()}
+            node: {(~head if to == head else to): cost for to, cost in edges[node].items()}
             for node in nodes
         }
         ways = self._ways(name, nodes, head, opened)
-        self.round_cycles[head] = ways.pop(ROUND)
+        self.round_cycles[head] = ways.pop(~head)
         rounds = self._facts.rounds(name, head)
         return {to: way + rounds * self.round_cycles[head] for to, way in ways.items()}
 

@@ -38,9 +38,9 @@ NEVER = frozenset((
 POINTERS = ("ask", "append", "begin", "refill")
 """Where the unit is asked for pulses; the compiler puts some into others."""
 
-RAMP = ("step_generator_guess", "lay_ramp")
-CRUISE = ("step_generator_pace", "lay_cruise")
-SEGMENTS = ("channel_lay",)
+RAMP = ("step_generator_guess", "step_lay_ramp")
+CRUISE = ("step_lay_cruise",)
+SEGMENTS = ("channel_lay", "channel_lay_first", "step_lay_goes_on")
 PORTIONS = (INTERRUPT,)
 ROUNDS = {
     **dict.fromkeys((*RAMP, *CRUISE, *SEGMENTS, *PORTIONS), 0),
@@ -170,12 +170,12 @@ class Code:
         return Longest(self.functions, facts)
 
     def round(self, longest: Longest, names: tuple[str, ...]) -> int:
-        """Of the one loop that begins in one of these functions of the source."""
+        """Of the longest loop that begins in one of these functions of the source."""
         rounds = longest.round_cycles.items()
         found = [cycles for head, cycles in rounds if self._places[head][0] in names]
-        if len(found) != 1:
-            raise Unknown(f"{names[0]}: {len(found)} loops")
-        return found[0]
+        if not found:
+            raise Unknown(f"{names[0]}: no loop")
+        return max(found)
 
     def is_on_bus(self, address: int) -> bool:
         """Whether an instruction is of a line of the source that accesses a register on APB."""

@@ -18,7 +18,7 @@ RAMPS = b"S500 V16000 A60000 F8000 R"
 RAMPS_SECONDS = 0.85
 """How long that takes at most."""
 
-SPEED_LIMIT, ACCEL_LIMIT = 400_000, 8_000_000
+FASTEST, ACCEL_LIMIT = 400_000, 8_000_000
 """MOTION_SPEED_MAX, what the planner of one motor is built for, and STEP_ACCEL_MAX."""
 RATE_LEAST, RATE_STEP = 10_000, 1.01
 """The search for the highest rate ends with one that held and one 1 % above that did not."""
@@ -61,11 +61,13 @@ def step_cycles(rig: Rig) -> Figures:
     lone = ramps(rig, 1)
     together = ramps(rig, len(MOTORS))
     fast = rig.run_moves(fast_moves(len(MOTORS), FAST, FAST_ACCEL, (0,) * 4))
-    runs = (lone, together, fast)
+    fastest = rig.run_moves(fast_moves(len(MOTORS), FASTEST, ramp_accel(FASTEST), (0,) * 4))
+    runs = (lone, together, fast, fastest)
     return {
         "lone_step": lone.step_cycles,
         "together_step": together.step_cycles,
         "fast_step": fast.step_cycles,
+        "fastest_step": fastest.step_cycles,
         "interrupt_max": max(ran.step_interrupt["max"] for ran in runs),
         "stack_used": max(ran.stack_used for ran in runs),
     }
@@ -103,17 +105,6 @@ def fast_moves(motors: int, speed: int, accel: int, delays: Sequence[int]) -> li
     """Ramp, cruise, ramp."""
     steps = speed * speed // accel + round(speed * CRUISE_SECONDS)
     return [Move(steps, START_SPEED, speed, accel, delays[i]) for i in range(motors)]
-
-
-def rates(rig: Rig) -> Figures:
-    """The highest rate without a late step of motors that move by themselves."""
-    return {"rate_4_apart": highest_rate(lambda speed: _holds(rig, speed), SPEED_LIMIT)}
-
-
-def _holds(rig: Rig, speed: int) -> bool:
-    moves = fast_moves(len(MOTORS), speed, ramp_accel(speed), APART_TICKS)
-    ran = rig.run_moves(moves, stop_at_late=True)
-    return ran.late == 0 and ended_well(ran, moves)
 
 
 def flood(begin_ms: float, end_ms: float) -> str:

@@ -47,6 +47,8 @@ RARE = 20
 PACKET = 32
 SPEED_LIMIT = 1_000_000
 """STEP_SPEED_MAX: what paths and the step generator are built for."""
+PASSES = 50
+"""So often pulses of a motor pass those of the next, where the highest rate of four is sought."""
 ACT_MS, ACT_SPEED = 130.0, 120_000
 
 
@@ -139,11 +141,12 @@ def whole(rig: Rig, name: str, course: Course) -> tuple[Ran, Report]:
     return ran, told
 
 
-def ramps(motors: int, speed: int) -> Course:
-    """One vector: a ramp, a cruise and a ramp of motors that move together."""
+def ramps(motors: int, speed: int, apart: int = 0) -> Course:
+    """One vector: a ramp, a cruise and a ramp of motors that move together, each by so many steps
+    less than the one before."""
     accel = ramp_accel(speed)
     steps = speed * speed // accel + round(speed * CRUISE_SECONDS)
-    course = [steps] * motors + [0] * (len(MOTORS) - motors)
+    course = [steps - i * apart for i in range(motors)] + [0] * (len(MOTORS) - motors)
     return Course(1, [Kind(course, speed)] * KINDS, accel)
 
 
@@ -153,6 +156,9 @@ def rates(rig: Rig) -> Figures:
         "rate_1": highest_rate(lambda speed: _holds(rig, ramps(1, speed)), SPEED_LIMIT),
         "rate_4_together": highest_rate(
             lambda speed: _holds(rig, ramps(len(MOTORS), speed)), SPEED_LIMIT
+        ),
+        "rate_4_apart": highest_rate(
+            lambda speed: _holds(rig, ramps(len(MOTORS), speed, PASSES)), SPEED_LIMIT
         ),
     }
 

@@ -303,23 +303,27 @@ static void channel_rest(struct step_channel *channel, struct hal_step_room *roo
     room->main_has_work = true;
 }
 
+/* What is left of a segment then is left to another time. */
 static unsigned channel_lay(struct step_channel *channel, struct hal_step_room *room)
 {
     struct step_cursor *cursor = &channel->cursor;
     unsigned laid = 0;
     do {
-        unsigned count = room->count - laid;
         if (BASE_SELDOM(cursor->left == 0)) {
             if (!channel_lay_first(channel, room, laid)) {
                 break;
             }
-            count = 1;
+            laid++;
         } else {
-            count = step_lay(&cursor->generator, room, laid, count < cursor->left ? count : cursor->left);
+            unsigned most = room->count - laid;
+            unsigned count = step_lay(&cursor->generator, room, laid, most < cursor->left ? most : cursor->left);
+            laid += count;
             cursor->left -= count;
+            if (cursor->left != 0) {
+                break;
+            }
         }
-        laid += count;
-    } while (laid < room->count && step_lay_goes_on(cursor->generator.tick, room));
+    } while (laid < room->count && step_lay_goes_on(cursor->generator.tick, room->until_tick));
     return laid;
 }
 

@@ -128,3 +128,32 @@ void test_no_more_pulses_are_laid_than_asked_for(void)
 
     TEST_ASSERT_EQUAL_UINT32(generator.tick, pulses[4].rise_tick);
 }
+
+/* Around half a tick's travel on both sides, with all that the low words may add. */
+static void assert_sure(uint64_t slope)
+{
+    static const uint64_t lows[] = {0, 1, UINT32_MAX / 2U, UINT32_MAX / 2U + 1U, UINT32_MAX - 1U, UINT32_MAX};
+    uint64_t half = slope >> 33U;
+    for (uint64_t off = 0; off < 6; off++) {
+        for (unsigned i = 0; i < sizeof lows / sizeof lows[0]; i++) {
+            uint64_t residual = ((half + off - 3U) << 32U) + lows[i];
+            if (step_lay_is_surely_near(residual, slope)) {
+                TEST_ASSERT_TRUE(step_generator_is_near(residual, slope));
+            }
+            if (step_lay_is_surely_near(0U - residual, slope)) {
+                TEST_ASSERT_TRUE(step_generator_is_near(0U - residual, slope));
+            }
+        }
+    }
+}
+
+void test_what_the_high_words_say_is_near_is_near(void)
+{
+    for (uint64_t speed = 1; speed < 20; speed++) {
+        assert_sure(speed << 32U);
+        assert_sure((speed << 32U) + 1U);
+        assert_sure((speed << 32U) + UINT32_MAX);
+        assert_sure((speed << 52U) + speed);
+    }
+    TEST_ASSERT_TRUE(step_lay_is_surely_near(0, UINT64_C(4) << 32U));
+}
