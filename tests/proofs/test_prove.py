@@ -145,6 +145,14 @@ PLANTED = [
         "step_generator", "step_generator_guess", "firmware/engine/step/step_generator.h",
         ".slope = middle + gain", ".slope = middle",
     ),
+    (
+        "step_lay", "step_lay_is_surely_near", "firmware/engine/step/step_lay.h",
+        "way < speed - 1U", "way < speed",
+    ),
+    (
+        "step_lay", "step_lay_cruise", "firmware/engine/step/step_lay.h",
+        "way += slope;", "way += rest;",
+    ),
 ]  # fmt: skip
 """Each takes provers up to a minute and a half: the first alone where the run is not a long one."""
 TRIED = PLANTED if "RKM04_LONG" in os.environ else PLANTED[:1]

@@ -34,7 +34,7 @@ static inline unsigned step_lay_cruise(struct step_generator *generator, const s
                                        unsigned first, unsigned count)
 {
     struct hal_step_pulse *pulse = &room->pulse[first];
-    const struct hal_step_pulse *end = pulse + count;
+    unsigned left = count;
     uint64_t slope = generator->slope;
     uint64_t rest = generator->pace_rest;
     uint64_t way = generator->residual + (slope >> 1U);
@@ -53,11 +53,12 @@ static inline unsigned step_lay_cruise(struct step_generator *generator, const s
         pulse->rise_tick = tick;
         pulse->fall_tick = tick + high_ticks;
         pulse++;
-    } while (pulse != end && step_lay_goes_on(tick, until_tick));
+        left--;
+    } while (left != 0U && step_lay_goes_on(tick, until_tick));
     generator->residual = way - (slope >> 1U);
     generator->tick = tick;
     generator->interval = interval;
-    return count - (unsigned)(end - pulse);
+    return count - left;
 }
 
 /* Whether the high words alone say that a position is near. On a ramp a speed is half a step/s at least, so that of it
@@ -90,7 +91,7 @@ static inline unsigned step_lay_ramp(struct step_generator *generator, const str
                                      unsigned count)
 {
     struct hal_step_pulse *pulse = &room->pulse[first];
-    const struct hal_step_pulse *end = pulse + count;
+    unsigned left = count;
     struct step_guess at = {generator->residual, generator->slope, generator->interval};
     int32_t accel = generator->accel;
     uint32_t tick = generator->tick;
@@ -110,12 +111,13 @@ static inline unsigned step_lay_ramp(struct step_generator *generator, const str
         pulse->rise_tick = tick;
         pulse->fall_tick = tick + high_ticks;
         pulse++;
-    } while (pulse != end && step_lay_goes_on(tick, until_tick));
+        left--;
+    } while (left != 0U && step_lay_goes_on(tick, until_tick));
     generator->residual = at.residual;
     generator->slope = at.slope;
     generator->tick = tick;
     generator->interval = at.interval;
-    return count - (unsigned)(end - pulse);
+    return count - left;
 }
 
 /* Lays at least one pulse from place `first` of the room on, at most `count`, none after the first that is due at
