@@ -90,13 +90,21 @@ def test_a_motor_runs_as_long_as_its_button_is_held(bench, name, sign):
         lambda page: page.evaluate("window.dispatchEvent(new Event('blur'))"),
         lambda page: page.locator("#language").focus(),
         lambda page: page.keyboard.press("a"),
+        lambda page: (page.mouse.down(button="right"), page.mouse.up(button="right")),
         lambda page: page.evaluate(
             "Object.defineProperty(document, 'hidden', { value: true, configurable: true });"
             "document.dispatchEvent(new Event('visibilitychange'));"
             "delete document.hidden;"
         ),
     ],
-    ids=["the pointer leaves", "the window is left", "the focus goes", "another key", "hidden"],
+    ids=[
+        "the pointer leaves",
+        "the window is left",
+        "the focus goes",
+        "another key",
+        "another button",
+        "hidden",
+    ],
 )
 def test_whatever_takes_the_button_away_lets_go(bench, let_go):
     aim(bench.page, "#jog-forth")

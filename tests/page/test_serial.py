@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import re
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from alone_page import forget, hold, write, write_alone
-from frames import frame, unescape
+from frames import frame
 from noisy_line import NoisyLine
 from page_looks import AXE, CUT, OUTSIDE, OVER, SIZES, VIOLATIONS
 from playwright.sync_api import Browser, Page, expect
@@ -20,13 +19,14 @@ from serial_page import (
     PORT,
     UNSENT,
     connect,
+    messages_to,
     press_connect,
     scan,
     send,
     send_once,
+    wait_until,
 )
 from served import Served
-from tab import PATIENCE_SECONDS
 
 OTHER = 5
 K = "\x020K"
@@ -115,20 +115,6 @@ def page(shared_page: Page, bridge: SerialBridge) -> Iterator[Page]:
     bridge.sent = b""
     yield shared_page
     bridge.silent = False
-
-
-def wait_until(page: Page, is_so: Callable[[], bool]) -> None:
-    """Wait for something outside the page."""
-    end = time.monotonic() + PATIENCE_SECONDS
-    while not is_so():
-        assert time.monotonic() < end
-        page.wait_for_timeout(20)
-
-
-def messages_to(node: int, sent: bytes) -> list[bytes]:
-    """What went to a node, sessions and looks left out."""
-    found = [unescape(part) for part in sent.split(b"\x7e") if part]
-    return [each[2:-2] for each in found if each[0] == node and each[2] not in (1, 7, 200)]
 
 
 def test_it_connects_shows_the_state_sends_runs_and_stops(page, bridge):
@@ -378,6 +364,25 @@ def test_a_silent_unit_is_told_and_its_stop_is_not_confirmed(page, bridge):
     expect(page.locator("#state-1")).to_have_text("stopped by K")
     page.keyboard.press("Escape")
     expect(page.locator("#alarm")).to_have_attribute("data-kind", "done")
+
+
+@pytest.mark.parametrize("leaves", [False, True])
+def test_what_a_port_has_kept_back_is_not_sent_when_it_takes_bytes_again(page, bridge, leaves):
+    write(page, LONG)
+    page.evaluate("fakeSerial.stall()")
+    page.locator("#log-clear").click()
+    page.locator("#send").click()
+    expect(page.locator("#log .log-item").first).to_contain_text("does not answer")
+    if leaves:
+        page.locator("#connect").click()
+        expect(page.locator("#port")).to_be_enabled()
+    else:
+        page.wait_for_timeout(1500)
+    page.evaluate("fakeSerial.resume()")
+    if leaves:
+        connect(page, port=PORT)
+    expect(page.locator("#state-1")).to_contain_text("rests")
+    assert messages_to(NODE, bridge.sent) == []
 
 
 def test_what_waits_for_a_scan_of_a_silent_line_is_not_done_when_the_unit_is_back(page, bridge):

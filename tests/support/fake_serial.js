@@ -1,7 +1,8 @@
 // A stand-in for navigator.serial: one USB adapter, whose bytes go to a bridge (serial_bridge.py) over a WebSocket.
 // Tests change it by window.fakeSerial: `busy` lets open() fail, pull() pulls the cable, `lastWords` does so as soon as
 // these characters were sent, damage() is a character with a framing error, `opened` are the options that it was opened
-// with, `said` holds what it was given to send, `choice_ms` is how long the user takes to choose it.
+// with, `said` holds what it was given to send, `choice_ms` is how long the user takes to choose it, stall() keeps back
+// what is to be sent until resume().
 (() => {
     const place = "PLACE";
 
@@ -15,6 +16,7 @@
         choice_ms = 0;
         #reader = null;
         #socket = null;
+        #kept = null;
 
         getInfo() {
             return { usbVendorId: 0x0403, usbProductId: 0x6001 };
@@ -33,7 +35,7 @@
             await new Promise((take, fail) => Object.assign(socket, { onopen: take, onerror: fail }));
             socket.onmessage = ({ data }) => this.#reader?.enqueue(new Uint8Array(data));
             this.#begin();
-            this.writable = new WritableStream({ write: (data) => this.#send(socket, data) });
+            this.#beginWriting(socket);
         }
 
         async close() {
@@ -54,6 +56,31 @@
             const reader = this.#reader;
             this.#begin();
             reader.error(new DOMException("A framing error was detected.", "FramingError"));
+        }
+
+        stall() {
+            this.#kept = [];
+        }
+
+        resume() {
+            const kept = this.#kept;
+            this.#kept = null;
+            kept.forEach((send) => send());
+        }
+
+        #beginWriting(socket) {
+            this.writable = new WritableStream({
+                write: (data, { signal }) => (this.#kept === null ? this.#send(socket, data) : this.#keep(socket, data, signal)),
+                abort: () => this.#beginWriting(socket),
+            });
+        }
+
+        #keep(socket, data, signal) {
+            return new Promise((take) => {
+                const send = () => signal.aborted || take(this.#send(socket, data));
+                this.#kept.push(send);
+                signal.addEventListener("abort", take);
+            });
         }
 
         #send(socket, data) {

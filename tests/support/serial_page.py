@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable
+
 from alone_page import write
+from frames import unescape
 from playwright.sync_api import Page, expect
+from tab import PATIENCE_SECONDS
 
 NODE = 3
 PORT = "USB 0403:6001"
@@ -70,3 +75,17 @@ def scan(page: Page, *nodes: int) -> None:
 def last_answer(page: Page) -> str:
     """What stands first in the log."""
     return page.locator("#log .log-item").first.inner_text()
+
+
+def wait_until(page: Page, is_so: Callable[[], bool]) -> None:
+    """Wait for something outside the page."""
+    end = time.monotonic() + PATIENCE_SECONDS
+    while not is_so():
+        assert time.monotonic() < end
+        page.wait_for_timeout(20)
+
+
+def messages_to(node: int, sent: bytes) -> list[bytes]:
+    """What went to a node, sessions and looks left out."""
+    found = [unescape(part) for part in sent.split(b"\x7e") if part]
+    return [each[2:-2] for each in found if each[0] == node and each[2] not in (1, 7, 200)]

@@ -53,6 +53,8 @@ export class HoldButton {
             button.addEventListener(kind, () => this.release());
         }
         window.addEventListener("pointerup", () => this.release());
+        // While one button of a mouse is down, what becomes of the others is told as a move.
+        window.addEventListener("pointermove", ({ button: changed }) => changed !== -1 && this.release());
         // A finger that stays for long would open a menu.
         button.addEventListener("contextmenu", (event) => event.preventDefault());
     }

@@ -38,6 +38,10 @@ const CHOOSE = "serial";
 const BUFFER_BYTES = 65_536;
 /** So often last words are written: a unit that answers meanwhile disturbs the first of them. */
 const LAST_WORDS = 8;
+/** What was written so long ago and not answered may still wait in the port: it is dropped before anything else is written. */
+const UNANSWERED_MS = 200;
+/** What could not be written for so long is not written any more, and is as lost as on a line. */
+const DROP_MS = 500;
 
 /** A port that is open. */
 interface Open {
@@ -45,6 +49,8 @@ interface Open {
     name: string;
     reader: ReadableStreamDefaultReader<Bytes> | null;
     writer: WritableStreamDefaultWriter<Bytes> | null;
+    /** When what nobody has answered yet was written; null: all is answered. */
+    unanswered_ms: number | null;
     reading: Promise<void>;
     isClosing: boolean;
     lastWords: Bytes | null;
@@ -106,7 +112,7 @@ export class SerialPorts {
             throw new NotOpened("PortBusy", cause, this.#t("serial.notOpenedNext"));
         }
         const writer = port.writable?.getWriter() ?? null;
-        const open: Open = { port, name: found, reader: null, writer, reading: Promise.resolve(), isClosing: false, lastWords: null };
+        const open: Open = { port, name: found, reader: null, writer, unanswered_ms: null, reading: Promise.resolve(), isClosing: false, lastWords: null };
         this.#open = open;
         port.addEventListener("disconnect", () => this.#lose(port, this.#t("serial.unplugged")));
         this.#tell({ kind: "opened", port: found, baud: form.baudRate });
@@ -119,12 +125,39 @@ export class SerialPorts {
             void this.#close();
             return;
         }
-        const { port, writer } = this.#open ?? {};
+        const open = this.#open;
         if (order.kind === "lastWords") {
-            Object.assign(this.#open ?? {}, { lastWords: order.data });
-            return;
+            Object.assign(open ?? {}, { lastWords: order.data });
+        } else if (open !== null) {
+            void this.#write(open, order.data);
         }
-        writer?.write(order.data).catch((error: unknown) => port && this.#lose(port, words(error)));
+    }
+
+    async #write(open: Open, data: Bytes): Promise<void> {
+        const asked_ms = performance.now();
+        try {
+            if (asked_ms - (open.unanswered_ms ?? asked_ms) > UNANSWERED_MS) {
+                await this.#drop(open);
+            }
+        } catch (error) {
+            this.#lose(open.port, words(error));
+        }
+        const { writer } = open;
+        if (performance.now() - asked_ms < DROP_MS) {
+            open.unanswered_ms = asked_ms;
+            writer?.write(data).catch((error: unknown) => writer === open.writer && this.#lose(open.port, words(error)));
+        }
+    }
+
+    /** Takes back what the port has not sent yet. */
+    async #drop(open: Open): Promise<void> {
+        const { writer } = open;
+        open.writer = null;
+        if (writer !== null) {
+            await writer.abort();
+            writer.releaseLock();
+            open.writer = open.port.writable?.getWriter() ?? null;
+        }
     }
 
     /** The page is being closed. The browser asks whether it is to be, which gives the last words the time to go out. */
@@ -173,7 +206,7 @@ export class SerialPorts {
             last = open.port.readable;
             open.reader = last.getReader();
             try {
-                await this.#readAll(open.reader);
+                await this.#readAll(open, open.reader);
             } catch (error) {
                 cause = words(error);
             } finally {
@@ -183,12 +216,13 @@ export class SerialPorts {
         this.#lose(open.port, cause);
     }
 
-    async #readAll(reader: ReadableStreamDefaultReader<Bytes>): Promise<void> {
+    async #readAll(open: Open, reader: ReadableStreamDefaultReader<Bytes>): Promise<void> {
         for (;;) {
             const { value, done } = await reader.read();
             if (done) {
                 return;
             }
+            open.unanswered_ms = null;
             this.#tell({ kind: "heard", data: value });
         }
     }
@@ -209,14 +243,13 @@ export class SerialPorts {
         }
         this.#open = null;
         open.isClosing = true;
-        try {
-            await open.reader?.cancel();
-            await open.reading;
-            await open.writer?.close();
-            open.writer?.releaseLock();
-            await open.port.close();
-        } catch {
-            // It is gone: there is nothing left to be closed.
+        const { port, reader, writer } = open;
+        for (const step of [() => writer?.abort(), () => reader?.cancel(), () => open.reading, () => writer?.releaseLock(), () => port.close()]) {
+            try {
+                await step();
+            } catch {
+                // It is gone: there is nothing left of it to be closed.
+            }
         }
     }
 }
