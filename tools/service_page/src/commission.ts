@@ -53,6 +53,8 @@ export class Commission {
     #live: Live | null = null;
     #state: UnitState | null = null;
     #ramp: Ramp | NotPossible | null = null;
+    /** A step whose motor was not looked at since: its number until it is answered, then true. */
+    #begun: number | boolean = false;
 
     constructor(link: Link, presence: Presence, around: Around) {
         this.#link = link;
@@ -66,6 +68,12 @@ export class Commission {
         around.motor.watch((motor) => this.#motorChanged(motor));
         link.on("live", (live) => this.#see(live));
         link.on("state", (state) => this.#setState(state));
+        link.on("answer", ({ id, from }) => {
+            if (id === this.#begun && (from ?? link.client) === link.client) {
+                this.#begun = true;
+            }
+        });
+        link.isOpen.onChange(() => (this.#begun = false));
         for (const cell of [presence.isFresh, this.#jog.phase, this.#jog.left, this.#danger.isConfirmed]) {
             cell.onChange(() => this.#show());
         }
@@ -155,7 +163,9 @@ export class Commission {
 
     #see(live: Live): void {
         this.#live = live;
-        if (this.#pace.isDue(live)) {
+        const isNews = this.#pace.isDue(live) || this.#begun === true;
+        this.#begun = this.#begun === true ? false : this.#begun;
+        if (isNews) {
             this.#show();
         }
     }
@@ -176,21 +186,24 @@ export class Commission {
     }
 
     #press(direction: 1 | -1): void {
-        if (this.#obstacle() === null) {
+        if (this.#obstacle() === null && this.#field("farthest").reportValidity()) {
             const text = runOf(this.#settings, direction, this.#number("farthest"));
             this.#jog.press(this.#around.motor.value, text);
         }
     }
 
     #step(direction: 1 | -1): void {
-        if (this.#obstacle() === null && this.#number("step") > 0) {
+        if (this.#obstacle() === null && this.#field("step").reportValidity()) {
             this.#send(moveOf(this.#settings, direction * this.#number("step")));
         }
     }
 
     #send(text: string): void {
-        const motor = this.#around.motor.value;
-        this.#link.send({ type: "request", id: this.#link.nextId(), message: "send", motor, text });
+        const [motor, id] = [this.#around.motor.value, this.#link.nextId()];
+        if (this.#begun === false && this.#link.send({ type: "request", id, message: "send", motor, text })) {
+            this.#begun = id;
+            this.#show();
+        }
     }
 
     /** Why the motor may not be moved from here now, in words; null: it may. */
@@ -218,7 +231,7 @@ export class Commission {
     #show(): void {
         const isIdle = this.#jog.phase.value === "rest";
         const why = isIdle ? this.#obstacle() : null;
-        const isReady = this.#danger.isConfirmed.value && why === null;
+        const isReady = this.#danger.isConfirmed.value && why === null && this.#begun === false;
         for (const id of ["jog-back", "jog-forth"]) {
             byId(id, HTMLButtonElement).disabled = !isReady;
         }
