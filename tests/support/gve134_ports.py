@@ -62,6 +62,9 @@ class VirtualPort:
     def close(self) -> None:
         pass
 
+    def take_back(self) -> None:
+        pass
+
     def abandon(self) -> None:
         self.abandoned = True
 

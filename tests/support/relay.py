@@ -7,6 +7,7 @@ import select
 import socket
 import threading
 
+import pytest
 from served import connect
 
 LOOK_SECONDS = 0.01
@@ -67,6 +68,8 @@ class Relay:
         wanted = [each for each in wanted if each.fileno() >= 0]
         for ready in select.select(wanted, [], [], LOOK_SECONDS)[0]:
             if ready is self._listener:
+                if self._client:
+                    self._client.close()
                 self._client = self._listener.accept()[0]
                 self._client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
             elif ready is self._client:
@@ -85,3 +88,10 @@ class Relay:
         self.heard += len(data)
         if not self.muted:
             self._unit.sendall(data)
+
+
+def expect_reset(listener: socket.socket) -> None:
+    """A connection that is given up drops what has not gone out."""
+    connection, _ = listener.accept()
+    with connection, pytest.raises(ConnectionResetError):
+        _ = list(iter(lambda: connection.recv(4096), b""))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import signal
+import socket
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import Any
 
 import pytest
 from pos_desk import MM_MIN, PosDesk
-from relay import Relay
+from relay import Relay, expect_reset
 from rkm04_tools.positioning.service import stopping
 from rkm04_tools.positioning.service.orders import read_order
 from rkm04_tools.positioning.settings import read_values
@@ -313,6 +314,15 @@ def test_on_a_bad_line_a_stop_is_confirmed_by_axes_that_stand(pos_serve: Serve) 
         assert not any(served.control().order("?")["moving"])
     finally:
         desk.close()
+
+
+def test_what_was_not_answered_is_not_sent_later_by_a_port_that_keeps_it(
+    desk: PosDesk,
+) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        port = f"socket://127.0.0.1:{silent.getsockname()[1]}"
+        assert desk.ask("connect", port=port, node=1)["error"]["kind"] == "NoAnswer"
+        expect_reset(silent)
 
 
 def test_a_stop_without_a_port_is_not_confirmed(desk: PosDesk) -> None:

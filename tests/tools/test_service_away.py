@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import socket
 import time
 from collections.abc import Callable
 
 import pytest
 import statuses
 from fake_unit import FakeLine, FakeUnit
+from relay import expect_reset
 from rkm04_tools.service import browsers, live, worker
 from rkm04_tools.service.fields import Asked
 from rkm04_tools.service.orders import Act, Connect, Disconnect, Request
@@ -115,6 +117,15 @@ def test_a_click_while_the_unit_is_away_is_refused_there_and_then(desk, line, un
 
     assert told["error"]["kind"] == "NoAnswer"
     assert kinds(line) <= READS
+
+
+def test_what_was_not_answered_is_not_sent_later_by_a_port_that_keeps_it_back(desk):
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        told = desk.connect(f"socket://127.0.0.1:{silent.getsockname()[1]}", 3)
+        assert told["error"]["kind"] == "NoAnswer"
+        expect_reset(silent)
+        desk.ask(Disconnect())
+        expect_reset(silent)
 
 
 def test_what_waits_after_a_request_without_an_answer_is_given_up(desk, line):

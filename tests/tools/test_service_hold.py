@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import pytest
 from rkm04_tools.service import virtual
 from rkm04_tools.service.holding import HOLD_SECONDS, Holds
-from rkm04_tools.service.orders import Request
+from rkm04_tools.service.orders import Connect, Disconnect, Request
 from service_desk import Desk
 
 MINE, OTHER = 1, 2
@@ -39,6 +39,16 @@ def test_a_browser_that_falls_silent_while_it_holds_a_button_has_all_motors_stop
     assert answer["error"] is None
     assert (answer["id"], answer["from"]) == (None, None)
     desk.until(lambda told: told["type"] == "live" and not told["motors"][0]["moving"])
+
+
+@pytest.mark.parametrize("order", [Disconnect(), Connect(virtual.NAME, 2)])
+def test_who_leaves_the_unit_while_another_one_holds_a_button_stops_it_first(desk, order):
+    desk.worker.holds.hold(MINE)
+    desk.ask(RUNS)
+    assert is_moving(desk)
+    desk.ask(order)
+    stop, _ = [told for told in desk.told if told["type"] == "answer"][-2:]
+    assert (stop["message"], stop["error"]) == ("stop", None)
 
 
 def test_a_button_that_is_held_or_let_go_stops_nothing(desk):

@@ -152,7 +152,9 @@ static void after_request(struct gve_master *master, uint64_t now_ns)
 void gve_master_try_again(struct gve_master *master, uint64_t now_ns)
 {
     master->attempt++;
-    if (master->order.kind == GVE_MASTER_PACKET_ONCE) {
+    if (master->late) {
+        gve_master_finish_unanswered(master, &master->wire.heard);
+    } else if (master->order.kind == GVE_MASTER_PACKET_ONCE) {
         gve_master_finish(master, GVE_MASTER_NOT_TAKEN);
     } else if (master->attempt < GVE_ATTEMPTS) {
         send_request(master, now_ns);
@@ -171,6 +173,7 @@ void gve_master_connected(struct gve_master *master, uint64_t now_ns)
     } else if (master->restarted) {
         master->end = GVE_MASTER_RESTARTED; /* it was not meant for this unit, which is known now */
     } else {
+        master->late = false; /* that it takes so long to connect is usual after a packet that was cut off */
         send_request(master, now_ns);
     }
 }
@@ -181,6 +184,8 @@ void gve_master_begin(struct gve_master *master, const struct gve_master_order *
     master->order = *order;
     master->end = GVE_MASTER_WAITS;
     master->attempt = 0;
+    master->heard_ns = now_ns;
+    master->late = false;
     master->long_halt = false;
     master->is_reset = false;
     memset(&master->reply, 0, sizeof master->reply);
@@ -238,9 +243,18 @@ static void go_on_after_reset(struct gve_master *master, uint64_t now_ns)
     }
 }
 
+static void note_silence(struct gve_master *master, uint64_t now_ns)
+{
+    if (master->wire.found) {
+        master->late = master->late || now_ns - master->heard_ns > GVE_LATE_MS * GVE_WIRE_NS_PER_MS;
+        master->heard_ns = now_ns;
+    }
+}
+
 enum gve_master_end gve_master_poll(struct gve_master *master, uint64_t now_ns)
 {
     while (master->end == GVE_MASTER_WAITS && gve_wire_has_ended(&master->wire, now_ns)) {
+        note_silence(master, now_ns);
         go_on(master, now_ns);
         go_on_after_reset(master, now_ns);
     }

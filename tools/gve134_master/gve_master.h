@@ -26,6 +26,9 @@
  * over after 1 s: every wait here is longer than the first, and those after the first attempt are longer than the
  * second. H has a way of its own: it is repeated, which does no harm, with and without a checksum.
  *
+ * To a unit that was silent for 2 s no command is sent again: a cable that is put in again moves nothing. Such a request
+ * ends as one without an answer, and its command was not executed.
+ *
  * It does not wait: its owner hands in what has come, looks in time, then writes what stands in `wire.out`. All that
  * has come is to be handed in before each look, as what has come before a command goes out is no answer to it. Time is
  * the owner's, in ns from any moment, and does not go back. 46 kB.
@@ -78,6 +81,7 @@ struct gve_master {
     struct gve_reply last;      /* that > has told */
     struct gve_heard heard;     /* in the attempts to connect; with an end without an answer, what has led to that */
     uint64_t begin_ns;          /* of the halt */
+    uint64_t heard_ns;          /* when an answer came last in the request; at first its begin */
     uint64_t end_ns;            /* LONG: so long the axes are waited for */
     uint32_t repairs;           /* answers that got lost */
     uint32_t counts;            /* of the request: so many commands the unit counts of it */
@@ -95,6 +99,7 @@ struct gve_master {
     bool ready;
     bool restarted; /* the unit was found to have started anew when it was connected to again */
     bool long_halt; /* the answer to H takes longer than a stop does as a rule */
+    bool late;      /* the unit was silent for so long that nobody expects the command to be executed any more */
     bool bare;      /* the request was refused in a way in which only a unit does that has restarted */
     bool has_last;
     bool is_reset;                              /* J has gone out */

@@ -10,6 +10,7 @@ enum {
     GVE_PATIENCE_MS = 500, /* for an answer to begin: 1 ms is the unit's, the rest is for adapters and busy computers */
     GVE_PACKET_OVER_MS = 1200, /* after so much silence no packet is open, and nothing is thrown away any more */
     GVE_ATTEMPTS = 4,
+    GVE_LATE_MS = 2000, /* so long a silence a command outlasts */
 };
 
 enum gve_stage {

@@ -55,6 +55,9 @@ class Transport(Protocol):
 class Port(Transport, Protocol):
     """An open port that was opened here."""
 
+    def take_back(self) -> None:
+        """Let nothing of what was sent go out any more that still waits; the port stays open."""
+
     def abandon(self) -> None:
         """Close the port, and let nothing of what was sent go out any more that still waits."""
 
@@ -79,11 +82,16 @@ class SocketTransport:
 
     def __init__(self, name: str, host: str, port: int) -> None:
         self.name = name
+        self._place = host, port
+        self._socket = self._connected()
+
+    def _connected(self) -> socket.socket:
         try:
-            self._socket = socket.create_connection((host, port), CONNECT_SECONDS)
-            self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            found = socket.create_connection(self._place, CONNECT_SECONDS)
+            found.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         except (OSError, UnicodeError) as error:
-            raise _connecting_failed(name, error) from None
+            raise _connecting_failed(self.name, error) from None
+        return found
 
     def read(self, seconds: float) -> bytes:
         """Return what is there, see Transport."""
@@ -118,6 +126,11 @@ class SocketTransport:
         with suppress(OSError):
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
         self._socket.close()
+
+    def take_back(self) -> None:
+        """Connect anew, see Port."""
+        self.abandon()
+        self._socket = self._connected()
 
 
 class SerialTransport:
@@ -168,6 +181,13 @@ class SerialTransport:
         with suppress(OSError):
             self._port.reset_output_buffer()
         self._port.close()
+
+    def take_back(self) -> None:
+        """See Port."""
+        try:
+            self._port.reset_output_buffer()
+        except OSError as error:
+            raise _lost(self.name, error) from None
 
 
 def _connecting_failed(name: str, error: Exception) -> PortError:

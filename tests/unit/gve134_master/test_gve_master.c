@@ -257,6 +257,26 @@ void test_nobody_is_silent(void)
     TEST_ASSERT_GREATER_OR_EQUAL_UINT64((200 + 1200 + 200 + 4 * 500) * MS, now_ns);
 }
 
+void test_a_unit_that_is_back_after_a_long_silence_gets_nothing_that_was_asked_for_before_it(void)
+{
+    static const uint8_t kinds[] = {GVE_MASTER_ASK, GVE_MASTER_PACKET, GVE_MASTER_PACKET_ONCE};
+    connect();
+    for (unsigned i = 0; i < sizeof kinds; i++) {
+        off = true;
+        begin(kinds[i], "C1");
+        uint64_t begin_ns = now_ns;
+        while (now_ns - begin_ns < 3500 * MS) {
+            (void)pass();
+        }
+        off = false;
+        TEST_ASSERT_EQUAL(GVE_MASTER_SILENT, finish());
+        TEST_ASSERT_EQUAL(0, executed);
+        connect();
+    }
+    TEST_ASSERT_EQUAL(GVE_MASTER_ANSWERED, ask("C1"));
+    TEST_ASSERT_EQUAL(1, executed);
+}
+
 void test_a_line_that_only_sends_back_is_an_echo(void)
 {
     off = echo = true;

@@ -67,6 +67,10 @@ class Wire:
         """Give the port back, and let nothing go out any more that still waits."""
         self._port.abandon()
 
+    def take_back(self) -> None:
+        """Let nothing go out any more that still waits."""
+        self._port.take_back()
+
     def read(self, first: int, count: int) -> list[int]:
         """Registers."""
         request = modbus.read_request(first, count)

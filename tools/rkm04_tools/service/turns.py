@@ -14,7 +14,7 @@ from threading import Condition, Thread
 from typing import Any, Generic, TypeVar
 
 from rkm04_tools.failure import Failure
-from rkm04_tools.line_errors import LineError
+from rkm04_tools.line_errors import LineError, PortError
 from rkm04_tools.service.fields import Asked
 from rkm04_tools.service.trouble import Fault, Late, NotConnected, Stopped, Unsent
 from rkm04_tools.service.unit_board import Board
@@ -147,7 +147,7 @@ class Turns(ABC, Generic[Unit]):
                 self._do_more()
                 if time.monotonic() >= self._own_line.look_due:
                     self._look()
-        self._own_line.close(abandons=True)
+        self._own_line.close()
 
     def _has_work(self) -> bool:
         return bool(self._closing or self._halts or self._waiting or self._has_more())
@@ -171,7 +171,7 @@ class Turns(ABC, Generic[Unit]):
             return
         was_away = bool(self.board.state.error)
         self.board.change(busy=name)
-        got = self._tried(lambda: self._obey(order))
+        got = self._tried(lambda: self._obeyed(order))
         if was_away or isinstance(got, LineError):
             self._give_up(Unsent())
         is_first = isinstance(order, Connect) and asked.client is None
@@ -185,6 +185,15 @@ class Turns(ABC, Generic[Unit]):
             self.board.tell({**asker, "text": None, "error": self._own_line.words.told(got)})
         else:
             self.board.tell({**asker, "text": got, "error": None})
+
+    def _obeyed(self, order: Any) -> str:
+        """What was not answered is not sent later, by a port that has kept it back."""
+        try:
+            return self._obey(order)
+        except LineError as error:
+            if not isinstance(error, PortError):
+                self._own_line.take_back()
+            raise
 
     def _obey(self, order: Any) -> str:
         if isinstance(order, Connect):

@@ -41,8 +41,12 @@ class UnitLine(ABC, Generic[Unit, State]):
         """See whether the unit is there, and what it does; its version."""
 
     @abstractmethod
-    def _drop(self, abandons: bool) -> None:
-        """Close what was opened; `abandons`: what waits in it is not sent any more."""
+    def take_back(self) -> None:
+        """What waits in the port is not sent any more."""
+
+    @abstractmethod
+    def _drop(self) -> None:
+        """Close what was opened; what waits in it is not sent any more."""
 
     @abstractmethod
     def look(self, unit: Unit) -> None:
@@ -90,9 +94,9 @@ class UnitLine(ABC, Generic[Unit, State]):
         assert self.unit is not None
         return self.unit
 
-    def close(self, abandons: bool = False) -> None:
-        """Close the port; `abandons`: what waits in it is not sent any more."""
-        self._drop(abandons)
+    def close(self) -> None:
+        """Close the port; what waits in it is not sent any more."""
+        self._drop()
         self.unit = None
 
     # ---- what has come of it ----
@@ -113,7 +117,7 @@ class UnitLine(ABC, Generic[Unit, State]):
         elif isinstance(got, self.restarted):
             self.restart()
         elif isinstance(got, PortError):
-            self.close(abandons=True)
+            self.close()
             is_virtual = board.state.virtual
             error = virtual.ended() if is_virtual and not isinstance(got, Fault) else got
             away = comes_back and not is_virtual

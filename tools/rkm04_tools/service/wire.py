@@ -10,7 +10,7 @@ from rkm04_tools.frame import ANSWER, NODES, REFUSED, Frame, Receiver
 from rkm04_tools.line import PATIENCE_SECONDS
 from rkm04_tools.messages import UNKNOWN, VERSION
 from rkm04_tools.service.trouble import Stopped
-from rkm04_tools.transport import Transport, seconds_on_line
+from rkm04_tools.transport import Port, seconds_on_line
 
 SLICE_SECONDS = 0.05
 
@@ -24,7 +24,7 @@ class Exchange:
 
 
 class Wire:
-    """A Transport.
+    """A Port.
 
     While `is_stop_wanted` and the wire `yields`, nothing more is sent, and no answer is waited for
     longer than one usually takes: Stopped is raised instead. A frame on its way out is completed.
@@ -33,7 +33,7 @@ class Wire:
 
     def __init__(
         self,
-        inner: Transport,
+        inner: Port,
         is_stop_wanted: Callable[[], bool],
         hear: Callable[[int], None] = lambda node: None,
     ) -> None:
@@ -77,6 +77,14 @@ class Wire:
     def close(self) -> None:
         """Close the port."""
         self._inner.close()
+
+    def abandon(self) -> None:
+        """Close the port, see Port."""
+        self._inner.abandon()
+
+    def take_back(self) -> None:
+        """See Port."""
+        self._inner.take_back()
 
     def forget(self) -> None:
         """Begin a new record."""

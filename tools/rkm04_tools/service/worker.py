@@ -207,12 +207,15 @@ class Worker:
         if time.monotonic() - since > TURN_SECONDS:
             self.refuse(order, asked, Late())
             return
+        if isinstance(order, Connect | Disconnect) and self.holds.rest_seconds() is not None:
+            self.holds.forget()  # nobody could stop what it runs any more
+            self._do_stop([(Asked(), ())])
         name = name_of(order)
         if self._wire:
             self._wire.forget()
         was_away = bool(self._state.error)
         self._change(busy=name)
-        got = _tried(lambda: self._obey(order, asked))
+        got = _tried(lambda: self._obeyed(order, asked))
         if was_away or isinstance(got, LineError):
             self._give_up(Unsent())
         is_first = isinstance(order, Connect) and asked.client is None
@@ -222,6 +225,15 @@ class Worker:
         told = answer_of(name, motor_of(order), node, asked, got, exchanges)
         self._change(busy=None)
         self._tell(told)
+
+    def _obeyed(self, order: Work, asked: Asked) -> Answer:
+        """What was not answered is not sent later, by a port that has kept it back."""
+        try:
+            return self._obey(order, asked)
+        except LineError as error:
+            if self._wire and not isinstance(error, PortError):
+                self._wire.take_back()
+            raise
 
     def _obey(self, order: Work, asked: Asked) -> Answer:
         if isinstance(order, Connect):
@@ -394,8 +406,8 @@ class Worker:
             self._change(connected=False, error=as_json(got))
 
     def _close_line(self) -> None:
-        if self._line:
-            self._line.close()
+        if self._wire:
+            self._wire.abandon()
         self._line = self._wire = None
 
     def _exchanges(self, message: int) -> list[Exchange]:

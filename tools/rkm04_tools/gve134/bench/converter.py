@@ -74,6 +74,9 @@ class Converter:
     def abandon(self) -> None:
         """Nothing is to be given back."""
 
+    def take_back(self) -> None:
+        """Nothing waits here for long."""
+
     def unit(self, baud: int) -> Unit:
         """The unit at the other end."""
         return Unit(Link(Wire(self, baud, clock=self.seconds)))

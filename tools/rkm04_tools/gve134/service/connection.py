@@ -67,12 +67,14 @@ class Connection(UnitLine[Unit, State]):
         """The version, after a look."""
         return unit.link.version
 
-    def _drop(self, abandons: bool) -> None:
+    def take_back(self) -> None:
+        """What waits in the port is not sent any more."""
         if self._wire:
-            if abandons:
-                self._wire.port.abandon()
-            else:
-                self._wire.port.close()
+            self._wire.port.take_back()
+
+    def _drop(self) -> None:
+        if self._wire:
+            self._wire.port.abandon()
         if self.job and self.job.is_open:
             self.end_job(working.FAILED, Failure("the port was closed; the rest was not sent"))
         self._wire = None

@@ -75,12 +75,14 @@ class Connection(UnitLine[Unit, State]):
         """The version, after a look."""
         return self.looks.unit.version if self.looks.unit else ""
 
-    def _drop(self, abandons: bool) -> None:
+    def take_back(self) -> None:
+        """What waits in the port is not sent any more."""
         if self.unit:
-            if abandons:
-                self.unit.wire.abandon()
-            else:
-                self.unit.wire.close()
+            self.unit.wire.take_back()
+
+    def _drop(self) -> None:
+        if self.unit:
+            self.unit.wire.abandon()
         self.tell_settings(None)
 
     def forget(self) -> None:
