@@ -26,8 +26,8 @@
  * over after 1 s: every wait here is longer than the first, and those after the first attempt are longer than the
  * second. H has a way of its own: it is repeated, which does no harm, with and without a checksum.
  *
- * To a unit that was silent for 2 s no command is sent again: a cable that is put in again moves nothing. Such a request
- * ends as one without an answer, and its command was not executed.
+ * To a unit that was silent for 2 s no command is sent again: a cable that is put in again moves nothing. Such a
+ * request ends as one without an answer, and its command was not executed.
  *
  * It does not wait: its owner hands in what has come, looks in time, then writes what stands in `wire.out`. All that
  * has come is to be handed in before each look, as what has come before a command goes out is no answer to it. Time is
