@@ -274,6 +274,14 @@ def test_axes_are_moved_by_hand_in_pulses_and_in_mm(page: GvePage) -> None:
     expect(page.at("position-Y")).to_have_text("0.000 mm")
 
 
+def test_a_speed_that_the_unit_has_not_moves_nothing_by_hand(page: GvePage) -> None:
+    for speed in ("1000000", "5", ""):
+        page.at("jog-speed").fill(speed)
+        page.jog("X+")
+    page.page.wait_for_timeout(300)
+    assert "jog" not in page.sent
+
+
 def test_inputs_outputs_and_spindle(page: GvePage) -> None:
     lamp = page.page.locator("#inputs button").nth(2)
     expect(lamp).to_have_attribute("data-level", "0")

@@ -20,6 +20,7 @@ from service_page import NOT_KNOWN
 from tab import DESK, PATIENCE_SECONDS
 
 NODE, SEED = 3, 5
+WRITE_REGISTERS = 16
 ENGLISH = re.compile(r"\b(the|is|of|to|in|as|at|steps|limit|from|never)\b")
 CHOICE_MS = 3000
 """Longer than what the page asks for is good for otherwise."""
@@ -322,6 +323,27 @@ def test_a_unit_on_a_line_that_restarts_is_told(line_page: AlonePage, line: Line
     page.move("1")
     page.doing("REACHED")
     expect(page.at("position-1")).to_have_text("1.000 mm")
+
+
+def test_settings_whose_writing_was_cut_short_are_read_again(
+    line_page: AlonePage, line: Line, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page, bridge = line_page, line.bridge
+
+    def to_unit(data: bytes) -> bytes:
+        bridge.silent = bridge.silent or data[1] == WRITE_REGISTERS
+        return data
+
+    expect(page.setting("BACKLASH")).to_be_enabled()
+    page.setting("BACKLASH").fill("5")
+    monkeypatch.setattr(bridge, "to_unit", to_unit)
+    page.at("settings-write").click()
+    expect(page.answers.first).to_contain_text("does not answer")
+    monkeypatch.undo()
+    bridge.silent = False
+    page.ready()
+    expect(page.at("settings-words")).to_have_text("")
+    expect(page.setting("BACKLASH")).to_have_value("5")
 
 
 def test_what_a_browser_has_not_is_told(open_page: Open) -> None:

@@ -85,6 +85,7 @@ def write(line: Connection, unit: Unit, order: Write) -> str:
     concerned = [axis for axis in ALL_AXES if part_of(axis) in order.values]
     settings.require_free(unit, ALL_AXES if UNIT_PART in order.values else concerned)
     found = settings.read_all(unit)
+    line.tell_settings(None)  # until they are read again
     try:
         settings.write(unit, order.values, found)
     finally:
@@ -105,6 +106,7 @@ def keep(line: Connection, unit: Unit, order: Plain) -> str:
         unit.store()
     elif order.name == "deliver":
         line.looks.touch(*range(1, AXES + 1))
+        line.tell_settings(None)
         unit.deliver()
     line.read_settings(unit)
     return {

@@ -94,6 +94,8 @@ export class Axes {
         );
         this.#step.value = String(chosen);
         this.#speed.value = isOther ? String(FIRST[kind].speed) : this.#speed.value;
+        // What is more than a machine's axis may do is made less for each axis.
+        [this.#speed.min, this.#speed.max] = kind === "machine" ? ["1", ""] : [String(SPEED_MIN), String(SPEED_MAX)];
         const label = this.#speed.previousElementSibling;
         if (label !== null) {
             label.textContent = t(kind === "machine" ? "jog.speed" : "jog.speedSteps");

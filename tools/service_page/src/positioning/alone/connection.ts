@@ -128,6 +128,10 @@ export class Connection {
         return found;
     }
 
+    forgetSettings(): void {
+        this.#tellSettings(null);
+    }
+
     #tellSettings(found: AllSettings | null): void {
         if (found !== null || this.settings !== null) {
             this.settings = found;

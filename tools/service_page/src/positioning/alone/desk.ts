@@ -217,6 +217,7 @@ export class Desk {
         const unit = this.#line.required();
         await settings.requireFree(unit, Object.keys(values));
         const found = await settings.readAll(unit);
+        this.#line.forgetSettings(); // until they are read again
         try {
             await settings.write(unit, values, found);
         } finally {
@@ -239,6 +240,7 @@ export class Desk {
             }
         } else if (what === "deliver") {
             this.#line.looks.touch(AXES);
+            this.#line.forgetSettings();
             await unit.store(2);
         }
         await this.#line.readSettings();
