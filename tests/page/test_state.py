@@ -39,6 +39,19 @@ def expect_not_known(page: ServicePage) -> None:
     expect(page.page.locator("#live-facts")).to_be_hidden()
 
 
+def test_a_unit_that_restarts_is_told_until_somebody_has_noted_it(lines_page, unit):
+    loud = lines_page.page.locator("#loud")
+    unit.status = status(late_steps=7)
+    expect(lines_page.page.locator("#live-facts")).to_contain_text("late steps 7")
+    expect(loud).to_be_hidden()
+    unit.status = status()
+    expect(loud).to_contain_text("THE UNIT HAS RESTARTED")
+    assert loud.evaluate("part => parseFloat(getComputedStyle(part).fontSize)") >= 22
+    lines_page.page.wait_for_timeout(500)
+    lines_page.page.locator("#seen").click()
+    expect(loud).to_be_hidden()
+
+
 def test_each_motor_says_what_it_does(lines_page, unit):
     everything = [
         (status(MOVING | RUNNING, 0, RUNNING, MOVING),

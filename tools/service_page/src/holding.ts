@@ -1,6 +1,7 @@
 import { checkProgram } from "./api";
 import type { Link } from "./link";
 import { ALL_MOTORS, MOTORS, type Answer, type Live, type ToService, type UnitState } from "./protocol";
+import { Cell } from "./signal";
 
 /** A memory that is full may have lost its oldest commands. */
 const COMMANDS_MAX = 700;
@@ -16,6 +17,8 @@ type Request = Extract<ToService, { type: "request" }>;
  * master on the line sends is not seen.
  */
 export class Holding {
+    /** Whether the unit has started anew since it was connected to, and nobody has taken note of it. */
+    readonly restarted = new Cell(false);
     readonly #link: Link;
     readonly #asked = new Map<number, Request>();
     #held = new Map<number, string[]>();
@@ -46,9 +49,13 @@ export class Holding {
     /** Another unit, or perhaps another. */
     #setState({ port, node, connected }: UnitState): void {
         const before = this.#unit;
-        if (before === null || port !== before.port || node !== before.node || !connected) {
+        const isOther = port !== before?.port || node !== before.node;
+        if (isOther || !connected) {
             this.#held.clear();
+        }
+        if (isOther) {
             this.#counts = [];
+            this.restarted.set(false);
         }
         this.#unit = { port, node, connected };
     }
@@ -61,6 +68,7 @@ export class Holding {
         const counts = [unit.late_steps, ...Object.values(unit.line)];
         if (counts.some((count, index) => count < (this.#counts[index] ?? 0))) {
             this.#held.clear();
+            this.restarted.set(true);
         }
         this.#counts = counts;
     }

@@ -69,7 +69,10 @@ link.on("live", ({ node }) => presence.look(node));
 const stop = new Stop(link);
 new Connection(link, presence);
 const live = new LiveView(link, presence);
-new Follow(link, programs, new Holding(link), presence, (motor) => commands.request("program", motor));
+const holding = new Holding(link);
+holding.restarted.onChange((restarted) => (byId("loud", HTMLElement).hidden = !restarted));
+byId("seen", HTMLButtonElement).addEventListener("click", () => holding.restarted.set(false));
+new Follow(link, programs, holding, presence, (motor) => commands.request("program", motor));
 const machine = new Machine({
     programs: () => programs.all(),
     inputs: () => plan.inputs,
