@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from collections.abc import Iterator
 
@@ -10,6 +11,7 @@ from playwright.sync_api import Page, expect
 from service_page import Service, ServicePage, shown
 
 NODE = 3
+HOLDS_MAX, SOON_MS = 4, 3000
 FAST = {"start": "200", "speed": "2000", "ramp": "8000", "farthest": "0"}
 
 
@@ -34,6 +36,26 @@ def aim(page: Page, name: str) -> None:
     """Bring the mouse over a part."""
     place = middle(page, name)
     page.mouse.move(place["x"], place["y"])
+
+
+def hold(page: Page, name: str, held_ms: float = 0) -> None:
+    """Hold a button until its motor moves, and so long beyond that.
+
+    A page, a service or a unit that comes too late, as on a busy machine, lets it go: that is safe,
+    and it is held again.
+    """
+    moving = page.locator(".card[data-moving=true]")
+    for _ in range(HOLDS_MAX):
+        aim(page, name)
+        page.mouse.down()
+        with contextlib.suppress(AssertionError):
+            expect(moving).to_have_count(1, timeout=SOON_MS)
+            page.wait_for_timeout(held_ms)
+            if moving.count() == 1:
+                return
+        page.mouse.up()
+        expect(page.locator(name)).to_be_enabled()
+    raise AssertionError(f"{name} is let go whenever it is held for {held_ms} ms")
 
 
 @pytest.fixture
@@ -72,11 +94,8 @@ def test_nothing_can_be_moved_before_the_danger_was_read(page):
 
 @pytest.mark.parametrize(("name", "sign"), [("#jog-forth", 1), ("#jog-back", -1)])
 def test_a_motor_runs_as_long_as_its_button_is_held(bench, name, sign):
-    aim(bench.page, name)
-    bench.page.mouse.down()
-    expect(bench.page.locator(".card").first).to_have_attribute("data-moving", "true")
-    bench.page.wait_for_timeout(1500)
-    expect(bench.page.locator(".card").first).to_have_attribute("data-moving", "true")
+    hold(bench.page, name, 1500)
+    bench.sent.clear()
     bench.page.mouse.up()
 
     assert sign * expect_cleared(bench) > 200
@@ -107,9 +126,7 @@ def test_a_motor_runs_as_long_as_its_button_is_held(bench, name, sign):
     ],
 )
 def test_whatever_takes_the_button_away_lets_go(bench, let_go):
-    aim(bench.page, "#jog-forth")
-    bench.page.mouse.down()
-    expect(bench.page.locator(".card").first).to_have_attribute("data-moving", "true")
+    hold(bench.page, "#jog-forth")
     let_go(bench.page)
     expect_cleared(bench)
 
@@ -277,9 +294,6 @@ def test_the_service_gives_up_waiting_for_a_silent_browser(own_service: Service,
     """The time is the service's own; a hold that is renewed goes on."""
     with shown(browser, own_service.url) as page:
         opened(page.page, **FAST)
-        aim(page.page, "#jog-forth")
-        page.page.mouse.down()
-        page.page.wait_for_timeout(2500)
-        expect(page.page.locator(".card").first).to_have_attribute("data-moving", "true")
+        hold(page.page, "#jog-forth", 2500)
         page.page.mouse.up()
         expect_cleared(page)
