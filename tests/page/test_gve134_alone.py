@@ -335,6 +335,20 @@ def test_a_unit_that_restarts_or_falls_silent_in_a_job_is_told_loudly(lined: Lin
         line.close()
 
 
+def test_a_unit_that_has_restarted_while_its_port_was_gone_is_told(lined: Lined) -> None:
+    unit = FakeGve()
+    line = FakeGveLine(unit)
+    try:
+        page, _ = lined(SerialBridge(line.port))
+        page.page.evaluate("void fakeSerial.pull()")
+        with line.lock:
+            unit.restart()
+        connect_again(page)
+        expect(page.at("loud")).to_contain_text("THE UNIT HAS RESTARTED")
+    finally:
+        line.close()
+
+
 def test_a_unit_that_restarts_at_an_h_of_the_file_gets_nothing_more(lined: Lined) -> None:
     unit = FakeGve(restarts_at="H")
     line = FakeGveLine(unit)

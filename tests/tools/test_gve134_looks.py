@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from fake_gve134 import FakeGve
-from gve134_ports import VirtualPort
+from gve134_ports import FakeGveLine, VirtualPort
+from gve_desk import GveDesk
+from relay import Relay
 from rkm04_tools.gve134.link import BAUD, Link
 from rkm04_tools.gve134.sending import Sender
 from rkm04_tools.gve134.service.files import read_file
@@ -52,3 +54,22 @@ def test_axes_at_the_end_of_a_file_that_still_count_as_moving_are_on_no_line() -
     progress = work.progress(Flags(RUN), 1.0)
     assert progress is not None
     assert (progress["at"], progress["line"], progress["level"]) == (2, None, 0)
+
+
+def test_a_unit_that_has_restarted_while_its_port_was_gone_is_told() -> None:
+    unit = FakeGve()
+    line = FakeGveLine(unit)
+    relay = Relay(line.port)
+    desk = GveDesk(relay.port)
+    try:
+        desk.connected()
+        relay.cut()
+        desk.state(lambda m: m["away"])
+        with line.lock:
+            unit.restart()
+        relay.mend()
+        desk.state(lambda m: m["restarted"])
+    finally:
+        desk.close()
+        relay.close()
+        line.close()

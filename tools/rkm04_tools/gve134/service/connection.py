@@ -50,6 +50,7 @@ class Connection(UnitLine[Unit, State]):
         self._baud = baud
         self._mind_halt = mind_halt
         self._wire: HeardWire | None = None
+        self._link: Link | None = None
 
     @property
     def known(self) -> Known:
@@ -60,6 +61,8 @@ class Connection(UnitLine[Unit, State]):
 
     def _greet(self, unit: Unit) -> str:
         unit.link.connect()
+        if unit.link.restarted:
+            self.restart()
         self.look(unit)
         return unit.link.version
 
@@ -80,13 +83,21 @@ class Connection(UnitLine[Unit, State]):
         self._wire = None
         self.jogging = False
 
+    def disconnect(self) -> str:
+        """Close the port; what is connected to next may be another unit."""
+        self._link = None
+        return super().disconnect()
+
     def _open(self, port: str) -> None:
         place = self._units.open() if port == virtual.NAME else port
         self._wire = HeardWire(
             open_transport(place, self._baud), self._baud, look=self._mind_halt,
             begins=self._begin, told=self._hear,
         )  # fmt: skip
-        self.unit = Unit(Link(self._wire))
+        if self._link is None or self._link.name != self._wire.port.name:
+            self._link = Link(self._wire)
+        self._link.wire = self._wire  # a unit that has started anew since the port was lost is known by it
+        self.unit = Unit(self._link)
         self.looks, self.job = Looks(), None
         self.begin_way()
 

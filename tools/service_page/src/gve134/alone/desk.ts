@@ -381,6 +381,9 @@ export class UnitDesk {
         this.#line.state.change({ connected: true });
         const link = this.#link;
         await link.connect();
+        if (link.wire.restarted) {
+            this.#line.restart();
+        }
         await this.#line.look(link);
         this.#line.state.change({ version: link.version, error: null });
         return link.version;

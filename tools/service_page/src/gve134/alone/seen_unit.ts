@@ -30,6 +30,8 @@ export class UnitConnection {
     readonly #tell: (told: FromService) => void;
     readonly #mind: () => void;
     #inputs_due_ms = 0;
+    /** Of a port that was lost: it knows a unit that has started anew since. */
+    #lost: Wire | null = null;
 
     /** `bytes` is the module; `mind` is called while the line is used, and may throw what ends that. */
     constructor(bytes: Bytes, tell: (told: FromService) => void, mind: () => void) {
@@ -44,7 +46,9 @@ export class UnitConnection {
     }
 
     open(port: BytePort): void {
-        const wire = new Wire(this.#bytes, port);
+        const isBack = this.#lost?.port.name === port.name && this.#lost.port.baud === port.baud;
+        const wire = isBack && this.#lost !== null ? this.#lost : new Wire(this.#bytes, port);
+        wire.port = port;
         wire.look = this.#mind;
         wire.onSent = ([first = ""]) => this.state.change({ reference: first.startsWith("W") });
         wire.onAnswer = (commands, answer) => {
@@ -61,6 +65,9 @@ export class UnitConnection {
     drop(why: Refusal): void {
         if (this.job?.isOpen) {
             this.endJob(why);
+        }
+        if (this.link !== null) {
+            this.#lost = why instanceof LineTrouble ? this.link.wire : null;
         }
         this.link = null;
         this.isJogging = false;

@@ -51,7 +51,7 @@ export interface BytePort {
 
 /** A line with a unit: the master of tools/gve134_master, and the bytes of a port. */
 export class Wire {
-    readonly port: BytePort;
+    port: BytePort;
     /** Of the job that was begun last. */
     readonly executed: Executed;
     /** Looked at again and again while something is waited for; may throw what ends that. */
