@@ -60,6 +60,14 @@ CONTROLS = """() => {
     return wanted.length;
 }"""
 """Marks what the Tab key must reach, of radio buttons one in each group."""
+DROP = """() => {
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File(["S100"], "a.rks"));
+    const given = { bubbles: true, cancelable: true, dataTransfer };
+    const isLeftAlone = (kind) => !document.body.dispatchEvent(new DragEvent(kind, given));
+    return ["dragover", "drop"].every(isLeftAlone);
+}"""
+"""Whether the browser leaves a file alone that is dropped beside everything."""
 REACHED = """() => {
     const part = document.activeElement;
     if (part.type === "radio") {
@@ -182,6 +190,13 @@ def test_no_text_stays_english_when_czech_is_chosen(whole: tuple[str, Page]) -> 
     whole_ones = re.compile("|".join(patterns))
     assert len(told) > 30
     assert [text for text in told if whole_ones.fullmatch(text)] == []
+
+
+def test_a_file_that_is_dropped_does_not_take_the_place_of_the_page(
+    whole: tuple[str, Page],
+) -> None:
+    _, page = whole
+    assert page.evaluate(DROP)
 
 
 def test_the_tab_key_reaches_every_control_and_leaves_it(whole: tuple[str, Page]) -> None:

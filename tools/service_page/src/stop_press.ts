@@ -22,6 +22,10 @@ export function listenForStop(button: HTMLButtonElement, stop: () => void): void
         }
     });
     listenToEscape(press);
+    // A file that is dropped beside the editor would take the place of the page, and so of its stop.
+    for (const kind of ["dragover", "drop"] as const) {
+        window.addEventListener(kind, (event) => event.dataTransfer?.types.includes("Files") && event.preventDefault());
+    }
 }
 
 /**
