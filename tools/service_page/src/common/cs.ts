@@ -8,6 +8,8 @@ export const cs: Record<keyof typeof en, string> = {
     "loud.silent": "JEDNOTKA NEODPOVÍDÁ",
     "loud.moving": "Naposledy se pohybovala: NENÍ ZNÁMO, ZDA SE OSY POHYBUJÍ.",
     "loud.restarted": "JEDNOTKA BYLA RESTARTOVÁNA",
+    "loud.left": "NEPŘIPOJENO: TATO STRÁNKA NEMŮŽE NIC ZASTAVIT",
+    "loud.leftMore": "Připojte se znovu.",
     "loud.lost": "PORT NENÍ K DISPOZICI",
     "connection.title": "Spojení",
     "connection.port": "Port",

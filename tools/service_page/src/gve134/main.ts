@@ -47,6 +47,9 @@ new Loud(unit, t, {
     isTold: () => unit.doing !== "unknown",
     restarted: () => t("loud.restartedMore"),
     more: () => {
+        if (unit.wasLeftMoving) {
+            return `${t("loud.left")}\n${t("loud.moving")} ${t("loud.leftMore")}`;
+        }
         if (unit.doing === "fault") {
             return `${t("loud.fault")}\n${t("loud.faultMore")}`;
         }

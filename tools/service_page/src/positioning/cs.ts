@@ -20,8 +20,6 @@ export const cs: Dictionary = {
     "loud.damagedMore": "Platí nastavení od výrobce. Otevřete soubor s nastavením nebo vše zkontrolujte, zapište a uložte.",
     "loud.others": "OSÁM {axes} VELÍ JINÝ MASTER",
     "loud.othersMore": "Co zde nastavíte, může být kdykoli přepsáno. STOP ukončí pohyb osy, které druhý master znovu dá povolení.",
-    "loud.left": "NEPŘIPOJENO: TATO STRÁNKA NEMŮŽE NIC ZASTAVIT",
-    "loud.leftMore": "Připojte se znovu.",
     "connection.node": "Jednotka",
     "axes.title": "Osy",
     "axis.name": "Osa {axis}",

@@ -19,8 +19,6 @@ export const en = {
     "loud.damagedMore": "The delivered ones are in force. Open your file of settings or look at all of them, write, then Store.",
     "loud.others": "ANOTHER MASTER GIVES ORDERS TO AXIS {axes}",
     "loud.othersMore": "What is set here may be overruled at any moment. STOP ends the measure of an axis to which the other one gives the permission again.",
-    "loud.left": "NOT CONNECTED: THIS PAGE CANNOT STOP ANYTHING",
-    "loud.leftMore": "Connect again to see.",
     "connection.node": "Unit",
     "axes.title": "Axes",
     "axis.name": "Axis {axis}",
