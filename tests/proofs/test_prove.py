@@ -151,7 +151,7 @@ PLANTED = [
     ),
     (
         "step_lay", "step_lay_cruise", "firmware/engine/step/step_lay.h",
-        "way += slope;", "way += rest;",
+        "way += slope;", "way += slope + rest;",
     ),
 ]  # fmt: skip
 """Each takes provers up to a minute and a half: the first alone where the run is not a long one."""
