@@ -308,6 +308,7 @@ static unsigned channel_lay(struct step_channel *channel, struct hal_step_room *
 {
     struct step_cursor *cursor = &channel->cursor;
     unsigned laid = 0;
+    bool more = true;
     do {
         if (BASE_SELDOM(cursor->left == 0)) {
             if (!channel_lay_first(channel, room, laid)) {
@@ -319,11 +320,9 @@ static unsigned channel_lay(struct step_channel *channel, struct hal_step_room *
             unsigned count = step_lay(&cursor->generator, room, laid, most < cursor->left ? most : cursor->left);
             laid += count;
             cursor->left -= count;
-            if (cursor->left != 0) {
-                break;
-            }
+            more = cursor->left == 0;
         }
-    } while (laid < room->count && step_lay_goes_on(cursor->generator.tick, room->until_tick));
+    } while (more && laid < room->count && step_lay_goes_on(cursor->generator.tick, room->until_tick));
     return laid;
 }
 
