@@ -105,6 +105,10 @@ PLANTED = [
         "dividend.high >= divisor", "dividend.high > divisor",
     ),
     (
+        "path_look", "path_look_exit2", "firmware/engine/path/path_look.c",
+        "most < least ? least : most", "most",
+    ),
+    (
         "motion_time", "motion_time_add", "firmware/engine/motion/motion_time.c",
         "time.ticks + ticks + (fraction", "time.ticks + ticks + 1U + (fraction",
     ),
@@ -218,6 +222,8 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
+    "end2_of", "is_settled", "look_backward", "look_backward_again",
+    "path_look", "path_look_again", "path_look_if_due", "path_look_is_more",
     "path_section_mind_turns", "path_section_take", "path_segment_lay", "slope_at",
 }  # fmt: skip
 
