@@ -109,6 +109,14 @@ PLANTED = [
         "most < least ? least : most", "most",
     ),
     (
+        "path_look_backward", "look_backward", "firmware/engine/path/path_look.c",
+        "lower(cap2, exit2 + after->gain2)", "cap2",
+    ),
+    (
+        "path_vector_turns", "path_section_mind_turns", "firmware/engine/path/path_vector.c",
+        "steps < section->turning ? steps", "steps < section->turning ? turn_us",
+    ),
+    (
         "motion_time", "motion_time_add", "firmware/engine/motion/motion_time.c",
         "time.ticks + ticks + (fraction", "time.ticks + ticks + 1U + (fraction",
     ),
@@ -222,9 +230,9 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
-    "end2_of", "is_settled", "look_backward", "look_backward_again",
+    "is_settled", "look_backward_again",
     "path_look", "path_look_again", "path_look_if_due", "path_look_is_more",
-    "path_section_mind_turns", "path_section_take", "path_segment_lay", "slope_at",
+    "path_section_take", "path_segment_lay", "slope_at",
 }  # fmt: skip
 
 
