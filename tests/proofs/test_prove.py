@@ -101,6 +101,14 @@ PLANTED = [
         "1U + (uint32_t)lower(left, steps)", "2U + (uint32_t)lower(left, steps)",
     ),
     (
+        "path_segment_slope", "slope_at", "firmware/engine/path/path_segment.c",
+        "divisor.shift -= 8U", "divisor.shift -= 7U",
+    ),
+    (
+        "path_segment_lay", "path_segment_lay", "firmware/engine/path/path_segment.c",
+        "slope >= SLOPE_LEAST && (", "(",
+    ),
+    (
         "path_vector", "divide", "firmware/engine/path/path_vector.c",
         "dividend.high >= divisor", "dividend.high > divisor",
     ),
@@ -232,7 +240,7 @@ ONLY_MODELLED = {
 NOT_PROVED = {
     "is_settled", "look_backward_again",
     "path_look", "path_look_again", "path_look_if_due", "path_look_is_more",
-    "path_section_take", "path_segment_lay", "slope_at",
+    "path_section_take",
 }  # fmt: skip
 
 
