@@ -121,6 +121,10 @@ PLANTED = [
         "lower(cap2, exit2 + after->gain2)", "cap2",
     ),
     (
+        "path_look_again", "look_backward_again", "firmware/engine/path/path_look.c",
+        "if (before->exit2 == exit2)", "if (before->exit2 <= exit2)",
+    ),
+    (
         "path_vector_turns", "path_section_mind_turns", "firmware/engine/path/path_vector.c",
         "steps < section->turning ? steps", "steps < section->turning ? turn_us",
     ),
@@ -238,7 +242,7 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
-    "is_settled", "look_backward_again",
+    "is_settled",
     "path_look", "path_look_again", "path_look_if_due", "path_look_is_more",
     "path_section_take",
 }  # fmt: skip
