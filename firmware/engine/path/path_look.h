@@ -21,7 +21,7 @@ static inline struct path_section *path_section_of(const struct path *path, uint
 void path_look(struct path *path);
 
 /* The same after sections have been added and nothing else: only as far back as that changes a speed. Returns the first
- * section whose plan is another one. Not with a start speed. */
+ * section whose plan is another one. */
 uint32_t path_look_again(struct path *path);
 
 /* Does so if sections have been added and the plan of the section path->laid may be another one by them. */

@@ -96,7 +96,7 @@ class Connection(UnitLine[Unit, State]):
         )  # fmt: skip
         if self._link is None or self._link.name != self._wire.port.name:
             self._link = Link(self._wire)
-        self._link.wire = self._wire  # a unit that has started anew since the port was lost is known by it
+        self._link.wire = self._wire  # a unit that has started anew meanwhile is known by it
         self.unit = Unit(self._link)
         self.looks, self.job = Looks(), None
         self.begin_way()
