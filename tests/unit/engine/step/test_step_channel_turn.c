@@ -10,7 +10,10 @@ enum {
     PIECES = 5,
     TOTAL = 15,
     AHEAD = 20,
-    NEW_STEPS = 3
+    NEW_STEPS = 3,
+    FAST_TICKS = 420, /* 200 000 steps/s: some pulses are skipped at once on the way back */
+    FAST_STEPS = 35,
+    FAST_AHEAD = 50
 };
 
 static const struct {
@@ -280,6 +283,80 @@ void test_a_recall_before_the_last_one_that_comes_too_late_counts_what_is_laid(v
                 TEST_ASSERT_EQUAL_UINT32(START + k * INTERVAL, laid_make_pulse());
             }
             TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+        }
+    }
+}
+
+void test_a_second_move_is_recalled_as_the_first(void)
+{
+    begin_pieces(AHEAD);
+    (void)run_to_the_end();
+    step_channel_begin(&channel, START, true);
+    step_channel_turn(&channel, true);
+    push(0, 5);
+    step_channel_run(&channel);
+    TEST_ASSERT_TRUE(step_channel_freeze(&channel, 3));
+    step_channel_recall(&channel, 3, NULL, true);
+    thaw();
+    TEST_ASSERT_EQUAL_UINT(2, run_to_the_end());
+    TEST_ASSERT_EQUAL_INT64(position[TOTAL] - 2, step_channel_position(&channel));
+    TEST_ASSERT_EQUAL_UINT32(START + 2U * INTERVAL, step_channel_end_tick(&channel));
+}
+
+static void push_fast(uint32_t pulse, uint32_t steps)
+{
+    struct step_segment segment = {
+        .slope = STEP_QUANTA / FAST_TICKS,
+        .tick = START + pulse * FAST_TICKS,
+        .pace_ticks = FAST_TICKS,
+        .steps = steps,
+    };
+    step_generator_aim(&segment, FAST_TICKS);
+    TEST_ASSERT_TRUE(step_channel_push(&channel, &segment));
+}
+
+static void assert_fast(uint32_t from, uint32_t to)
+{
+    for (uint32_t pulse = from; pulse <= to; pulse++) {
+        TEST_ASSERT_EQUAL_UINT32(START + pulse * FAST_TICKS, laid_make_pulse());
+        TEST_ASSERT_EQUAL_UINT64(pulse, step_channel_pulses(&channel));
+    }
+}
+
+static void freeze_fast(uint32_t made, uint32_t stays)
+{
+    channel_rig_init();
+    laid.ahead = FAST_AHEAD;
+    step_channel_begin(&channel, START, false);
+    push_fast(0, FAST_STEPS);
+    push_fast(FAST_STEPS, FAST_STEPS);
+    step_channel_run(&channel);
+    assert_fast(1, made);
+    TEST_ASSERT_TRUE(step_channel_freeze(&channel, 2U * FAST_STEPS - stays));
+}
+
+void test_fast_pulses_come_as_before_after_some_of_them_were_taken_back(void)
+{
+    for (uint32_t made = 0; made < FAST_STEPS; made += 3) {
+        for (uint32_t stays = made + 1U; stays <= 2U * FAST_STEPS; stays++) {
+            freeze_fast(made, stays);
+            thaw();
+            assert_fast(made + 1U, 2U * FAST_STEPS);
+            TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+        }
+    }
+}
+
+void test_a_fast_move_that_is_recalled_ends_with_the_last_pulse_that_stays(void)
+{
+    for (uint32_t made = 0; made < FAST_STEPS; made += 3) {
+        for (uint32_t stays = made + 1U; stays <= 2U * FAST_STEPS; stays++) {
+            freeze_fast(made, stays);
+            step_channel_recall(&channel, 2U * FAST_STEPS - stays, NULL, false);
+            thaw();
+            assert_fast(made + 1U, stays);
+            TEST_ASSERT_FALSE(step_channel_is_running(&channel));
+            TEST_ASSERT_EQUAL_UINT32(START + stays * FAST_TICKS, step_channel_end_tick(&channel));
         }
     }
 }
