@@ -38,17 +38,22 @@ static inline void channel_rig_check(void)
     TEST_ASSERT_EQUAL_UINT_MESSAGE(0, laid.holds, "the step interrupt is still held off");
 }
 
-/* Pulses INTERVAL ticks apart, the first one INTERVAL after pulse number `pulse` of the move. */
-static inline struct step_segment segment_after(uint32_t pulse, uint32_t steps)
+/* Pulses so many ticks apart, as all before them, the first one after pulse number `pulse` of the move. */
+static inline struct step_segment segment_every(uint32_t interval_ticks, uint32_t pulse, uint32_t steps)
 {
     struct step_segment segment = {
-        .slope = STEP_QUANTA / INTERVAL,
-        .tick = START + pulse * INTERVAL,
-        .pace_ticks = INTERVAL,
+        .slope = STEP_QUANTA / interval_ticks,
+        .tick = START + pulse * interval_ticks,
+        .pace_ticks = interval_ticks,
         .steps = steps,
     };
-    step_generator_aim(&segment, INTERVAL);
+    step_generator_aim(&segment, interval_ticks);
     return segment;
+}
+
+static inline struct step_segment segment_after(uint32_t pulse, uint32_t steps)
+{
+    return segment_every(INTERVAL, pulse, steps);
 }
 
 static inline void push(uint32_t pulse, uint32_t steps)

@@ -305,13 +305,7 @@ void test_a_second_move_is_recalled_as_the_first(void)
 
 static void push_fast(uint32_t pulse, uint32_t steps)
 {
-    struct step_segment segment = {
-        .slope = STEP_QUANTA / FAST_TICKS,
-        .tick = START + pulse * FAST_TICKS,
-        .pace_ticks = FAST_TICKS,
-        .steps = steps,
-    };
-    step_generator_aim(&segment, FAST_TICKS);
+    struct step_segment segment = segment_every(FAST_TICKS, pulse, steps);
     TEST_ASSERT_TRUE(step_channel_push(&channel, &segment));
 }
 
