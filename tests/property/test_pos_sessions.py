@@ -1,6 +1,6 @@
 """Random sessions with the positioning unit, each held against the model of the contract.
 
-`RKM04_PROGRAMS=11000` tries that many sessions instead of a hundred; the seeds of the sessions
+`RKM04_PROGRAMS=11000` tries that many sessions instead of fifty; the seeds of the sessions
 count from 0, and `pos_tried.py` tells how one is tried again. Some more have seeds that nobody has
 tried before; they are printed with what they found.
 """
@@ -13,7 +13,7 @@ import secrets
 import pytest
 from pos_tried import tried
 
-SESSIONS = int(os.environ.get("RKM04_PROGRAMS", "100"))
+SESSIONS = int(os.environ.get("RKM04_PROGRAMS", "50"))
 BATCH = 1000
 FRESH = 40
 UNSURE_SHARE_MAX = 0.03

@@ -17,7 +17,7 @@ from wasm_build import build_wasm
 ROOT = Path(__file__).resolve().parents[2]
 NATIVE = Path(os.environ.get("RKM04_BUILD", ROOT / "build" / "host")) / "bin"
 EXAMPLES = ROOT / "tools/examples/positioning"
-SCRIPTS = 1000
+SCRIPTS = 300
 MOVES = 3
 SECONDS = "10"
 OUTPUTS = ("steps", "trace")
