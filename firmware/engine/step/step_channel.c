@@ -86,8 +86,6 @@ void step_channel_begin(struct step_channel *channel, uint32_t tick, bool backwa
     channel->pushed = 0;
     step_channel_keep_nothing(channel);
     channel->closed = false;
-    channel->frozen = false;
-    channel->recalled = 0;
     channel->turn = backward;
     channel->turned = 0;
     channel->direction = backward ? -1 : 1;

@@ -58,8 +58,8 @@ struct step_channel {
 /* Stands at position 0. */
 void step_channel_init(struct step_channel *channel, unsigned motor);
 
-/* Readies the channel for a move that begins at `tick` with DIR set; the queue is empty. Not while
- * running. */
+/* Readies the channel for a move that begins at `tick` with DIR set; the queue is empty. Not while running or frozen.
+ */
 void step_channel_begin(struct step_channel *channel, uint32_t tick, bool backward);
 
 /* The way of what is pushed from now on. DIR changes between the pulses; they must be so far apart (hal_step.h). */
@@ -126,7 +126,7 @@ void step_channel_recall(struct step_channel *channel, uint64_t back, const stru
 void step_channel_thaw_held(struct step_channel *channel);
 
 /* Takes back what is laid and ends the move at once, or after the pulse for which it is too late; at rest, drops what
- * is queued. */
+ * is queued. Not while frozen. */
 void step_channel_halt(struct step_channel *channel);
 
 /* Pulses made in the present or last move. */

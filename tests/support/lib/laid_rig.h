@@ -40,8 +40,9 @@ static struct {
     uint32_t back;      /* pulses taken back, ever */
     uint32_t last_tick; /* of the last pulse made; until then where the time begins */
     unsigned holds;
-    bool dry;  /* the client had no more */
-    bool told; /* to run, since pulses were taken back */
+    unsigned runs; /* times that the client told to run */
+    bool dry;      /* the client had no more */
+    bool told;     /* to run, since pulses were taken back */
     bool main_has_work;
 } laid;
 
@@ -110,6 +111,7 @@ static inline void laid_run_seen(unsigned motor, int calls)
     (void)calls;
     TEST_ASSERT_EQUAL_UINT(laid.motor, motor);
     TEST_ASSERT_EQUAL_UINT_MESSAGE(1, laid.holds, "told to run without a hold");
+    laid.runs++;
     laid.told = true;
     laid.dry = false;
     laid_fill();

@@ -161,6 +161,23 @@ void test_what_comes_to_a_queue_that_has_run_dry_is_laid_at_once(void)
     TEST_ASSERT_EQUAL_UINT(6, run_to_the_end());
 }
 
+static void push_unheard(uint32_t pulse, uint32_t steps)
+{
+    unsigned runs = laid.runs;
+    push(pulse, steps);
+    TEST_ASSERT_EQUAL_UINT(runs, laid.runs);
+}
+
+void test_the_backend_hears_of_what_is_pushed_to_a_queue_that_has_run_dry_alone(void)
+{
+    begin_move(LAID_AHEAD + 2);
+    push_unheard(LAID_AHEAD + 2, 1);
+    make_pulses(2);
+    push_unheard(LAID_AHEAD + 3, 1);
+    (void)run_to_the_end();
+    push_unheard(LAID_AHEAD + 4, 1);
+}
+
 /* Segments of one pulse: the queue gets shorter with the first question that no way back leads over. */
 void test_a_queue_that_gets_shorter_wants_attention(void)
 {

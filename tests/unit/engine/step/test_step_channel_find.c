@@ -10,6 +10,7 @@ enum {
     MADE = 5, /* pulses, of MOVE */
     MOVE = 1000,
     ACCEL = 2000 * (int32_t)STEP_ACCEL_PER_ACCEL,
+    FAST_ACCEL = STEP_ACCEL_MAX * STEP_ACCEL_PER_ACCEL,
 };
 
 void setUp(void)
@@ -154,6 +155,53 @@ void test_a_search_over_many_fast_pulses_tells_the_next_one_and_its_interval(voi
         TEST_ASSERT_EQUAL_UINT32(START + (made + 1U) * 420U, cursor.generator.tick);
         TEST_ASSERT_EQUAL_UINT32(420, cursor.generator.interval);
         make_pulses(1);
+    }
+}
+
+/* From 100 000 steps/s on, as steep as can be. */
+static struct step_segment begin_fast_ramp(void)
+{
+    struct step_segment up = {.slope = STEP_QUANTA / 840, .accel = FAST_ACCEL, .tick = START, .steps = 100};
+    step_generator_aim(&up, 840);
+    laid.ahead = 20;
+    step_channel_begin(&channel, START, false);
+    step_channel_push(&channel, &up);
+    step_channel_run(&channel);
+    return up;
+}
+
+void test_a_search_over_many_fast_pulses_of_a_ramp_tells_the_interval_of_the_next_one(void)
+{
+    struct step_segment up = begin_fast_ramp();
+    struct step_generator expected = {.tick = START};
+    step_generator_load(&expected, &up);
+    for (uint32_t made = 0; made < 99; made++) {
+        struct step_cursor cursor = look_at_start();
+
+        TEST_ASSERT_EQUAL_UINT64(made + 1U, step_cursor_pulse(&cursor));
+        TEST_ASSERT_EQUAL_UINT32(expected.tick, cursor.generator.tick);
+        TEST_ASSERT_EQUAL_UINT32(expected.interval, cursor.generator.interval);
+        (void)step_generator_next(&expected);
+        make_pulses(1);
+    }
+}
+
+/* The way to the last pulse that stays leads over pulses that are skipped. */
+void test_a_halt_one_pulse_before_a_brake_that_came_late_ends_on_the_tick_of_the_last_pulse(void)
+{
+    for (unsigned late = 2; late < 15; late++) {
+        setUp();
+        (void)begin_fast_ramp();
+        struct step_cursor at = look_at_start();
+        laid.too_late = late;
+        TEST_ASSERT_TRUE(step_channel_brake(&channel, FAST_ACCEL, 90, &at));
+        TEST_ASSERT_EQUAL_UINT64(late, step_cursor_pulse(&at));
+        make_pulses(late - 1U);
+        laid.too_late = 0;
+        step_channel_halt(&channel);
+
+        TEST_ASSERT_EQUAL_UINT64(late - 1U, step_channel_pulses(&channel));
+        TEST_ASSERT_EQUAL_UINT32(laid.last_tick, step_channel_end_tick(&channel));
     }
 }
 

@@ -162,17 +162,44 @@ void test_no_segment_is_overwritten_that_a_way_back_leads_over(void)
 }
 
 /* While the pulses of the queue's last places wait, the first ones get free in time for more. */
-void test_segments_make_room_while_as_many_pulses_wait_as_ever(void)
+static void make_room_for(uint32_t segments)
 {
     uint32_t pushed = 1;
-    laid.ahead = STEP_QUEUE_SEGMENTS / 4;
     begin_move(1);
-    for (uint32_t made = 0; made < 5 * STEP_QUEUE_SEGMENTS; made++) {
+    for (uint32_t made = 0; made < segments; made++) {
         while (step_channel_room(&channel) > 0) {
             push(pushed++, 1);
         }
         make_pulses(1);
         TEST_ASSERT_TRUE(laid_waiting() == laid.ahead || made == 0);
+    }
+    (void)run_to_the_end();
+}
+
+void test_segments_make_room_while_as_many_pulses_wait_as_ever(void)
+{
+    laid.ahead = STEP_QUEUE_SEGMENTS / 4;
+    make_room_for(5 * STEP_QUEUE_SEGMENTS);
+}
+
+void test_segments_make_room_in_each_move(void)
+{
+    for (uint32_t first = 5 * STEP_QUEUE_SEGMENTS; first < 5 * STEP_QUEUE_SEGMENTS + 4; first++) {
+        setUp();
+        make_room_for(first);
+        make_room_for(3 * STEP_QUEUE_SEGMENTS);
+    }
+}
+
+void test_a_segment_makes_room_with_the_first_question_after_the_one_at_which_it_was_over(void)
+{
+    begin_unasked(1, 1);
+    push(2, 1);
+    for (unsigned waiting = 0; waiting < 3; waiting++) {
+        struct hal_step_room room = room_until(START + 100 * INTERVAL, 1);
+        room.waiting = waiting == 2;
+        TEST_ASSERT_EQUAL_UINT(1, step_channel_lay_isr(&channel, &room));
+        TEST_ASSERT_EQUAL_UINT32(STEP_QUEUE_SEGMENTS - (waiting == 2 ? 2 : 3), step_channel_room(&channel));
     }
 }
 
@@ -196,6 +223,16 @@ void test_a_mark_is_seen_when_all_before_it_has_been_made_however_far_ahead_puls
             TEST_ASSERT_EQUAL(made == 4, step_channel_take_mark(&channel));
             make_pulses(1);
         }
+    }
+}
+
+void test_a_mark_wakes_main_however_much_room_it_waits_for(void)
+{
+    step_channel_wake_with(&channel, STEP_QUEUE_SEGMENTS + 1);
+    begin_marked(6);
+    for (unsigned made = 1; made < 10; made++) {
+        make_pulses(1);
+        TEST_ASSERT_EQUAL(made == 4, laid.main_has_work);
     }
 }
 
