@@ -125,6 +125,10 @@ PLANTED = [
         "if (before->exit2 == exit2)", "if (before->exit2 <= exit2)",
     ),
     (
+        "path_vector_take", "path_section_take", "firmware/engine/path/path_vector.c",
+        "vector->extent2 == square", "vector->extent2 >= square",
+    ),
+    (
         "path_vector_turns", "path_section_mind_turns", "firmware/engine/path/path_vector.c",
         "steps < section->turning ? steps", "steps < section->turning ? turn_us",
     ),
@@ -244,7 +248,6 @@ ONLY_MODELLED = {
 NOT_PROVED = {
     "is_settled",
     "path_look", "path_look_again", "path_look_if_due", "path_look_is_more",
-    "path_section_take",
 }  # fmt: skip
 
 
