@@ -154,7 +154,9 @@ enum {
  * at most. */
 bool path_find(struct path *path, const struct path_wish *wish, struct path_place *place);
 
-/* Whether a path that is stopped at a place with an acceleration of its own comes to rest before its end. */
+/* Whether a path that is stopped at a place with an acceleration of its own comes to rest before its end. Not where
+ * that brakes less than planned and a vector counts another length (extent2): beyond a border it could be faster than
+ * any vector may be. */
 bool path_can_rest(const struct path *path, const struct path_place *place);
 
 /* Another speed for a section, in two parts, as the first takes time: it changes nothing yet, at any time after the
@@ -179,8 +181,8 @@ bool path_back(const struct path *path, const struct path_place *place, uint64_t
 void path_change(struct path *path, const struct path_place *place);
 
 /* The same, and it brakes to a stand as soon as it can, with the acceleration of each vector that it comes through.
- * With place->accel it brakes with that one, and so all vectors from there on have it: what is left of the path is not
- * to be gone on with, or so. */
+ * With place->accel, for which path_can_rest must be true, it brakes with that one, and so all vectors from there on
+ * have it: what is left of the path is not to be gone on with, or so. */
 void path_stop(struct path *path, const struct path_place *place);
 
 /* Whether all that is planned has been laid; then `rest` says where and when the path stands. */

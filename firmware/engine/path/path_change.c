@@ -270,9 +270,17 @@ bool path_can_rest(const struct path *path, const struct path_place *place)
 {
     uint64_t steps = 0;
     uint64_t rest = 0;
+    bool plain = true;
+    bool weaker = false;
     uint32_t end = path->start_speed == 0 ? path->end : path->chain;
     for (uint32_t i = place->section; i != end; i++) {
-        steps += path_section_of(path, i)->length;
+        const struct path_section *section = path_section_of(path, i);
+        steps += section->length;
+        plain = plain && section->plain;
+        weaker = weaker || place->accel < section->vector.accel;
+    }
+    if (weaker && !plain) {
+        return false;
     }
     steps -= wide_divide(place->entry.place, path_lay_grains(path, place), &rest);
     struct wide gain = path_wide_multiply(PATH_GRAINS_PER_ACCEL / 2U * place->accel, steps - (rest != 0 ? 1U : 0U));

@@ -53,7 +53,8 @@ struct path_vector {
     uint32_t accel;           /* 1 to PATH_ACCEL_MAX */
 
     /* The speed at a border is one number for the vectors on both sides, each multiplied by its own L/E: the length
-     * that the ordered speeds count. E^2 = L^2 where they count steps of the longest axis; at most 3*2^62. */
+     * that the ordered speeds count. E^2 = L^2 where they count steps of the longest axis; at most 3*2^62. The number
+     * is 2^30 at most, in 1/256 step/s: where E is more than four times L, a border may be slower than both vectors. */
     uint64_t extent2; /* E^2, at least 1 */
     uint32_t
         border_speed; /* not exceeded where another vector joins this one's beginning, 1/256 step/s of that number */

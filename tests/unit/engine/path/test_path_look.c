@@ -294,3 +294,54 @@ void test_a_path_that_is_too_fast_by_the_least_that_there_is_is_too_fast(void)
     TEST_ASSERT_FALSE(path.too_fast);
     TEST_ASSERT_EQUAL_UINT64((uint64_t)slow * slow, ring[0].exit2);
 }
+
+static void add_of_extent(int32_t steps, uint64_t extent2)
+{
+    struct path_vector vector = rig_vector(steps, 0, 1000000, 8000000);
+    vector.extent2 = extent2;
+    TEST_ASSERT_TRUE(path_add(&path, &vector));
+}
+
+static void lay_two(void)
+{
+    TEST_ASSERT_TRUE(path_start(&path, 0));
+    path_lay_next(&path);
+    path_lay_next(&path);
+}
+
+/* Eight times its steps is the length that speeds count: the border is passed with 2^30 of that, 524 288 steps/s. */
+void test_a_border_is_passed_no_faster_than_its_number_goes(void)
+{
+    add_of_extent(200000, UINT64_C(1600000) * 1600000);
+    add_of_extent(200000, UINT64_C(1600000) * 1600000);
+    lay_two();
+    TEST_ASSERT_EQUAL_UINT64(UINT64_C(1) << 54, ring[1].enter2);
+}
+
+void test_a_border_of_vectors_of_one_step_may_have_a_number_that_is_a_stand(void)
+{
+    add_of_extent(1, UINT64_C(3) << 62);
+    add_of_extent(1, UINT64_C(3) << 62);
+    lay_two();
+    TEST_ASSERT_EQUAL_UINT64(0, ring[1].enter2);
+    TEST_ASSERT_EQUAL_UINT64(0, ring[1].leave2);
+}
+
+/* From 1 000 000 steps/s: with an eighth of the acceleration it would come to the border with 920 000, which the second
+ * vector counts four times. */
+void test_a_stop_that_brakes_less_than_planned_is_refused_where_a_vector_counts_another_length(void)
+{
+    add(200000, 1000000, 8000000);
+    struct path_vector vector = rig_vector(2000000, 0, 1000000, 500000);
+    vector.extent2 = UINT64_C(500000) * 500000;
+    TEST_ASSERT_TRUE(path_add(&path, &vector));
+    TEST_ASSERT_TRUE(path_start(&path, 0));
+    const uint32_t own = ring[0].vector.accel;
+    struct path_wish wish = {.tick = 15960000, .patience_ticks = UINT64_MAX / 2U, .accel = own / 8U};
+    struct path_place place;
+    TEST_ASSERT_TRUE(path_find(&path, &wish, &place));
+    TEST_ASSERT_FALSE(path_can_rest(&path, &place));
+    wish.accel = own;
+    TEST_ASSERT_TRUE(path_find(&path, &wish, &place));
+    TEST_ASSERT_TRUE(path_can_rest(&path, &place));
+}
