@@ -125,6 +125,10 @@ PLANTED = [
         "if (before->exit2 == exit2)", "if (before->exit2 <= exit2)",
     ),
     (
+        "path_look_entry", "path_look", "firmware/engine/path/path_look.c",
+        "path->looked = path->known", "path->looked = path->end",
+    ),
+    (
         "path_vector_take", "path_section_take", "firmware/engine/path/path_vector.c",
         "vector->extent2 == square", "vector->extent2 >= square",
     ),
@@ -246,8 +250,7 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
-    "is_settled",
-    "path_look", "path_look_again", "path_look_if_due", "path_look_is_more",
+    "path_look_again", "path_look_if_due", "path_look_is_more",
 }  # fmt: skip
 
 

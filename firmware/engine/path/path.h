@@ -19,7 +19,8 @@
 #include "base_tick.h"
 #include "../step/step_segment.h"
 
-/* A place at which a change can take effect. Sections are counted from path_init on. */
+/* A place at which a change can take effect. Sections are counted from path_init on, modulo 2^32: between a start or a
+ * change and the next one a path goes through fewer vectors than that, less the ring's size. */
 struct path_place {
     uint32_t section; /* count of the section that begins or goes on there */
     uint32_t accel; /* with which a stop brakes from there, and of whose grains entry.place is; 0: the section's own */
