@@ -103,6 +103,12 @@ def test_what_is_no_image_of_the_board_is_refused_before_anything_is_asked(panel
          ["512 kB of flash", "Nothing was written"]),
         ("pulled = 30", ["The board was lost", "not whole", "motors unpowered"]),
         ("spoils = 5000", ["differs at 0x8001000", "not whole"]),
+        ("denies = 'Unable to claim interface.'",
+         ["does not open (Unable to claim interface.)", "another window", "Nothing was written"]),
+        ("pulled = 1", ["The board was lost", "Nothing was written"]),
+        ("pulled = 3", ["The board was lost", "not whole"]),
+        ("pulled = 4", ["The board was lost", "not whole"]),
+        ("guarded = true", ["protected against reading", "Nothing was written"]),
     ],
 )  # fmt: skip
 def test_what_goes_wrong_is_told_with_what_is_in_the_board_then(panel, change, words):
@@ -111,6 +117,66 @@ def test_what_goes_wrong_is_told_with_what_is_in_the_board_then(panel, change, w
     said(panel, *words)
     assert not panel.evaluate("window.fakeLoader.left")
     expect(panel.locator("#firmware-write")).to_be_enabled()
+
+
+def orders_of_a_whole_write(panel: Page, image: bytes) -> int:
+    """How many orders it takes, and the panel as before."""
+    choose(panel, image)
+    said(panel, "Written, read back")
+    orders: int = panel.evaluate("window.fakeLoader.orders")
+    panel.reload()
+    panel.locator("#firmware").evaluate("(panel) => (panel.open = true)")
+    return orders
+
+
+@pytest.mark.parametrize(
+    ("change", "before"), [("pulled", 2), ("pulled", 3), ("pulled", 4), ("stalls", 1)]
+)
+def test_an_image_that_is_whole_but_not_known_to_run_is_told_as_that(panel, change, before):
+    image = image_of(20_000)
+    orders = orders_of_a_whole_write(panel, image)
+    panel.evaluate(f"() => {{ window.fakeLoader.{change} = {orders - before}; }}")
+    choose(panel, image)
+    said(panel, "read back without a difference, but is not known to run", "reset it")
+    expect(panel.locator("#firmware-said")).not_to_contain_text("not whole")
+    expect(panel.locator("#firmware-write")).to_be_enabled()
+    seen = panel.evaluate(SEEN, [SECTOR_10])
+    assert bytes(seen["image"][: len(image)]) == image
+
+
+def test_a_loader_that_answers_no_more_is_not_waited_for_without_end(panel):
+    panel.evaluate("() => { window.fakeLoader.hangs = 30; }")
+    choose(panel, image_of(41_144))
+    expect(panel.locator("#firmware-said")).to_contain_text("not whole", timeout=20_000)
+    said(panel, "does not come to an end")
+    expect(panel.locator("#firmware-write")).to_be_enabled()
+
+
+def test_a_file_that_was_changed_since_it_was_chosen_is_told(panel):
+    panel.evaluate("""() => { Blob.prototype.arrayBuffer = async () => {
+        throw new DOMException("The requested file could not be read", "NotReadableError");
+    }; }""")
+    choose(panel, image_of(41_144))
+    said(panel, "rkm04.bin: cannot be read", "choose it again; nothing was written")
+    expect(panel.locator("#firmware-write")).to_be_enabled()
+
+
+def test_a_second_press_begins_no_second_writing(panel):
+    panel.evaluate("""() => {
+        const { usb } = navigator;
+        window.asked = 0;
+        const request = usb.requestDevice;
+        usb.requestDevice = async (options) => {
+            window.asked += 1;
+            await new Promise((done) => setTimeout(done, 500));
+            return request(options);
+        };
+    }""")
+    choose(panel, image_of(20_000))
+    expect(panel.locator("#firmware-write")).to_be_disabled()
+    panel.locator("#firmware-form").evaluate("(form) => form.requestSubmit()")
+    said(panel, "Written, read back")
+    assert panel.evaluate("window.asked") == 1
 
 
 def test_nothing_is_written_before_the_motors_are_said_to_be_unpowered(panel):

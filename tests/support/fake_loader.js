@@ -2,8 +2,9 @@
 // the first look at the status after an order, and is done with the next one; a block is written only where the flash was
 // erased; an upload needs the state dfuIDLE or dfuUPLOAD-IDLE.
 // Tests change it by window.fakeLoader: `memory` is the flash, `name` that of the interface, `refuses` lets nobody choose
-// it, `pulled` is after how many orders it is gone, `spoils` an address whose byte is written wrongly, `left` whether the
-// image was started.
+// it, `denies` are the browser's words for one that another window has, `pulled` is after how many orders it is gone, `hangs`
+// after how many it answers no more, `stalls` which one it refuses, `guarded` whether it is protected against reading, `spoils`
+// an address whose byte is written wrongly, `left` whether the image was started.
 (() => {
     const BEGIN = 0x08000000;
     const BYTES = 1024 * 1024;
@@ -16,7 +17,11 @@
         memory = new Uint8Array(BYTES).fill(0xa5);
         name = "@Internal Flash  /0x08000000/04*016Kg,01*064Kg,07*128Kg";
         refuses = false;
+        denies = "";
         pulled = Infinity;
+        hangs = Infinity;
+        stalls = -1;
+        guarded = false;
         spoils = -1;
         left = false;
         orders = 0;
@@ -43,6 +48,9 @@
         }
 
         async claimInterface() {
+            if (this.denies) {
+                throw new DOMException(this.denies, "NetworkError");
+            }
             this.#isClaimed = true;
         }
 
@@ -52,8 +60,11 @@
             }
         }
 
-        #begin({ requestType, recipient, index }) {
+        async #begin({ requestType, recipient, index }) {
             this.orders += 1;
+            if (this.orders > this.hangs) {
+                await new Promise(() => undefined);
+            }
             if (this.orders > this.pulled || this.left) {
                 throw new DOMException("The device was disconnected.", "NotFoundError");
             }
@@ -63,8 +74,12 @@
         }
 
         async controlTransferOut(setup, data = new Uint8Array()) {
-            this.#begin(setup);
+            await this.#begin(setup);
             const { request, value } = setup;
+            if (this.orders === this.stalls) {
+                this.#state = ERROR;
+                return { status: "stall" };
+            }
             if (request === 4 && this.#state === ERROR) {
                 [this.#state, this.#status] = [IDLE, 0];
             } else if (request === 6 && this.#state !== ERROR) {
@@ -80,7 +95,7 @@
         }
 
         async controlTransferIn(setup, length) {
-            this.#begin(setup);
+            await this.#begin(setup);
             const { request, value } = setup;
             if (request === 3) {
                 return { status: "ok", data: new DataView(this.#look().buffer) };
@@ -96,7 +111,7 @@
 
         #look() {
             if (this.#state === BUSY) {
-                [this.#state, this.#status] = this.#do(this.#work) ? [READY, 0] : [ERROR, 8];
+                [this.#state, this.#status] = this.guarded ? [ERROR, 11] : this.#do(this.#work) ? [READY, 0] : [ERROR, 8];
             } else if (this.#state === SYNC) {
                 this.#state = BUSY;
                 if (this.#work.data.length === 0) {

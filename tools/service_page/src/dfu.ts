@@ -48,7 +48,12 @@ const BLOCK_BYTES = 2048;
 const BUSY_MS = 10_000;
 const STATUS_BYTES = 6;
 
-export type DfuFault = "noLoader" | "small" | "place" | "busy" | "refused" | "differs" | "lost";
+/** Status errVENDOR: what AN3156 has where the flash is protected against reading. */
+const ERR_VENDOR = 0x0b;
+
+export type DfuFault = "noLoader" | "small" | "place" | "busy" | "refused" | "protected" | "differs";
+/** What is known of the board: not opened; its flash as it was; perhaps not whole; the image, read back. */
+export type DfuStage = "closed" | "nothing" | "half" | "whole";
 
 /** What went wrong; `words` are from the browser or the loader. */
 export class DfuTrouble extends Error {
@@ -82,6 +87,7 @@ export function sectorsOf(name: string): Sector[] {
 
 /** Speaks to the loader of one device. */
 export class Loader {
+    stage: DfuStage = "closed";
     readonly #device: UsbDevice;
     #interface = 0;
     #sectors: Sector[] = [];
@@ -111,6 +117,7 @@ export class Loader {
         }
         await this.#device.claimInterface(flash.interfaceNumber);
         await this.#device.selectAlternateInterface(flash.interfaceNumber, flash.alternateSetting);
+        this.stage = "nothing";
         await this.#calm();
     }
 
@@ -127,7 +134,7 @@ export class Loader {
         let [done, total] = [0, sectors.length + 2 * blocks];
         const step = (): void => tell((done += 1) / total);
         for (const sector of sectors) {
-            await this.#tellPlace(ERASE, sector.address);
+            await this.#erase(sector.address);
             step();
         }
         await this.#tellPlace(SET_ADDRESS, address);
@@ -136,11 +143,24 @@ export class Loader {
             step();
         }
         await this.#compare(address, image, step);
+        this.stage = "whole";
         await this.#leave(address);
     }
 
     async close(): Promise<void> {
-        await this.#device.close();
+        await inTime(this.#device.close());
+    }
+
+    /** From the order on the sector may be empty, unless the part is protected. */
+    async #erase(address: number): Promise<void> {
+        const before = this.stage;
+        this.stage = "half";
+        try {
+            await this.#tellPlace(ERASE, address);
+        } catch (error) {
+            this.stage = error instanceof DfuTrouble && error.kind === "protected" ? before : this.stage;
+            throw error;
+        }
     }
 
     async #compare(address: number, image: Bytes, step: () => void): Promise<void> {
@@ -162,7 +182,12 @@ export class Loader {
     async #leave(address: number): Promise<void> {
         await this.#tellPlace(SET_ADDRESS, address);
         await this.#out(DNLOAD, FIRST_BLOCK);
-        const state = await this.#status().then((status) => status.state, () => MANIFEST);
+        const state = await this.#status().then((status) => status.state, (error: unknown) => {
+            if (error instanceof DfuTrouble) {
+                throw error;
+            }
+            return MANIFEST;
+        });
         if (state !== MANIFEST) {
             throw new DfuTrouble("refused", `state ${state}`);
         }
@@ -200,7 +225,8 @@ export class Loader {
                 return;
             }
             if (state !== BUSY) {
-                throw new DfuTrouble("refused", `status ${status}, state ${state}`);
+                const kind = status === ERR_VENDOR ? "protected" : "refused";
+                throw new DfuTrouble(kind, `status ${status}, state ${state}`);
             }
             if (performance.now() > end_ms) {
                 throw new DfuTrouble("busy");
@@ -215,14 +241,14 @@ export class Loader {
     }
 
     async #out(request: number, value: number, data?: Bytes): Promise<void> {
-        const { status } = await this.#device.controlTransferOut(this.#setup(request, value), data);
+        const { status } = await inTime(this.#device.controlTransferOut(this.#setup(request, value), data));
         if (status !== "ok") {
             throw new DfuTrouble("refused", status ?? "");
         }
     }
 
     async #in(request: number, value: number, length: number): Promise<Uint8Array> {
-        const { status, data } = await this.#device.controlTransferIn(this.#setup(request, value), length);
+        const { status, data } = await inTime(this.#device.controlTransferIn(this.#setup(request, value), length));
         if (status !== "ok" || data === undefined) {
             throw new DfuTrouble("refused", status ?? "");
         }
@@ -232,6 +258,15 @@ export class Loader {
     #setup(request: number, value: number): UsbSetup {
         return { requestType: "class", recipient: "interface", request, value, index: this.#interface };
     }
+}
+
+/** The browser itself waits for a device without end. */
+async function inTime<T>(work: Promise<T>): Promise<T> {
+    let timer = 0;
+    const late = new Promise<never>((_, fail) => {
+        timer = window.setTimeout(() => fail(new DfuTrouble("busy")), BUSY_MS);
+    });
+    return Promise.race([work, late]).finally(() => window.clearTimeout(timer));
 }
 
 const partOf = (image: Bytes, block: number): Bytes =>

@@ -21,6 +21,7 @@ export const firmwareCs: Record<keyof typeof firmwareEn, string> = {
     "firmware.write": "Zapsat a spustit",
     "firmware.done": "Zapsáno, přečteno zpět beze změny a spuštěno.",
     "firmware.noImage": "{name}: toto není obraz pro {board}, který začíná na {address}; nic nebylo zapsáno.",
+    "firmware.unread": "{name}: nelze přečíst, neboť se změnil nebo zmizel: vyberte ho znovu; nic nebylo zapsáno.",
     "firmware.notChosen": "Žádná deska nebyla vybrána; nic nebylo zapsáno.",
     "firmware.noLoader": "Toto není zavaděč STM32 s jeho pamětí Flash.",
     "firmware.small": "Tato součástka má {words} paměti Flash, uložené programy potřebují 1024 kB.",
@@ -28,7 +29,13 @@ export const firmwareCs: Record<keyof typeof firmwareEn, string> = {
     "firmware.busy": "Zavaděč nekončí.",
     "firmware.refused": "Zavaděč odmítá ({words}).",
     "firmware.differs": "Přečtené se liší na {words}.",
+    "firmware.protected": "Součástka je chráněna proti čtení, její zavaděč proto nic nezapíše ({words}).",
+    "firmware.closed":
+        "Desku nelze otevřít ({words}): má ji jiné okno nebo program, nebo systém nedává právo ji používat.",
     "firmware.lost": "Spojení s deskou se ztratilo ({words}).",
-    "firmware.half": "Obraz v desce není celý: nechte motory bez napájení, spusťte znovu zavaděč a zapište znovu.",
+    "firmware.half": "Obraz v desce není celý, nebo se to neví: nechte motory bez napájení, spusťte znovu zavaděč a zapište znovu.",
+    "firmware.whole":
+        "Obraz je v desce a byl přečten zpět beze změny, neví se však, zda běží: "
+        + "ukončete zavaděč desky a resetujte ji.",
     "firmware.nothing": "Nic nebylo zapsáno.",
 };

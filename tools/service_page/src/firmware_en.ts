@@ -19,6 +19,7 @@ export const firmwareEn = {
     "firmware.write": "Write and start",
     "firmware.done": "Written, read back without a difference, and started.",
     "firmware.noImage": "{name}: this is no image for {board} that begins at {address}; nothing was written.",
+    "firmware.unread": "{name}: cannot be read, as it was changed or is away: choose it again; nothing was written.",
     "firmware.notChosen": "No board was chosen; nothing was written.",
     "firmware.noLoader": "This is not the loader of an STM32 with its flash.",
     "firmware.small": "This part has {words} of flash, and stored programs need 1024 kB.",
@@ -26,7 +27,15 @@ export const firmwareEn = {
     "firmware.busy": "The loader does not come to an end.",
     "firmware.refused": "The loader refuses ({words}).",
     "firmware.differs": "What was read back differs at {words}.",
+    "firmware.protected": "The part is protected against reading, so that its loader writes nothing ({words}).",
+    "firmware.closed":
+        "The board does not open ({words}): another window or program has it, or the system gives no right to use it.",
     "firmware.lost": "The board was lost ({words}).",
-    "firmware.half": "The image in the board is not whole: keep the motors unpowered, start the loader again, and write it again.",
+    "firmware.half":
+        "The image in the board is not whole, or not known to be: "
+        + "keep the motors unpowered, start the loader again, and write it again.",
+    "firmware.whole":
+        "The image is in the board, and was read back without a difference, but is not known to run: "
+        + "take the board out of its loader, and reset it.",
     "firmware.nothing": "Nothing was written.",
 };

@@ -71,52 +71,60 @@ export class FirmwarePanel {
         this.#said.classList.toggle("trouble", isBad && words !== "");
     }
 
-    /** The file is looked at first, then the browser asks for the device. */
     async #begin(): Promise<void> {
         const board = this.#chosen;
         const file = this.#file.files?.[0];
-        if (usb === undefined || board === undefined || file === undefined || this.#isWriting || !this.#confirm.checked) {
+        if (board === undefined || file === undefined || this.#isWriting || !this.#confirm.checked) {
             return;
         }
         this.#say("");
-        const address = FLASH_ADDRESS + board.loader_bytes;
-        const image: Bytes = file.size > IMAGE_BYTES_MAX ? new Uint8Array() : new Uint8Array(await file.arrayBuffer());
-        if (!isImage(image, address)) {
-            this.#say(t("firmware.noImage", { name: file.name, board: board.title, address: hex(address) }), true);
-            return;
-        }
-        let device: UsbDevice;
-        try {
-            device = await usb.requestDevice({ filters: [LOADER] });
-        } catch {
-            this.#say(t("firmware.notChosen"), true);
-            return;
-        }
-        await this.#put(device, address, image);
-    }
-
-    async #put(device: UsbDevice, address: number, image: Bytes): Promise<void> {
-        const loader = new Loader(device);
-        let hasBegun = false;
         this.#isWriting = true;
-        this.#progress.hidden = false;
         this.#show();
-        try {
-            await loader.open();
-            await loader.write(address, image, (done) => {
-                hasBegun = true;
-                this.#progress.value = done;
-            });
-            this.#say(t("firmware.done"));
-        } catch (error) {
-            const kind = error instanceof DfuTrouble ? error.kind : "lost";
-            const words = t(`firmware.${kind}`, { words: told(error instanceof Error ? error.message : String(error)) });
-            this.#say(`${words} ${t(hasBegun ? "firmware.half" : "firmware.nothing")}`, true);
-        }
-        await loader.close().catch(() => undefined);
+        await this.#choose(board, file);
         this.#isWriting = false;
         this.#progress.hidden = true;
         this.#progress.value = 0;
         this.#show();
     }
+
+    /** The file is looked at first, then the browser asks for the device. */
+    async #choose(board: BoardPage, file: File): Promise<void> {
+        const address = FLASH_ADDRESS + board.loader_bytes;
+        const image = file.size > IMAGE_BYTES_MAX ? new Uint8Array() : await bytesOf(file);
+        if (image === undefined) {
+            this.#say(t("firmware.unread", { name: file.name }), true);
+            return;
+        }
+        if (!isImage(image, address)) {
+            this.#say(t("firmware.noImage", { name: file.name, board: board.title, address: hex(address) }), true);
+            return;
+        }
+        const device = await usb?.requestDevice({ filters: [LOADER] }).catch(() => undefined);
+        if (device === undefined) {
+            this.#say(t("firmware.notChosen"), true);
+            return;
+        }
+        await this.#put(new Loader(device), address, image);
+    }
+
+    async #put(loader: Loader, address: number, image: Bytes): Promise<void> {
+        this.#progress.hidden = false;
+        try {
+            await loader.open();
+            await loader.write(address, image, (done) => {
+                this.#progress.value = done;
+            });
+            this.#say(t("firmware.done"));
+        } catch (error) {
+            const { stage } = loader;
+            const kind = error instanceof DfuTrouble ? error.kind : stage === "closed" ? "closed" : "lost";
+            const words = t(`firmware.${kind}`, { words: told(error instanceof Error ? error.message : String(error)) });
+            this.#say(`${words} ${t(`firmware.${stage === "closed" ? "nothing" : stage}`)}`, true);
+        }
+        await loader.close().catch(() => undefined);
+    }
 }
+
+/** What is in a file; a browser does not read one that was changed since it was chosen. */
+const bytesOf = (file: File): Promise<Bytes | undefined> =>
+    file.arrayBuffer().then((buffer) => new Uint8Array(buffer), () => undefined);
