@@ -360,6 +360,45 @@ def test_ctrl_c_among_the_outputs_switches_them_off_and_tells_what_was_not_done(
 
 
 @pytest.mark.parametrize(
+    ("last", "silent"), [("q", False), (None, False), ("y", True)], ids=["q", "ctrl-c", "silence"]
+)
+def test_what_was_bad_in_a_step_that_did_not_end_stays_in_the_report(
+    tool, monkeypatch, impatient, last, silent
+):
+    rest = b"leds 00\ndirections 00\nsteps 00\nenables 00\ninputs 00\ncapture 0\n"
+    off, on = (whole(b"outputs %s\n" % mask + rest, b"o") for mask in (b"00", b"01"))
+    line = FakeLine(READY, off, on, *([] if silent else [on, off]))
+    monkeypatch.setattr(command, "open_transport", lambda _: line)
+    early = ["s" for step in STEPS[1 : [step.name for step in STEPS].index("outputs")]]
+    typed = ["y", "", "", *early, "", "n", *([last] if last else [])]
+    monkeypatch.setattr("sys.stdin", InterruptedHands("\n".join(typed) + "\n"))
+
+    result = tool("bringup", "--port", "x", "--json")
+
+    report = json.loads(result.out)
+    assert step(report, "outputs")["state"] == "not done"
+    assert "BO_1 at PB8" in [row["what"] for row in step(report, "outputs")["seen"]]
+    assert not report["good"]
+
+
+def test_a_step_that_was_bad_is_still_bad_when_its_repetition_is_broken_off(
+    tool, monkeypatch, impatient
+):
+    def broken_off(data: bytes) -> None:
+        raise KeyboardInterrupt
+
+    line = FakeLine()
+    hands = Hands(["y", "", ("r", lambda: monkeypatch.setattr(line, "write", broken_off))])
+    monkeypatch.setattr(command, "open_transport", lambda _: line)
+    monkeypatch.setattr("sys.stdin", hands)
+
+    report = json.loads(tool("bringup", "--port", "x", "--json").out)
+
+    assert step(report, "line")["state"] == "not done"
+    assert not report["good"]
+
+
+@pytest.mark.parametrize(
     ("control", "verdicts"),
     [
         (0x0FFFAAE1, ["good", "good"]),

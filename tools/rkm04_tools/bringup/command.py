@@ -116,23 +116,27 @@ def _do(bench: Bench, step: Step, part: Part) -> None:
 def _try(bench: Bench, step: Step, part: Part) -> str:
     """What was seen; what to look at if there was no answer."""
     part.state = NOT_DONE
+    bench.seen.clear()
     try:
-        part.seen = step.run(bench)
+        part.seen = list(step.run(bench))
         part.state = findings.DONE
         return ""
     except WrongImage as wrong:
         part.seen = [Seen("image", wrong.name, wrong.wanted, BAD)]
         raise
     except (NoAnswer, GarbledAnswer) as error:
-        part.seen = [Seen("answer", str(error), "one", BAD)]
+        part.seen = [*bench.seen, Seen("answer", str(error), "one", BAD)]
         text = SILENT if isinstance(error, NoAnswer) else GARBLED
         return text.format(
             board=bench.board, tx=bench.pin_of("LINE_TX"), rx=bench.pin_of("LINE_RX"),
             de=bench.pin_of("LINE_DE"), mhz=bench.header.values["BOARD_CRYSTAL_MHZ"].rstrip("U"),
         )  # fmt: skip
     except Refused as refused:
-        part.seen = [Seen("answer", str(refused), "it is done", BAD)]
+        part.seen = [*bench.seen, Seen("answer", str(refused), "it is done", BAD)]
         return ""
+    except (KeyboardInterrupt, Stopped, Failure):
+        part.seen = list(bench.seen) or part.seen
+        raise
 
 
 def _tell(options: Namespace, person: Person, report: Report, ending: str, status: int) -> int:

@@ -21,7 +21,7 @@ AFTER = "Enter: go on, r: once more, q: stop here"
 def measure(bench: Bench) -> list[Seen]:
     if not bench.has(CAPTURE):
         return [Seen("pulses", "not measured", "the board's header has no CAPTURE pin", NOTE)]
-    seen: list[Seen] = []
+    seen = bench.seen
     try:
         for motor in range(1, MOTORS + 1):
             seen += _motor(bench, motor)

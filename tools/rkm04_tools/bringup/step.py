@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from rkm04_tools.board_header import Board
 from rkm04_tools.bringup.findings import Seen
@@ -21,6 +21,8 @@ class Bench:
     person: Person
     patience: float
     """Seconds without anything new after which waiting for the person's hands ends."""
+    seen: list[Seen] = field(default_factory=list)
+    """Of the step under way, where it asks in between: kept if it does not come to its end."""
 
     def has(self, signal: str) -> bool:
         """Whether the board has a pin for it."""

@@ -88,7 +88,7 @@ def walk(kind: str) -> Callable[[Bench], list[Seen]]:
         signals = signals_of(bench, kind)
         if not signals:
             return [noted(kind, "the board has none")]
-        seen: list[Seen] = []
+        seen = bench.seen
         try:
             rest = bench.talk.ask(f"{letter}0")
             for number, signal in enumerate(signals, 1):
