@@ -248,6 +248,19 @@ def test_settings_are_edited_written_stored_saved_and_opened(page: PosPage, tmp_
     expect(page.setting("RATE")).to_have_value("192")
 
 
+def test_a_file_of_settings_may_begin_with_the_mark_that_windows_editors_write(
+    page: PosPage, tmp_path: Path
+) -> None:
+    with page.page.expect_download() as download:
+        page.at("settings-save").click()
+    other = json.loads(Path(download.value.path()).read_text())
+    other["settings"]["unit"]["WATCHDOG"] = 500
+    file = tmp_path / "marked.json"
+    file.write_text(json.dumps(other, indent=2), encoding="utf-8-sig", newline="\r\n")
+    page.at("settings-file").set_input_files(file)
+    expect(page.at("settings-write")).to_have_text("Write (1)")
+
+
 def test_settings_wait_for_axes_that_are_taken(page: PosPage) -> None:
     page.setting("BACKLASH").fill("20")
     page.at("take-1").click()

@@ -16,6 +16,7 @@ from rkm04_tools.positioning.service.desk import UnitDesk
 from rkm04_tools.service.browsers import Browsers
 from rkm04_tools.service.http import Site, application, bytes_of
 from rkm04_tools.service.unit_orders import Connect
+from rkm04_tools.source import decode
 
 NAME_MAX = 200
 
@@ -30,7 +31,7 @@ def make_app(page: Path, token: str, port: int, first: Connect, form: LineForm) 
         """The values of a file of settings; nothing is written."""
         name = request.query_params.get("name", "")[:NAME_MAX].strip() or "the file"
         data = await bytes_of(request, settings.FILE_BYTES_MAX)
-        return JSONResponse(settings.read_values(data.decode("utf-8", "replace"), name))
+        return JSONResponse(settings.read_values(decode(data), name))
 
     routes = [Route("/api/settings", read_backup, methods=["POST"])]
     return application(Site(page, "positioning.html", token, port), Browsers(make_desk), routes)
