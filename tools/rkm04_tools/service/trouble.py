@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeVar
 
 from rkm04_tools.failure import Failure
-from rkm04_tools.line_errors import PortLost
+from rkm04_tools.line_errors import LineError, PortError, PortLost
+
+Got = TypeVar("Got")
 
 
 class BadRequest(Failure):
@@ -66,6 +69,16 @@ class Superseded(Failure):
 
     def __init__(self) -> None:
         super().__init__("a newer request has taken the place of this one; wait for that")
+
+
+def nothing_kept_back(work: Callable[[], Got], take_back: Callable[[], None]) -> Got:
+    """What comes of it; what was not answered is not sent later, by a port that has kept it."""
+    try:
+        return work()
+    except LineError as error:
+        if not isinstance(error, PortError):
+            take_back()
+        raise
 
 
 def as_json(failure: Failure, **place: int) -> dict[str, Any]:

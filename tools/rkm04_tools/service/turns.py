@@ -14,9 +14,16 @@ from threading import Condition, Thread
 from typing import Any, Generic, TypeVar
 
 from rkm04_tools.failure import Failure
-from rkm04_tools.line_errors import LineError, PortError
+from rkm04_tools.line_errors import LineError
 from rkm04_tools.service.fields import Asked
-from rkm04_tools.service.trouble import Fault, Late, NotConnected, Stopped, Unsent
+from rkm04_tools.service.trouble import (
+    Fault,
+    Late,
+    NotConnected,
+    Stopped,
+    Unsent,
+    nothing_kept_back,
+)
 from rkm04_tools.service.unit_board import Board
 from rkm04_tools.service.unit_line import UnitLine
 from rkm04_tools.service.unit_orders import Connect, Plain, is_for_unit, name_of
@@ -171,7 +178,9 @@ class Turns(ABC, Generic[Unit]):
             return
         was_away = bool(self.board.state.error)
         self.board.change(busy=name)
-        got = self._tried(lambda: self._obeyed(order))
+        got = self._tried(
+            lambda: nothing_kept_back(lambda: self._obey(order), self._own_line.take_back)
+        )
         if was_away or isinstance(got, LineError):
             self._give_up(Unsent())
         is_first = isinstance(order, Connect) and asked.client is None
@@ -185,15 +194,6 @@ class Turns(ABC, Generic[Unit]):
             self.board.tell({**asker, "text": None, "error": self._own_line.words.told(got)})
         else:
             self.board.tell({**asker, "text": got, "error": None})
-
-    def _obeyed(self, order: Any) -> str:
-        """What was not answered is not sent later, by a port that has kept it back."""
-        try:
-            return self._obey(order)
-        except LineError as error:
-            if not isinstance(error, PortError):
-                self._own_line.take_back()
-            raise
 
     def _obey(self, order: Any) -> str:
         if isinstance(order, Connect):

@@ -43,6 +43,7 @@ from rkm04_tools.service.trouble import (
     Stopped,
     Unsent,
     as_json,
+    nothing_kept_back,
 )
 from rkm04_tools.service.virtual import VirtualLine
 from rkm04_tools.service.wire import Exchange, Wire
@@ -215,7 +216,7 @@ class Worker:
             self._wire.forget()
         was_away = bool(self._state.error)
         self._change(busy=name)
-        got = _tried(lambda: self._obeyed(order, asked))
+        got = _tried(lambda: nothing_kept_back(lambda: self._obey(order, asked), self._take_back))
         if was_away or isinstance(got, LineError):
             self._give_up(Unsent())
         is_first = isinstance(order, Connect) and asked.client is None
@@ -226,14 +227,9 @@ class Worker:
         self._change(busy=None)
         self._tell(told)
 
-    def _obeyed(self, order: Work, asked: Asked) -> Answer:
-        """What was not answered is not sent later, by a port that has kept it back."""
-        try:
-            return self._obey(order, asked)
-        except LineError as error:
-            if self._wire and not isinstance(error, PortError):
-                self._wire.take_back()
-            raise
+    def _take_back(self) -> None:
+        if self._wire:
+            self._wire.take_back()
 
     def _obey(self, order: Work, asked: Asked) -> Answer:
         if isinstance(order, Connect):
