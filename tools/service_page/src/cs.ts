@@ -47,6 +47,9 @@ export const cs: Dictionary = {
 
     "state.connected": "{port}, DNode {node}",
     "state.disconnected": "nepřipojeno",
+    "state.left":
+        "NEPŘIPOJENO: TATO STRÁNKA NEMŮŽE NIC ZASTAVIT. Motor se naposledy pohyboval nebo běžel jeho program: "
+        + "připojte se znovu, nebo použijte nouzové zastavení.",
     "state.away": "{port} zmizel",
     "state.seen": "naposledy před {seconds} s",
     "state.neverSeen": "nikdy neodpověděla",

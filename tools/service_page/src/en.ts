@@ -45,6 +45,9 @@ export const en = {
 
     "state.connected": "{port}, node {node}",
     "state.disconnected": "not connected",
+    "state.left":
+        "NOT CONNECTED: THIS PAGE CANNOT STOP ANYTHING. A motor moved when it was seen last, or its program ran: "
+        + "connect again to see, or use the emergency stop.",
     "state.away": "{port} was lost",
     "state.seen": "last seen {seconds} s ago",
     "state.neverSeen": "has never answered",
