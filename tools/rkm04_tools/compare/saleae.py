@@ -25,6 +25,8 @@ DECIMAL = re.compile(rb"[-+]?\d+(\.\d+)?")
 LOOKED_AT = 50
 """Rows that tell how many digits times have."""
 UNIT_SECONDS = 1e-12
+SECONDS_MAX = 100 * 86_400
+"""In that unit they fit 64 bits."""
 NO_DATA = 2.0
 
 
@@ -162,6 +164,8 @@ class _Rows:
         if is_wrong.any():
             line = self._line + int(np.argmax(is_wrong))
             raise Failure(f"{self._path}:{line}: the time is not after the one before it")
+        if max(-seconds[0], seconds[-1]) > SECONDS_MAX:
+            raise Failure(f"{self._path}: has times beyond 100 days; export it once more")
         if seconds[0] == seconds[-1] and len(seconds) > 1000:
             raise Failure(f"{self._path}:{self._line}: time stands still; export it once more")
         self._time = float(seconds[-1])

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rkm04_tools.compare.recording import Floats, Recording
+from rkm04_tools.failure import Failure
 
 RATES_MHZ = (
     0.02, 0.025, 0.05, 0.1, 0.2, 0.25, 0.5, 1, 2, 2.5, 3, 3.125, 4, 5, 6, 6.25, 8, 10, 12, 12.5,
@@ -36,11 +37,24 @@ class Resolution:
 def resolution(recording: Recording, given_hz: float) -> Resolution:
     """The resolution of a recording; what the user says of its rate comes first."""
     digit = recording.digit_seconds
+    if given_hz:
+        _require_possible(recording, given_hz)
     for hz, source in ((given_hz, GIVEN), (recording.sample_hz, TOLD)):
         if hz:
             return Resolution(max(1 / hz, digit), hz, source)
     hz = _seen(recording, digit)
     return Resolution(1 / hz, hz, SEEN) if hz else Resolution(digit, 0.0, DIGITS)
+
+
+def _require_possible(recording: Recording, given_hz: float) -> None:
+    """A rate that is too low would make any pulse near enough."""
+    apart = [np.diff(trace.edges).min(initial=np.inf) for trace in recording.traces.values()]
+    nearest = float(min(apart, default=np.inf))
+    if nearest + recording.digit_seconds < (1 - GRID_PART_MAX) / given_hz:
+        raise Failure(
+            f"--sample-rate {given_hz:g} Hz: the capture has edges of a wire {nearest:.3g} s "
+            "apart, nearer than two samples; write the rate at which it was recorded"
+        )
 
 
 def _seen(recording: Recording, digit: float) -> float:
