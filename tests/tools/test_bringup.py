@@ -224,6 +224,17 @@ def test_nothing_is_even_opened_before_the_motors_are_said_to_be_unpowered(
         listener.accept()
 
 
+def test_bytes_that_are_no_text_are_a_wrong_answer_and_not_the_end(tool, listener, monkeypatch):
+    typed = io.TextIOWrapper(io.BytesIO(b"\xc3\nn\n"), encoding="utf-8")
+    monkeypatch.setattr("sys.stdin", typed)
+
+    result = tool("bringup", "--port", port_of(listener))
+
+    assert result.status == 1
+    assert "one of y, n, q (stop here)" in result.out
+    assert "NOT DONE: line, part" in result.out
+
+
 def test_a_report_that_is_there_is_kept_and_told_before_anything_is_asked(
     tool, typed, listener, write
 ):

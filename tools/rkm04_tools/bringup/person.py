@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import sys
 from typing import TextIO
 
@@ -24,6 +25,8 @@ class Person:
 
     def __init__(self, out: TextIO) -> None:
         self._out = out
+        if isinstance(sys.stdin, io.TextIOWrapper):  # a byte that is no text is a wrong answer
+            sys.stdin.reconfigure(errors="replace")
 
     def screen(self, title: str) -> None:
         """Begin a screen."""
