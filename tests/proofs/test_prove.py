@@ -113,6 +113,38 @@ PLANTED = [
         "dividend.high >= divisor", "dividend.high > divisor",
     ),
     (
+        "path_fixed_pace", "path_fixed_pace", "firmware/engine/path/path_fixed.c",
+        "WORD_BITS - 1U - path_wide_bits(slope.high)", "WORD_BITS - path_wide_bits(slope.high)",
+    ),
+    (
+        "path_course", "profile_of", "firmware/engine/path/path_course.c",
+        "profile.turn = lower(limit, meet)", "profile.turn = limit",
+    ),
+    (
+        "path_course_speeds", "speed_of", "firmware/engine/path/path_course.c",
+        "speeds->last ^= 1U", "speeds->last += 1U",
+    ),
+    (
+        "path_course_cruise", "steps_of", "firmware/engine/path/path_course.c",
+        ".high = course->length", ".high = course->length + 1U",
+    ),
+    (
+        "path_course_ramp", "ramp_time", "firmware/engine/path/path_course.c",
+        "path_wide_is_at_least(slope_a, slope_b)", "path_wide_is_at_least(slope_b, slope_a)",
+    ),
+    (
+        "path_course_pulse", "path_course_last_pulse", "firmware/engine/path/path_course.c",
+        "return steps", "return steps + 1U",
+    ),
+    (
+        "path_course_place", "slope256_of", "firmware/engine/path/path_course.c",
+        "slope.high << 8U", "slope.high << 9U",
+    ),
+    (
+        "path_course_root", "root256", "firmware/engine/path/path_course.c",
+        "twice_speed2.high), 16U)", "twice_speed2.high), 18U)",
+    ),
+    (
         "path_look", "path_look_exit2", "firmware/engine/path/path_look.c",
         "most < least ? least : most", "most",
     ),
@@ -250,6 +282,8 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
+    "begin_leg", "lay_cruise", "lay_ramp", "path_course_at", "path_course_lay",
+    "path_course_pulse", "path_course_step", "ramp_pulse", "set_speed", "twice_speed2_at",
     "path_look_again", "path_look_if_due", "path_look_is_more",
 }  # fmt: skip
 
