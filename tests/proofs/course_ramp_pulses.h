@@ -1,5 +1,6 @@
 /*
- * Contracts of pulses on a ramp in path_course.c, proved with path_course_square.acsl and path_course_ramp_pulse.acsl.
+ * Contracts of pulses on a ramp in path_course.c, proved with path_course_square.acsl,
+ * path_course_root.acsl and path_course_ramp_pulse.acsl.
  */
 #ifndef COURSE_RAMP_PULSES_H
 #define COURSE_RAMP_PULSES_H

@@ -145,6 +145,18 @@ PLANTED = [
         "twice_speed2.high), 16U)", "twice_speed2.high), 18U)",
     ),
     (
+        "path_course_square", "twice_speed2_at", "firmware/engine/path/path_course.c",
+        "path_wide_subtract(begin, change)", "path_wide_add(begin, change)",
+    ),
+    (
+        "path_course_ramp_pulse", "ramp_pulse", "firmware/engine/path/path_course.c",
+        "{.high = change >> 8U,", "{.high = change,",
+    ),
+    (
+        "path_course_at", "path_course_at", "firmware/engine/path/path_course.c",
+        "leg->twice_speed2 - way", "leg->twice_speed2 + way",
+    ),
+    (
         "path_look", "path_look_exit2", "firmware/engine/path/path_look.c",
         "most < least ? least : most", "most",
     ),
@@ -282,8 +294,7 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
-    "begin_leg", "lay_cruise", "lay_ramp", "path_course_at", "path_course_lay",
-    "path_course_pulse", "path_course_step", "ramp_pulse", "set_speed", "twice_speed2_at",
+    "begin_leg", "lay_cruise", "lay_ramp", "path_course_lay", "path_course_step", "set_speed",
     "path_look_again", "path_look_if_due", "path_look_is_more",
 }  # fmt: skip
 
