@@ -157,6 +157,14 @@ PLANTED = [
         "leg->twice_speed2 - way", "leg->twice_speed2 + way",
     ),
     (
+        "path_course_leg", "set_speed", "firmware/engine/path/path_course.c",
+        "speed_of(at->speeds, twice_speed2)", "speed_of(at->speeds, 0)",
+    ),
+    (
+        "path_course_step", "path_course_step", "firmware/engine/path/path_course.c",
+        "i + 1U < course->legs", "i < course->legs",
+    ),
+    (
         "path_look", "path_look_exit2", "firmware/engine/path/path_look.c",
         "most < least ? least : most", "most",
     ),
@@ -294,8 +302,8 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
-    "begin_leg", "lay_cruise", "lay_ramp", "path_course_lay", "path_course_step", "set_speed",
-    "path_look_again", "path_look_if_due", "path_look_is_more",
+    "lay_cruise", "lay_ramp", "path_course_lay", "path_look_again", "path_look_if_due",
+    "path_look_is_more",
 }  # fmt: skip
 
 
