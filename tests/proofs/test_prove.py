@@ -165,6 +165,10 @@ PLANTED = [
         "i + 1U < course->legs", "i < course->legs",
     ),
     (
+        "path_lay", "pulses_at", "firmware/engine/path/path_lay.c",
+        "uint64_t way = step * steps", "uint64_t way = step * steps + length",
+    ),
+    (
         "path_look", "path_look_exit2", "firmware/engine/path/path_look.c",
         "most < least ? least : most", "most",
     ),
@@ -302,7 +306,8 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
-    "lay_cruise", "lay_ramp", "path_course_lay", "path_look_again", "path_look_if_due",
+    "lay_cruise", "lay_ramp", "path_course_lay", "come_to_rest", "leave2_of", "path_lay_anew",
+    "path_lay_begin", "path_lay_next", "path_look_again", "path_look_if_due",
     "path_look_is_more",
 }  # fmt: skip
 
