@@ -162,7 +162,7 @@ PLANTED = [
     ),
     (
         "path_course_step", "path_course_step", "firmware/engine/path/path_course.c",
-        "i + 1U < course->legs", "i < course->legs",
+        "leg = &course->leg[i + 1U]", "leg = &course->leg[i + 2U]",
     ),
     (
         "path_lay", "pulses_at", "firmware/engine/path/path_lay.c",
