@@ -112,7 +112,8 @@ bool path_add(struct path *path, const struct path_vector *vector);
 
 /* The speed with which the path comes through a whole step of a section's longest axis, as it is planned, or was before
  * the last change, if that comes after the step (path_set_before); where it was changed between that step and the last
- * change, the speed at the one before. 1/256 step/s; 0 where the section has not been laid. */
+ * change, the speed at the one before. 1/256 step/s; 0 where the section has not been laid. Not for a step after the
+ * rest. */
 uint32_t path_speed_at(struct path *path, uint32_t section, uint32_t step);
 
 /* Whether a change would make the path faster or longer, as vectors have been added after it had been laid so far that
