@@ -392,7 +392,7 @@ class Path:
         return None
 
     def _change_at_border(self, vector: int, time: int, *, stops: bool) -> None:
-        rests = self.rest == (vector + 1, 0)
+        rests = self.rest == (vector + 1, Fraction(0))
         square = 0 if rests else self._enters[vector + 1]
         self._cut(vector, Fraction(self.vectors[vector].length))
         cap = self._turn_cap(vector + 1, Fraction(0))

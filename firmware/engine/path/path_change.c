@@ -270,22 +270,20 @@ bool path_can_rest(const struct path *path, const struct path_place *place)
 {
     uint64_t steps = 0;
     uint64_t rest = 0;
-    bool plain = true;
-    bool weaker = false;
+    uint32_t other = 0; /* vectors that count another length */
+    uint32_t accel = 0; /* the most with which a vector brakes */
     uint32_t end = path->start_speed == 0 ? path->end : path->chain;
     for (uint32_t i = place->section; i != end; i++) {
         const struct path_section *section = path_section_of(path, i);
         steps += section->length;
-        plain = plain && section->plain;
-        weaker = weaker || place->accel < section->vector.accel;
-    }
-    if (weaker && !plain) {
-        return false;
+        other += section->plain ? 0U : 1U;
+        accel = section->vector.accel > accel ? section->vector.accel : accel;
     }
     steps -= wide_divide(place->entry.place, path_lay_grains(path, place), &rest);
     struct wide gain = path_wide_multiply(PATH_GRAINS_PER_ACCEL / 2U * place->accel, steps - (rest != 0 ? 1U : 0U));
     gain = path_wide_add(gain, (struct wide){.low = path_look_start2(path)});
-    return path_wide_is_at_least(gain, (struct wide){.low = place->entry.speed2});
+    bool slow = other == 0U || place->accel >= accel;
+    return slow && path_wide_is_at_least(gain, (struct wide){.low = place->entry.speed2});
 }
 
 /* An axis that turns must be slower at the border if it speeds up faster after it. */
