@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
-from rkm04_tools import board
+from rkm04_tools import board, image_suffix
 from service_page import Service, shown
 
 FAKE = Path(__file__).resolve().parents[1] / "support" / "fake_loader.js"
@@ -47,9 +47,13 @@ def panel(usb_page: Page) -> Page:
     return usb_page
 
 
-def choose(panel: Page, image: bytes) -> None:
-    file = {"name": "rkm04.bin", "mimeType": "application/octet-stream", "buffer": image}
+def choose_file(panel: Page, content: bytes) -> None:
+    file = {"name": "rkm04.bin", "mimeType": "application/octet-stream", "buffer": content}
     panel.locator("#firmware-file").set_input_files(file)  # type: ignore[arg-type]
+
+
+def choose(panel: Page, image: bytes, name: str = "rkm04-weact-f405") -> None:
+    choose_file(panel, image_suffix.suffixed(image, name))
     panel.locator("#firmware-confirm").check()
     panel.locator("#firmware-write").click()
 
@@ -64,7 +68,7 @@ def test_an_image_is_written_read_back_and_started_and_stored_programs_stay(pane
     size -= size % 4
     image = image_of(size)
     choose(panel, image)
-    said(panel, "Written, read back without a difference, and started.")
+    said(panel, "rkm04-weact-f405: written, read back without a difference, and started.")
     panel.wait_for_function("window.fakeLoader.left")
     seen = panel.evaluate(SEEN, [SECTOR_10])
     assert bytes(seen["image"][: len(image)]) == image
@@ -75,23 +79,63 @@ def test_an_image_is_written_read_back_and_started_and_stored_programs_stay(pane
 def test_an_image_after_a_loader_of_the_board_leaves_that_alone(panel):
     panel.locator("#firmware-board").select_option("skr-pro-1.2")
     image = image_of(40_000, FLASH + 0x8000)
-    choose(panel, image)
-    said(panel, "Written")
+    choose(panel, image, "rkm04-skr-pro-1.2")
+    said(panel, "rkm04-skr-pro-1.2: written")
     seen = panel.evaluate(SEEN, [SECTOR_10])
     assert bytes(seen["image"][0x8000 : 0x8000 + len(image)]) == image
     assert set(seen["image"][:0x8000]) == {UNTOUCHED}
     assert seen["erased"] == [2, 3, 4]
 
 
+def damaged(content: bytes, place: int) -> bytes:
+    changed = bytearray(content)
+    changed[place] ^= 1
+    return bytes(changed)
+
+
+WHOLE = image_suffix.suffixed(image_of(41_144), "rkm04-weact-f405")
+
+
 @pytest.mark.parametrize(
-    "image",
-    [b"", b"no image", bytes(5000), image_of(70_000), image_of(41_144, FLASH + 0x8000)],
-    ids=["empty", "text", "zeros", "too long", "of another board"],
-)
-def test_what_is_no_image_of_the_board_is_refused_before_anything_is_asked(panel, image):
-    choose(panel, image)
-    said(panel, "this is no image for WeAct", "nothing was written")
+    "content",
+    [b"", b"no image", bytes(5000), image_of(41_144), WHOLE[:-1], WHOLE[:20_000], WHOLE + b"\0",
+     WHOLE[1:], damaged(WHOLE, 0), damaged(WHOLE, 30_000), damaged(WHOLE, 41_150),
+     damaged(WHOLE, -1), image_suffix.suffixed(image_of(70_000), "rkm04-weact-f405")],
+    ids=["empty", "text", "zeros", "without its name", "a byte short", "half", "a byte more",
+         "no first byte", "other stack", "other code", "other name", "other sum", "too long"],
+)  # fmt: skip
+def test_what_is_no_whole_image_is_told_when_it_is_chosen_and_refused(panel, content):
+    choose_file(panel, content)
+    said(panel, "rkm04.bin: no image of this project, or not whole", "nothing was written")
+    panel.locator("#firmware-confirm").check()
+    panel.locator("#firmware-write").click()
+    said(panel, "rkm04.bin: no image of this project, or not whole", "nothing was written")
     assert panel.evaluate("window.fakeLoader.orders") == 0
+
+
+@pytest.mark.parametrize("name", ["rkm04-f405", "rkm04-skr-pro-1.2", "weact-f405", "rkm04-weact"])
+def test_an_image_of_another_board_is_refused_before_anything_is_asked(panel, name):
+    choose(panel, image_of(41_144), name)
+    said(panel, f"this is {name}, no image for WeAct", "nothing was written")
+    assert panel.evaluate("window.fakeLoader.orders") == 0
+
+
+def test_what_a_file_is_is_told_when_it_is_chosen_and_anew_for_another_board(panel):
+    choose_file(panel, WHOLE)
+    expect(panel.locator("#firmware-said")).to_have_text("rkm04-weact-f405, whole.")
+    panel.locator("#firmware-board").select_option("f405")
+    said(panel, "this is rkm04-weact-f405, no image for")
+    panel.locator("#firmware-board").select_option("weact-f405")
+    expect(panel.locator("#firmware-said")).to_have_text("rkm04-weact-f405, whole.")
+
+
+def test_an_image_of_another_unit_is_written_but_told_as_that_before(panel):
+    content = image_suffix.suffixed(image_of(41_144), "gve134-weact-f405")
+    choose_file(panel, content)
+    said(panel, "gve134-weact-f405, whole. Mind: an image of ANOTHER UNIT")
+    panel.locator("#firmware-confirm").check()
+    panel.locator("#firmware-write").click()
+    said(panel, "gve134-weact-f405: written")
 
 
 @pytest.mark.parametrize(
@@ -122,7 +166,7 @@ def test_what_goes_wrong_is_told_with_what_is_in_the_board_then(panel, change, w
 def orders_of_a_whole_write(panel: Page, image: bytes) -> int:
     """How many orders it takes, and the panel as before."""
     choose(panel, image)
-    said(panel, "Written, read back")
+    said(panel, "written, read back")
     orders: int = panel.evaluate("window.fakeLoader.orders")
     panel.reload()
     panel.locator("#firmware").evaluate("(panel) => (panel.open = true)")
@@ -175,13 +219,12 @@ def test_a_second_press_begins_no_second_writing(panel):
     choose(panel, image_of(20_000))
     expect(panel.locator("#firmware-write")).to_be_disabled()
     panel.locator("#firmware-form").evaluate("(form) => form.requestSubmit()")
-    said(panel, "Written, read back")
+    said(panel, "written, read back")
     assert panel.evaluate("window.asked") == 1
 
 
 def test_nothing_is_written_before_the_motors_are_said_to_be_unpowered(panel):
-    file = {"name": "a.bin", "mimeType": "application/octet-stream", "buffer": image_of(5000)}
-    panel.locator("#firmware-file").set_input_files(file)
+    choose_file(panel, WHOLE)
     expect(panel.locator("#firmware-write")).to_be_disabled()
     panel.locator("#firmware-confirm").check()
     expect(panel.locator("#firmware-write")).to_be_enabled()

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
 from checks import ram_code
-from rkm04_tools import board, board_size
+from rkm04_tools import board, board_size, image_suffix
 from rkm04_tools.failure import NO_CONNECTION, NOT_SO
 from rkm04_tools.objects import Graph, binutil
 from rkm04_tools.tree import ROOT
@@ -56,6 +58,30 @@ def test_the_image_begins_with_the_stack_and_the_reset_handler(image):
 
     assert int.from_bytes(first[:4], "little") == address["stm32_stack_top"]
     assert int.from_bytes(first[4:], "little") == address["stm32_reset"] | 1
+
+
+def test_dfu_util_finds_the_suffix_of_the_image_and_takes_it_off_again(image, tmp_path):
+    without = tmp_path / "image.bin"
+    without.write_bytes(image.file("bin").read_bytes())
+
+    checked = subprocess.run(
+        ["dfu-suffix", "-c", without], capture_output=True, text=True, check=True
+    ).stdout
+    subprocess.run(["dfu-suffix", "-D", without], capture_output=True, check=True)
+
+    assert re.findall(r"^(Product|Vendor) ID:\s*(\w+)$", checked, re.MULTILINE) == [
+        ("Product", "0xDF11"),
+        ("Vendor", "0x0483"),
+    ]
+    assert without.stat().st_size == board_size.measure(image.file("elf"), image.folder).flash
+    name = image.file("bin").read_bytes()[without.stat().st_size :]
+    assert name.startswith(f"{image.name}\0".encode())
+
+
+@pytest.mark.parametrize("name", ["", "x" * 33])
+def test_a_name_that_has_no_place_in_the_suffix_is_refused(name):
+    with pytest.raises(ValueError, match="1 to 32 characters"):
+        image_suffix.suffixed(b"", name)
 
 
 def test_no_path_of_the_machine_is_in_the_image(image):

@@ -77,26 +77,29 @@ firmware_add_image(seam_image ${image}-seam base tests/vboard/images/seam_main.c
 set_target_properties(take_back_image step_acts_image seam_image PROPERTIES EXCLUDE_FROM_ALL ON)
 
 set(checks ${PROJECT_SOURCE_DIR}/tools/checks)
-set(run_check ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_SOURCE_DIR}/tools PYTHONDONTWRITEBYTECODE=1
+set(run_python ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_SOURCE_DIR}/tools PYTHONDONTWRITEBYTECODE=1
     ${Python3_EXECUTABLE} -m)
+set(suffix ${PROJECT_SOURCE_DIR}/tools/rkm04_tools/image_suffix.py)
 add_custom_command(OUTPUT ${output}.hex ${output}.bin
     COMMAND ${CMAKE_OBJCOPY} -O ihex ${elf} ${output}.hex
     COMMAND ${CMAKE_OBJCOPY} -O binary ${elf} ${output}.bin
-    DEPENDS unit_image VERBATIM COMMENT "Files for flashing")
+    COMMAND ${run_python} rkm04_tools.image_suffix ${image} ${output}.bin
+    DEPENDS unit_image ${suffix} VERBATIM COMMENT "Files for flashing")
 set(files ${output}.hex ${output}.bin)
 if(TARGET bringup_image)
     add_custom_command(OUTPUT ${bringup_output}.hex ${bringup_output}.bin
         COMMAND ${CMAKE_OBJCOPY} -O ihex $<TARGET_FILE:bringup_image> ${bringup_output}.hex
         COMMAND ${CMAKE_OBJCOPY} -O binary $<TARGET_FILE:bringup_image> ${bringup_output}.bin
-        DEPENDS bringup_image VERBATIM COMMENT "Files for flashing, to try the board")
+        COMMAND ${run_python} rkm04_tools.image_suffix ${bringup} ${bringup_output}.bin
+        DEPENDS bringup_image ${suffix} VERBATIM COMMENT "Files for flashing, to try the board")
     list(APPEND files ${bringup_output}.hex ${bringup_output}.bin)
 endif()
 if(TARGET paths_image)
-    set(check_paths COMMAND ${run_check} checks.ram_code ${FIRMWARE_UNIT} $<TARGET_FILE:paths_image>)
+    set(check_paths COMMAND ${run_python} checks.ram_code ${FIRMWARE_UNIT} $<TARGET_FILE:paths_image>)
 endif()
 add_custom_command(OUTPUT checked.stamp
-    COMMAND ${run_check} checks.board_pins ${board_header}
-    COMMAND ${run_check} checks.ram_code ${FIRMWARE_UNIT} ${elf}
+    COMMAND ${run_python} checks.board_pins ${board_header}
+    COMMAND ${run_python} checks.ram_code ${FIRMWARE_UNIT} ${elf}
     ${check_paths}
     COMMAND ${CMAKE_COMMAND} -E touch checked.stamp
     DEPENDS unit_image $<TARGET_NAME_IF_EXISTS:paths_image> ${board_header}

@@ -271,20 +271,3 @@ async function inTime<T>(work: Promise<T>): Promise<T> {
 
 const partOf = (image: Bytes, block: number): Bytes =>
     image.slice(block * BLOCK_BYTES, (block + 1) * BLOCK_BYTES);
-
-const RAM = { begin: 0x2000_0000, bytes: 128 * 1024 };
-/** What the linker script gives to the image. */
-export const IMAGE_BYTES_MAX = 64 * 1024;
-const VECTORS_CHECKED = 3;
-
-/** Whether these bytes can be an image that begins at an address: its stack, and where it starts. */
-export function isImage(image: Uint8Array, address: number): boolean {
-    if (image.length < 4 * (VECTORS_CHECKED + 1) || image.length > IMAGE_BYTES_MAX) {
-        return false;
-    }
-    const words = new DataView(image.buffer, image.byteOffset);
-    const stack = words.getUint32(0, true);
-    const hasStack = stack > RAM.begin && stack <= RAM.begin + RAM.bytes && stack % 8 === 0;
-    const starts = Array.from({ length: VECTORS_CHECKED }, (_, index) => words.getUint32(4 * (index + 1), true));
-    return hasStack && starts.every((each) => each % 2 === 1 && each > address && each < address + image.length);
-}

@@ -1,8 +1,9 @@
 import { told } from "./common/told";
 import { boards, type BoardPage } from "help-pages";
-import { DfuTrouble, FLASH_ADDRESS, IMAGE_BYTES_MAX, LOADER, Loader, isImage, type UsbDevice } from "./dfu";
+import { DfuTrouble, FLASH_ADDRESS, LOADER, Loader, type UsbDevice } from "./dfu";
 import { byId, make } from "./dom";
 import { language, t } from "./i18n";
+import { FILE_BYTES_MAX, imageFileOf, type ImageFile } from "./image_file";
 import type { Bytes } from "./program_host";
 
 interface Usb {
@@ -11,6 +12,9 @@ interface Usb {
 
 /** WebUSB, where the browser has it. */
 const usb = (navigator as Navigator & { usb?: Usb }).usb;
+
+/** Of this page: the unit, and what a new board is tried with. */
+const UNITS = ["rkm04", "bringup"];
 
 const hex = (address: number): string => `0x${address.toString(16).padStart(8, "0")}`;
 
@@ -28,9 +32,9 @@ export class FirmwarePanel {
         this.#board.append(...boards.map(({ name, title }) => make("option", { value: name }, title)));
         const preferred = boards.find(({ name }) => name === "weact-f405");
         this.#board.value = (preferred ?? boards[0])?.name ?? "";
-        this.#board.addEventListener("change", () => this.#show());
+        this.#board.addEventListener("change", () => this.#see());
         this.#confirm.addEventListener("change", () => this.#show());
-        this.#file.addEventListener("change", () => this.#show());
+        this.#file.addEventListener("change", () => this.#see());
         byId("firmware-form", HTMLFormElement).addEventListener("submit", (event) => {
             event.preventDefault();
             void this.#begin();
@@ -63,6 +67,8 @@ export class FirmwarePanel {
         page.lang = text === undefined ? "en" : language.value;
         byId("firmware-usb", HTMLElement).hidden = usb === undefined;
         byId("firmware-no-usb", HTMLElement).hidden = usb !== undefined;
+        this.#board.disabled = this.#isWriting;
+        this.#file.disabled = this.#isWriting;
         this.#write.disabled = this.#isWriting || !this.#confirm.checked || this.#file.files?.length !== 1;
     }
 
@@ -71,16 +77,44 @@ export class FirmwarePanel {
         this.#said.classList.toggle("trouble", isBad && words !== "");
     }
 
-    async #begin(): Promise<void> {
+    /** Another board or file: what it is is told before anything is written. */
+    #see(): void {
+        this.#say("");
+        this.#show();
+        void this.#imageOf();
+    }
+
+    /** The image that was chosen, if it is one for the board; says what it is, or why not. */
+    async #imageOf(): Promise<ImageFile | undefined> {
         const board = this.#chosen;
         const file = this.#file.files?.[0];
-        if (board === undefined || file === undefined || this.#isWriting || !this.#confirm.checked) {
+        if (board === undefined || file === undefined) {
+            return undefined;
+        }
+        const bytes = file.size > FILE_BYTES_MAX ? new Uint8Array() : await bytesOf(file);
+        const found = bytes && imageFileOf(bytes);
+        if (found === undefined) {
+            this.#say(t(`firmware.${bytes === undefined ? "unread" : "noImage"}`, { name: file.name }), true);
+            return undefined;
+        }
+        if (board !== this.#chosen || file !== this.#file.files?.[0]) {
+            return undefined;
+        }
+        const { unit } = found;
+        const isOfBoard = found.board === board.name;
+        const kind = !isOfBoard ? "otherBoard" : UNITS.includes(unit) ? "image" : "otherUnit";
+        const image = `${unit}-${found.board}`;
+        this.#say(t(`firmware.${kind}`, { name: file.name, image, board: board.title }), kind !== "image");
+        return isOfBoard ? found : undefined;
+    }
+
+    async #begin(): Promise<void> {
+        if (this.#isWriting || !this.#confirm.checked) {
             return;
         }
-        this.#say("");
         this.#isWriting = true;
         this.#show();
-        await this.#choose(board, file);
+        await this.#choose();
         this.#isWriting = false;
         this.#progress.hidden = true;
         this.#progress.value = 0;
@@ -88,15 +122,10 @@ export class FirmwarePanel {
     }
 
     /** The file is looked at first, then the browser asks for the device. */
-    async #choose(board: BoardPage, file: File): Promise<void> {
-        const address = FLASH_ADDRESS + board.loader_bytes;
-        const image = file.size > IMAGE_BYTES_MAX ? new Uint8Array() : await bytesOf(file);
-        if (image === undefined) {
-            this.#say(t("firmware.unread", { name: file.name }), true);
-            return;
-        }
-        if (!isImage(image, address)) {
-            this.#say(t("firmware.noImage", { name: file.name, board: board.title, address: hex(address) }), true);
+    async #choose(): Promise<void> {
+        const address = FLASH_ADDRESS + (this.#chosen?.loader_bytes ?? 0);
+        const found = await this.#imageOf();
+        if (found === undefined) {
             return;
         }
         const device = await usb?.requestDevice({ filters: [LOADER] }).catch(() => undefined);
@@ -104,17 +133,17 @@ export class FirmwarePanel {
             this.#say(t("firmware.notChosen"), true);
             return;
         }
-        await this.#put(new Loader(device), address, image);
+        await this.#put(new Loader(device), address, found);
     }
 
-    async #put(loader: Loader, address: number, image: Bytes): Promise<void> {
+    async #put(loader: Loader, address: number, { unit, board, image }: ImageFile): Promise<void> {
         this.#progress.hidden = false;
         try {
             await loader.open();
             await loader.write(address, image, (done) => {
                 this.#progress.value = done;
             });
-            this.#say(t("firmware.done"));
+            this.#say(t("firmware.done", { image: `${unit}-${board}` }));
         } catch (error) {
             const { stage } = loader;
             const kind = error instanceof DfuTrouble ? error.kind : stage === "closed" ? "closed" : "lost";
