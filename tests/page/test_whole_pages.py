@@ -40,6 +40,8 @@ SAME = {
 }  # fmt: skip
 """What is the same in Czech: names of the original's messages, signs, and words that both have."""
 PHONE = (360, 740)
+WIDTHS = (320, 641, 900, 1024, 1251)
+"""On both sides of where the layout changes."""
 TABS_MAX = 900
 OPEN = """() => {
     document.querySelectorAll("details").forEach((each) => (each.open = true));
@@ -60,6 +62,14 @@ CONTROLS = """() => {
     return wanted.length;
 }"""
 """Marks what the Tab key must reach, of radio buttons one in each group."""
+STICKS_OUT = """() => {
+    const scrolls = (part) => part && (getComputedStyle(part).overflowX !== "visible"
+        || scrolls(part.parentElement));
+    return [...document.querySelectorAll("main *:not(svg *)")]
+        .filter((part) => part.clientWidth > 0 && part.scrollWidth > part.clientWidth + 1)
+        .filter((part) => !scrolls(part)).map((part) => part.outerHTML.slice(0, 100));
+}"""
+"""What is wider than its box, but for what can be scrolled."""
 DROP = """() => {
     const dataTransfer = new DataTransfer();
     dataTransfer.items.add(new File(["S100"], "a.rks"));
@@ -208,6 +218,19 @@ def test_the_tab_key_reaches_every_control_and_leaves_it(whole: tuple[str, Page]
         if page.evaluate(REACHED) == 0:
             break
     assert page.evaluate(LEFT) == []
+
+
+def test_nothing_sticks_out_of_its_box_at_any_width(whole: tuple[str, Page]) -> None:
+    _, page = whole
+    before = page.viewport_size
+    for language in ("cs", "en"):
+        page.locator("#language").select_option(language)
+        page.evaluate(OPEN)
+        for width in WIDTHS:
+            page.set_viewport_size({"width": width, "height": 900})
+            assert page.evaluate(STICKS_OUT) == [], (language, width)
+    assert before
+    page.set_viewport_size(before)
 
 
 def test_a_telephone_needs_no_scrolling_sideways(whole: tuple[str, Page]) -> None:
