@@ -185,6 +185,10 @@ PLANTED = [
         "path->looked = path->known", "path->looked = path->end",
     ),
     (
+        "path_change_way", "way_at", "firmware/engine/path/path_change.c",
+        "ticks = ticks < until_stand ? ticks : until_stand", "ticks = ticks + until_stand",
+    ),
+    (
         "path_vector_take", "path_section_take", "firmware/engine/path/path_vector.c",
         "vector->extent2 == square", "vector->extent2 >= square",
     ),
@@ -309,6 +313,10 @@ NOT_PROVED = {
     "lay_cruise", "lay_ramp", "path_course_lay", "come_to_rest", "leave2_of", "path_lay_anew",
     "path_lay_begin", "path_lay_next", "path_look_again", "path_look_if_due",
     "path_look_is_more",
+    "between_steps", "count_void", "find_before", "find_between", "find_early", "find_in",
+    "find_origin", "find_step", "is_before", "is_handed_over", "keep_before", "pass_border",
+    "path_back", "path_can_rest", "path_change", "path_find", "path_stop", "plan_from",
+    "section_at", "set_accel",
 }  # fmt: skip
 
 
