@@ -52,8 +52,8 @@ static bool return_to_internal(void)
         return false;
     }
     RCC_CFGR = 0;
-    RCC_CR &= ~(RCC_CR_CSSON | RCC_CR_PLLON | RCC_CR_HSEON);
-    if (!wait_for(&RCC_CR, RCC_CR_PLLRDY | RCC_CR_HSERDY, 0)) {
+    RCC_CR &= ~(RCC_CR_CSSON | RCC_CR_PLLON | RCC_CR_PLLI2SON | RCC_CR_HSEON);
+    if (!wait_for(&RCC_CR, RCC_CR_PLLRDY | RCC_CR_PLLI2SRDY | RCC_CR_HSERDY, 0)) {
         return false;
     }
     RCC_CR &= ~RCC_CR_HSEBYP;

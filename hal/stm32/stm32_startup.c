@@ -28,6 +28,12 @@ enum {
     EXCEPTION_SYSTICK = 15,
     IRQ_WORDS = (IRQS + 31) / 32,
     LAST_IRQS = (1 << IRQS % 32) - 1, /* of the last word; the rest of it is reserved */
+
+    /* What an STM32F405 has on each bus, by its bits in the reset registers (RM0090 7.3.5 to 7.3.9). */
+    ON_AHB1 = 0x206011FF,
+    ON_AHB2 = 0xC0,
+    ON_APB1 = 0x36FEC9FF,
+    ON_APB2 = 0x75933,
 };
 
 /* Before the handlers are in RAM. */
@@ -73,9 +79,12 @@ static void set_vector(uint32_t number, void (*handler)(void))
     stm32_vectors[number] = (uint32_t)(uintptr_t)handler;
 }
 
-/* A boot loader may have left interrupts on, and pending; what they would lead to is gone. */
+/* A boot loader may have left interrupts on, and pending; what they would lead to is gone. The groups of priorities are
+ * those of a reset again: ST's driver of USB leaves one bit of four for who interrupts whom, and with that priorities 0
+ * to 3 are all the same (PM0214 4.4.5). */
 static void silence_interrupts(void)
 {
+    SCB_AIRCR = SCB_AIRCR_NO_GROUPS;
     STK_CTRL = 0;
     SCB_ICSR = SCB_ICSR_PENDSTCLR | SCB_ICSR_PENDSVCLR;
     for (uint32_t word = 0; word < IRQ_WORDS; word++) {
@@ -83,6 +92,21 @@ static void silence_interrupts(void)
         NVIC_ICER(word) = there;
         NVIC_ICPR(word) = there;
     }
+}
+
+/* And peripherals: pins at open drain, a stream that still writes into memory, a line of another format. All are as
+ * after a reset again. */
+static void reset_peripherals(void)
+{
+    RCC_AHB1RSTR = ON_AHB1;
+    RCC_AHB2RSTR = ON_AHB2;
+    RCC_APB1RSTR = ON_APB1;
+    RCC_APB2RSTR = ON_APB2;
+    stm32_barrier();
+    RCC_AHB1RSTR = 0;
+    RCC_AHB2RSTR = 0;
+    RCC_APB1RSTR = 0;
+    RCC_APB2RSTR = 0;
 }
 
 static void start_vectors(void)
@@ -109,6 +133,7 @@ _Noreturn void stm32_reset(void)
     assert(SCB_VTOR != (uint32_t)(uintptr_t)stm32_vectors);
     (void)stm32_mask();
     silence_interrupts();
+    reset_peripherals();
     struct stm32_clock clock = stm32_clock_start();
     const uint32_t *here = __builtin_frame_address(0);
     fill(stm32_stack_bottom, here - PAINT_WORDS_LEFT, STACK_PATTERN);

@@ -17,8 +17,11 @@
 #define RCC_CR STM32_REGISTER(RCC_BASE + 0x00U)       /* 7.3.1 */
 #define RCC_PLLCFGR STM32_REGISTER(RCC_BASE + 0x04U)  /* 7.3.2 */
 #define RCC_CFGR STM32_REGISTER(RCC_BASE + 0x08U)     /* 7.3.3 */
-#define RCC_AHB1ENR STM32_REGISTER(RCC_BASE + 0x30U)  /* 7.3.10 */
+#define RCC_AHB1RSTR STM32_REGISTER(RCC_BASE + 0x10U) /* 7.3.5 */
+#define RCC_AHB2RSTR STM32_REGISTER(RCC_BASE + 0x14U) /* 7.3.6 */
 #define RCC_APB1RSTR STM32_REGISTER(RCC_BASE + 0x20U) /* 7.3.8 */
+#define RCC_APB2RSTR STM32_REGISTER(RCC_BASE + 0x24U) /* 7.3.9 */
+#define RCC_AHB1ENR STM32_REGISTER(RCC_BASE + 0x30U)  /* 7.3.10 */
 #define RCC_APB1ENR STM32_REGISTER(RCC_BASE + 0x40U)  /* 7.3.13 */
 #define RCC_APB2ENR STM32_REGISTER(RCC_BASE + 0x44U)  /* 7.3.14 */
 #define RCC_CSR STM32_REGISTER(RCC_BASE + 0x74U)      /* 7.3.21 */
@@ -30,6 +33,8 @@
 #define RCC_CR_CSSON (1U << 19)
 #define RCC_CR_PLLON (1U << 24)
 #define RCC_CR_PLLRDY (1U << 25)
+#define RCC_CR_PLLI2SON (1U << 26)
+#define RCC_CR_PLLI2SRDY (1U << 27)
 #define RCC_PLLCFGR_PLLM(n) ((n) << 0)
 #define RCC_PLLCFGR_PLLN(n) ((n) << 6)
 #define RCC_PLLCFGR_PLLSRC (1U << 22)
@@ -291,6 +296,7 @@
 #define SCB_ICSR_PENDSVCLR (1U << 27)
 #define SCB_ICSR_PENDSVSET (1U << 28)
 #define SCB_AIRCR_RESET 0x05FA0004U
+#define SCB_AIRCR_NO_GROUPS 0x05FA0000U /* PRIGROUP 0: all bits of a priority tell who interrupts whom */
 
 /* Counter of cycles, ARMv7-M C1.8 */
 #define DWT_CTRL STM32_REGISTER(0xE0001000U)

@@ -232,6 +232,17 @@ def test_a_start_by_a_loader_is_a_start_as_any_other(unit):
     assert left.summary["motors"][0]["pulses"] == plain.summary["motors"][0]["pulses"] == 50
 
 
+def test_priorities_that_a_loader_has_put_into_groups_hold_no_edge_off(unit):
+    program = b"S2000V12000A60000F4000R"
+    lines = script([Message(motor, program) for motor in (1, 3, 4)]).lines
+
+    left = unit.run(lines, 0.7, "", "--watch", WORST, "--left-by-loader")
+
+    assert [left.summary["motors"][i]["pulses"] for i in (0, 2, 3)] == [4000, 4000, 4000]
+    assert left.late_steps == 0
+    assert left.summary["watch"][WORST] <= TOGETHER
+
+
 def test_what_hangs_the_edges_ends_in_a_watchdog_reset(unit):
     lines = script([Message(1, b"S500V2000G+")]).lines
     hang = READY_MS + 100

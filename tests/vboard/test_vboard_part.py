@@ -48,6 +48,13 @@ def test_an_access_to_a_peripheral_without_clock_names_address_place_and_functio
     assert run.told.count("\n") == 1
 
 
+def test_an_access_to_a_peripheral_that_is_held_in_reset_is_told(run_image):
+    run = run_image("unclocked", defines=["HELD"])
+
+    assert "write to 40000028 (TIM2+28): RCC holds it in reset" in run.told
+    assert run.told.count("\n") == 1
+
+
 def test_an_access_to_a_register_that_does_not_exist_is_told(run_image):
     run = run_image("unknown")
 

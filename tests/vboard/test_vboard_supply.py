@@ -203,6 +203,14 @@ def test_a_boot_loader_leaves_clocks_interrupts_and_errors(run_image):
     assert result[4] == 7  # SysTick runs
     assert result[5] == 1 << 67 - 64  # USB is enabled and pending
     assert result[6] == 0x1FFF0000
+    assert result[10] >> 8 & 7 == 6  # PRIGROUP: one bit
+    assert result[11] == 1 << 6 | 1 << 7  # PB6 and PB7 are open drain
+
+
+def test_a_boot_loader_leaves_nothing_after_a_reset_of_all(run_image):
+    result = run_image("loader", "--left-by-loader", defines=["RESET_ALL"]).result
+
+    assert result[11] == 0
 
 
 @pytest.mark.parametrize("define", ["WRITE", "TOO_SOON"])
@@ -210,6 +218,12 @@ def test_the_pll_takes_no_configuration_until_it_stands(run_image, define):
     run = run_image("loader", "--left-by-loader", defines=[define])
 
     assert "RCC_PLLCFGR must be written only while the PLL is off" in run.told
+
+
+def test_the_pll_takes_no_configuration_while_that_of_i2s_runs(run_image):
+    run = run_image("loader", defines=["I2S"])
+
+    assert "RCC_PLLCFGR must be written only while the PLL is off, and the one of I2S" in run.told
 
 
 def test_old_errors_let_no_erase_begin(run_image):

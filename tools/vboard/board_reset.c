@@ -64,7 +64,7 @@ void board_reset(struct board *board, enum reset_cause cause)
     art_reset(&board->fetch.art);
     reset_processor(board);
     if (cause == RESET_POWER && board->options->left_by_loader) {
-        loader_leave(&board->core, &board->rcc, &board->flash);
+        loader_leave(&board->core, &board->rcc, &board->flash, &board->gpio);
     }
 }
 
@@ -87,6 +87,8 @@ static void reset_on_apb1(struct board *board, unsigned bit)
         timer_reset(&board->timer[bit]);
     } else if (bit == 17 || bit == 18) {
         usart_reset(&board->usart[bit - 16U]);
+    } else if (bit == 28) {
+        supply_reset(&board->supply);
     }
 }
 
@@ -98,6 +100,8 @@ static void reset_on_apb2(struct board *board, unsigned bit)
         usart_reset(&board->usart[0]);
     } else if (bit == 8) { /* all three converters */
         adc_reset(&board->adc);
+    } else if (bit == 14) {
+        syscfg_reset(&board->syscfg);
     }
 }
 

@@ -60,6 +60,9 @@ static const char *refuse(struct bus *bus, const struct bus_block *block, uint32
     if (!rcc_clock_has_come(bus->wires.rcc, block->clock_offset, block->clock_bit)) {
         return "its clock was enabled so short a time ago that the access is lost (errata ES0182)";
     }
+    if (rcc_is_held(bus->wires.rcc, block->clock_offset, block->clock_bit)) {
+        return "RCC holds it in reset (RM0090 7.3.5 to 7.3.9)";
+    }
     if (bytes < block->least_bytes) {
         return block->least_bytes == WORD_BYTES ? "not a word, where the manual asks for words"
                                                 : "a byte access, where the manual asks for half-words or words";

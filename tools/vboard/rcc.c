@@ -23,8 +23,10 @@ enum {
 #define CR_CSSON (UINT32_C(1) << 19)
 #define CR_PLLON (UINT32_C(1) << 24)
 #define CR_PLLRDY (UINT32_C(1) << 25)
+#define CR_PLLI2SON (UINT32_C(1) << 26) /* kept; ready at once */
+#define CR_PLLI2SRDY (UINT32_C(1) << 27)
 #define CR_HSEBYP (UINT32_C(1) << 18)
-#define CR_WRITABLE (CR_HSION | (UINT32_C(0x1F) << 3) | CR_HSEON | CR_HSEBYP | CR_CSSON | CR_PLLON)
+#define CR_WRITABLE (CR_HSION | (UINT32_C(0x1F) << 3) | CR_HSEON | CR_HSEBYP | CR_CSSON | CR_PLLON | CR_PLLI2SON)
 #define CR_RESET (CR_HSION | UINT32_C(0x80))
 #define PLLCFGR_RESET UINT32_C(0x24003010)
 #define CIR_CSSF (UINT32_C(1) << 7)
@@ -215,6 +217,12 @@ bool rcc_clock_has_come(const struct rcc *rcc, uint32_t offset, unsigned bit)
     return !fresh || rcc->wires.clock->now >= rcc->enabled[index].cycle;
 }
 
+/* The reset registers are at the same distance before the enables (RM0090 sections 7.3.5 to 7.3.14). */
+bool rcc_is_held(const struct rcc *rcc, uint32_t offset, unsigned bit)
+{
+    return offset != 0 && (rcc->word[(offset - (RCC_AHB1ENR - RCC_AHB1RSTR)) / 4U] >> bit & 1U) != 0;
+}
+
 static void write_enable(struct rcc *rcc, uint32_t offset, uint32_t value)
 {
     const uint32_t delays[RCC_ENABLES] = {ENABLE_CYCLES_AHB, ENABLE_CYCLES_APB + rcc->wires.conditions->pclk1_divider,
@@ -236,7 +244,7 @@ void rcc_run_from_pll(struct rcc *rcc)
     uint64_t now = clock_now_ps(rcc->wires.clock);
     uint32_t m = from_crystal ? (uint32_t)(rcc->wires.crystal_hz / 2000000U) : 8U;
     *word(rcc, RCC_PLLCFGR) = m | 120U << 6 | 1U << 16 | (from_crystal ? RCC_PLLCFGR_HSE : 0U) | 5U << 24;
-    *word(rcc, RCC_CR) |= CR_PLLON | (from_crystal ? CR_HSEON | CR_CSSON : 0U);
+    *word(rcc, RCC_CR) |= CR_PLLON | CR_PLLI2SON | (from_crystal ? CR_HSEON | CR_CSSON : 0U);
     *word(rcc, RCC_CFGR) = RCC_SOURCE_PLL | 4U << 10;
     *word(rcc, RCC_APB2ENR) = UINT32_C(1) << 4;
     rcc->hse_ready_ps = from_crystal ? now : VTIME_NEVER;
@@ -304,7 +312,7 @@ bool rcc_read(void *model, uint32_t offset, uint32_t *value)
     }
     *value = *word(rcc, offset);
     if (offset == RCC_CR) {
-        *value |= ready_bits(rcc);
+        *value |= ready_bits(rcc) | ((*value & CR_PLLI2SON) != 0 ? CR_PLLI2SRDY : 0U);
     } else if (offset == RCC_CFGR) {
         *value = (*value & ~UINT32_C(0xC)) | rcc->source << 2;
     } else if (offset == RCC_CIR) {
@@ -317,8 +325,8 @@ bool rcc_read(void *model, uint32_t offset, uint32_t *value)
 
 static void write_pllcfgr(struct rcc *rcc, uint32_t value)
 {
-    if ((*word(rcc, RCC_CR) & CR_PLLON) != 0 || (ready_bits(rcc) & CR_PLLRDY) != 0) {
-        report_fail(rcc->wires.report, "RCC_PLLCFGR must be written only while the PLL is off");
+    if ((*word(rcc, RCC_CR) & (CR_PLLON | CR_PLLI2SON)) != 0 || (ready_bits(rcc) & CR_PLLRDY) != 0) {
+        report_fail(rcc->wires.report, "RCC_PLLCFGR must be written only while the PLL is off, and the one of I2S");
     }
     *word(rcc, RCC_PLLCFGR) = value & UINT32_C(0x0F437FFF);
 }

@@ -87,6 +87,9 @@ bool rcc_clock_is_on(const struct rcc *rcc, uint32_t offset, unsigned bit);
 /* Whether it is so, and was set so long ago that the peripheral takes an access. */
 bool rcc_clock_has_come(const struct rcc *rcc, uint32_t offset, unsigned bit);
 
+/* Whether a reset register keeps it in reset: it takes no access then. */
+bool rcc_is_held(const struct rcc *rcc, uint32_t offset, unsigned bit);
+
 /* Lets the part run from the PLL at 60 MHz, which runs from the crystal if there is one. */
 void rcc_run_from_pll(struct rcc *rcc);
 

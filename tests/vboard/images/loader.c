@@ -12,6 +12,19 @@ int main(void)
     result[6] = SCB_VTOR;
     result[7] = REG16(0x1FFF7A22);
     result[8] = REG(0xE0042000);
+    result[10] = SCB_AIRCR;
+    RCC_AHB1ENR |= 2;
+    (void)RCC_AHB1ENR;
+    (void)RCC_AHB1ENR;
+#ifdef RESET_ALL
+    RCC_AHB1RSTR = 2;
+    RCC_AHB1RSTR = 0;
+#endif
+    result[11] = GPIO_OTYPER(GPIOB);
+#ifdef I2S
+    RCC_CR |= 1u << 26;
+    RCC_PLLCFGR = 8 | 336u << 6 | 1u << 22 | 7u << 24;
+#endif
 #ifdef WRITE
     RCC_PLLCFGR = 8 | 336u << 6 | 1u << 22 | 7u << 24;
 #endif
