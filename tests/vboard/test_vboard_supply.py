@@ -226,6 +226,17 @@ def test_the_pll_takes_no_configuration_while_that_of_i2s_runs(run_image):
     assert "RCC_PLLCFGR must be written only while the PLL is off, and the one of I2S" in run.told
 
 
+@pytest.mark.parametrize(
+    ("defines", "told"),
+    [([], ""), (["CACHE"], "data cache may have the old word"), (["CACHE", "FORGET"], "")],
+)
+def test_a_read_after_an_erase_needs_the_data_cache_reset(run_image, defines, told):
+    run = run_image("weak", defines=defines)
+
+    assert run.status == (1 if told else 0)
+    assert told in run.told
+
+
 def test_old_errors_let_no_erase_begin(run_image):
     run = run_image("weak", "--left-by-loader", defines=["DIRTY"])
 

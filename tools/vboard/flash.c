@@ -99,6 +99,7 @@ static void set_acr(struct flash *flash, uint32_t acr)
 {
     uint32_t latency = acr & ACR_LATENCY;
     flash->acr = acr;
+    flash->stale.cached = flash->stale.cached || (acr & ACR_DCEN) != 0;
     flash->wires.conditions->flash_latency = latency;
     flash->wait_states = flash->wires.wait_states < 0 ? latency : (uint32_t)flash->wires.wait_states;
 }
@@ -117,6 +118,7 @@ void flash_leave_unlocked(struct flash *flash)
 
 void flash_reset(struct flash *flash)
 {
+    flash->stale = (struct stale){.cached = false};
     set_acr(flash, 0);
     flash->sr = 0;
     flash->cr = CR_LOCK;
@@ -156,6 +158,15 @@ void flash_stall(struct flash *flash, uint32_t address)
         clock->now = done;
     }
     clock_run(clock, clock->now);
+}
+
+void flash_check_read(struct flash *flash, uint32_t address)
+{
+    if (flash_data_cache_is_on(flash) && stale_has(&flash->stale, address & (MEMORY_FLASH_BYTES - 1U))) {
+        report_fail(flash->wires.report,
+                    "%08x is read after its sector was erased: the data cache may have the old word (RM0090 3.5.2)",
+                    address);
+    }
 }
 
 static void update_interrupt(struct flash *flash)
@@ -290,6 +301,9 @@ static void on_flash_event(void *model, uint64_t cycle)
 {
     struct flash *flash = model;
     (void)cycle;
+    if (flash->operation == FLASH_ERASE) {
+        stale_note_erase(&flash->stale, flash->address, flash->bytes);
+    }
     if (flash->cut != NULL) {
         lose_power(flash);
     } else if (flash->operation == FLASH_OPTIONS) {
@@ -421,6 +435,9 @@ static void write_acr(struct flash *flash, uint32_t value)
     if (((value & ACR_ICRST) != 0 && (was_on & ACR_ICEN) != 0) ||
         ((value & ACR_DCRST) != 0 && (was_on & ACR_DCEN) != 0)) {
         report_fail(flash->wires.report, "FLASH_ACR: a cache is reset while it is on (RM0090 3.9.1)");
+    }
+    if ((value & ACR_DCRST) != 0) {
+        flash->stale = (struct stale){.cached = false};
     }
     set_acr(flash, value & ACR_MASK);
     conditions_check(flash->wires.conditions);

@@ -15,6 +15,7 @@
 #include "nvic.h"
 #include "report.h"
 #include "reset.h"
+#include "stale.h"
 
 enum {
     FLASH_CUTS_MAX = 4
@@ -87,11 +88,12 @@ struct flash {
     uint32_t address; /* of the operation in progress, offset in the memory */
     uint32_t bytes;
     uint32_t value;      /* to be programmed */
-    bool read_protected; /* reads are watched, as the bus has to wait */
-    bool code_changed;   /* what was executed before has been rewritten */
-    bool fails;          /* the operation in progress */
-    bool weak;           /* likewise: the supply was too low for it */
-    uint32_t needs_mv;   /* of supply */
+    bool read_protected; /* reads are watched, as the bus has to wait, or the data cache may have what was erased */
+    struct stale stale;
+    bool code_changed; /* what was executed before has been rewritten */
+    bool fails;        /* the operation in progress */
+    bool weak;         /* likewise: the supply was too low for it */
+    uint32_t needs_mv; /* of supply */
     unsigned weakened;
     const struct flash_cut *cut; /* of power, in the middle of it; null: none */
     uint64_t operations;
@@ -125,9 +127,18 @@ void flash_leave_unlocked(struct flash *flash);
 /* Waits until the flash is done, if `address` lies in it. */
 void flash_stall(struct flash *flash, uint32_t address);
 
+/* A read of data, after that. */
+void flash_check_read(struct flash *flash, uint32_t address);
+
 static inline bool flash_is_busy(const struct flash *flash)
 {
     return flash->operation != FLASH_IDLE;
+}
+
+/* Whether reads have to be looked at. */
+static inline bool flash_watches_reads(const struct flash *flash)
+{
+    return flash_is_busy(flash) || flash->stale.bytes != 0;
 }
 
 bool flash_instruction_cache_is_on(const struct flash *flash);

@@ -187,6 +187,7 @@ static bool on_bad_access(uc_engine *engine, uc_mem_type type, uint64_t address,
     }
     if (type == UC_MEM_READ_PROT && memory_is_flash((uint32_t)address)) {
         flash_stall(&board->flash, (uint32_t)address);
+        flash_check_read(&board->flash, (uint32_t)address);
         return true;
     }
     if (cpu->stop == CPU_STOP_FAULT) {

@@ -33,7 +33,7 @@ static void drop_translations(uc_engine *engine)
 #endif
 }
 
-/* Makes Unicorn report reads of the flash while it is busy. */
+/* Makes Unicorn report reads of the flash while something is to be done about them. */
 static void update_protection(struct board *board)
 {
     struct flash *flash = &board->flash;
@@ -43,8 +43,8 @@ static void update_protection(struct board *board)
         cost_forget(&board->cpu.cost);
         drop_translations(engine);
     }
-    if (flash_is_busy(flash) != flash->read_protected) {
-        flash->read_protected = flash_is_busy(flash);
+    if (flash_watches_reads(flash) != flash->read_protected) {
+        flash->read_protected = flash_watches_reads(flash);
         uint32_t rights = flash->read_protected ? UC_PROT_EXEC : UC_PROT_READ | UC_PROT_EXEC;
         (void)uc_mem_protect(engine, MEMORY_FLASH_BASE, board->memory.flash_bytes, rights);
         (void)uc_mem_protect(engine, 0, board->memory.flash_bytes, rights);
