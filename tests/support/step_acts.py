@@ -28,7 +28,7 @@ READY = 300_000
 QUANTA = 2 * TICK_HZ * TICK_HZ << 7  # of a step: firmware/engine/step/step_scale.h
 ACTS, ACT, NOTE_WORDS = 1500, struct.Struct("<IIQII"), 9
 READY_SEGMENTS = 30  # of the 32 that a channel has room for
-ODD = ["--refill", "1", "--match-equal"]
+ODD = ["--refill", "1", "--match-equal", "--requests-stay"]
 FAST_BUS = ["--apb-wait", "3", "--pwm-at-once"]
 
 

@@ -15,7 +15,7 @@ SHORT, LONG = "f405", "f407-discovery"
 WIDTH_TICKS = {SHORT: 42, LONG: 210}
 """High and low alike."""
 TICKS_PER_US = 84
-ODD = ["--refill", "1", "--match-equal"]
+ODD = ["--refill", "1", "--match-equal", "--requests-stay"]
 FAST_BUS = ["--apb-wait", "3", "--pwm-at-once"]
 
 

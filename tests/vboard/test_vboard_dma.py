@@ -306,6 +306,10 @@ def test_a_request_waits_for_its_stream_loses_a_second_one_and_goes_with_its_ena
     assert run.summary["dma"]["lost"] == 1
 
 
+def test_a_request_may_outlast_its_enable(run_image):
+    assert run_image("dma_requests", "--requests-stay").result[10:12] == [1, 1]
+
+
 def test_two_requests_of_one_channel_are_ored(run_image):
     assert run_image("dma_requests").result[12] == 1  # 10.3.3: TIM2_CH4 at the stream of TIM2_CH2
 

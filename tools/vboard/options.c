@@ -324,6 +324,7 @@ static const struct argument rows[] = {
     FLAG("--match-equal", timer_settings.match_equal),
     FLAG("--exti-mask-first", exti_mask_first),
     FLAG("--pwm-at-once", timer_settings.pwm_at_once),
+    FLAG("--requests-stay", timer_settings.requests_stay),
     FLAG("--left-by-loader", left_by_loader),
     FLAG("--power-back", flash_settings.power_back),
     NUMBER("--for", for_ps, SECONDS_DECIMALS, 1, UINT64_C(1000000000000000), 1000),

@@ -37,10 +37,11 @@ struct timer_channel {
 };
 
 struct timer_settings {
-    unsigned steps;   /* the timer that makes the steps: 0 is TIM2 */
-    uint64_t start;   /* the count at which it starts */
-    bool match_equal; /* a compare value written while the counter stands on it matches */
-    bool pwm_at_once; /* a channel that comes from a forced level shows the comparison at once */
+    unsigned steps;     /* the timer that makes the steps: 0 is TIM2 */
+    uint64_t start;     /* the count at which it starts */
+    bool match_equal;   /* a compare value written while the counter stands on it matches */
+    bool pwm_at_once;   /* a channel that comes from a forced level shows the comparison at once */
+    bool requests_stay; /* a request that was not served outlasts its enable in DIER */
 };
 
 struct timer_wires {

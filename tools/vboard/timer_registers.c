@@ -133,7 +133,8 @@ static void write_egr(struct timer *timer, uint32_t value)
     timer_update_outputs(timer, now);
 }
 
-/* A request that is not served before it is disabled is taken back; the manual does not say so. */
+/* A request that is not served before it is disabled is taken back, which the manual does not say; --requests-stay: it
+ * is not. */
 static void write_dier(struct timer *timer, uint32_t value)
 {
     uint32_t modelled = TIMER_DIER_INTERRUPTS | TIMER_DIER_REQUESTS;
@@ -146,7 +147,7 @@ static void write_dier(struct timer *timer, uint32_t value)
         }
         return;
     }
-    for (unsigned i = 0; i < REQUEST_SOURCES; i++) {
+    for (unsigned i = 0; i < REQUEST_SOURCES && !timer->wires.settings->requests_stay; i++) {
         if ((value >> TIMER_DIER_REQUESTS_SHIFT & UINT32_C(1) << i) == 0) {
             requests_lower(timer->wires.requests, request_line(timer->wires.number, i));
         }

@@ -36,7 +36,8 @@ const char options_usage[] =
     "  --art                 model the accelerator of the flash\n"
     "  --match-equal         a compare value written while the timer stands on it matches\n"
     "  --exti-mask-first     an edge on a masked line of EXTI leaves nothing pending\n"
-    "  --pwm-at-once         a channel that comes from a forced level shows the comparison at once\n";
+    "  --pwm-at-once         a channel that comes from a forced level shows the comparison at once\n"
+    "  --requests-stay       a timer's request for DMA outlasts its enable\n";
 
 const char options_usage_more[] =
     "part and supply:\n"
