@@ -2,8 +2,8 @@
  * The registers of an STM32F405 or F407 that this backend uses, and of their bits those that it sets or reads.
  *
  * Numbers after registers are sections of ST's reference manual RM0090; those of the core are sections of the
- * programming manual PM0214. tests/tools/test_stm32_registers.py holds every address and bit of the chip's blocks
- * against an independent description; it reads this file line by line, so each definition stays on one line.
+ * programming manual PM0214. tests/tools/test_stm32_registers.py holds every address and bit against
+ * independent descriptions; it reads this file line by line, so each definition stays on one line.
  */
 #ifndef STM32F4_H
 #define STM32F4_H
@@ -110,13 +110,12 @@
 #define GPIO_BASE 0x40020000U
 #define GPIO_STRIDE 0x400U
 #define GPIO_REGISTER(port, offset) STM32_REGISTER(GPIO_BASE + GPIO_STRIDE * (port) + (offset))
-#define GPIO_MODER(port) GPIO_REGISTER(port, 0x00U)   /* 8.4.1 */
-#define GPIO_OSPEEDR(port) GPIO_REGISTER(port, 0x08U) /* 8.4.3 */
-#define GPIO_PUPDR(port) GPIO_REGISTER(port, 0x0CU)   /* 8.4.4 */
-#define GPIO_IDR(port) GPIO_REGISTER(port, 0x10U)     /* 8.4.5 */
-#define GPIO_BSRR(port) GPIO_REGISTER(port, 0x18U)    /* 8.4.7 */
-#define GPIO_AFRL(port) GPIO_REGISTER(port, 0x20U)    /* 8.4.9 */
-#define GPIO_AFRH(port) GPIO_REGISTER(port, 0x24U)    /* 8.4.10 */
+#define GPIO_MODER(port) GPIO_REGISTER(port, 0x00U) /* 8.4.1 */
+#define GPIO_PUPDR(port) GPIO_REGISTER(port, 0x0CU) /* 8.4.4 */
+#define GPIO_IDR(port) GPIO_REGISTER(port, 0x10U)   /* 8.4.5 */
+#define GPIO_BSRR(port) GPIO_REGISTER(port, 0x18U)  /* 8.4.7 */
+#define GPIO_AFRL(port) GPIO_REGISTER(port, 0x20U)  /* 8.4.9 */
+#define GPIO_AFRH(port) GPIO_REGISTER(port, 0x24U)  /* 8.4.10 */
 
 /* Which port has the pin on a line, and the edges of the lines */
 #define SYSCFG_BASE 0x40013800U

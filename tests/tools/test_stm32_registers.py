@@ -2,7 +2,8 @@
 
 pyOCD's package carries the description of the STM32F429, whose timers, DMA, USART, GPIO, RCC,
 flash, watchdog, SYSCFG, EXTI and interrupt controller are those of the STM32F405 (both are in
-RM0090).
+RM0090). It leaves out the processor's own blocks: those are in the description of an STM32L4, which
+has the same processor, and in pyOCD itself.
 """
 
 from __future__ import annotations
@@ -19,7 +20,8 @@ from pathlib import Path
 import pytest
 
 HEADER = Path(__file__).resolve().parents[2] / "hal/stm32/stm32f4.h"
-DEVICE = "STM32F429x.svd"
+STARTUP = HEADER.with_name("stm32_startup.c")
+DEVICE, SAME_CORE = "STM32F429x.svd", "STM32L4x2.svd"
 
 BASE = re.compile(r"^#define (\w+)_BASE (0x[0-9A-F]+)U\b", re.MULTILINE)
 REGISTER = re.compile(
@@ -59,7 +61,11 @@ FIELDS = {
 }
 INSTANCES = {"GPIO": "GPIOA", "USART": "USART1", "TIM": "TIM2", "DMA": "DMA1"}
 STREAM = re.compile(r"DMA(\d)_STREAM\(n\) \(DMA\1_BASE \+ (0x\w+)U \+ (0x\w+)U \* \(n\)\)")
-CORE = {"STK", "SCB", "DWT"}  # blocks of the processor, which the description does not have
+CORE = {"STK", "SCB", "DWT"}  # blocks of the processor
+CORE_REGISTER = re.compile(r"^#define (STK|SCB)_(\w+) STM32_REGISTER\((0x[0-9A-F]+)U\)$", re.M)
+CORE_BIT = re.compile(r"^#define (STK|SCB)_([A-Z]+)_([A-Z]+) \(1U << (\d+)\)$", re.M)
+CORE_REGISTERS = {"CFSR": "CFSR_UFSR_BFSR_MMFSR"}
+RESET_MASK = re.compile(r"ON_(\w+) = (0x[0-9A-F]+),")
 
 
 @dataclass(frozen=True)
@@ -79,13 +85,13 @@ class Peripheral:
 
 
 @cache
-def description() -> ElementTree.Element:
+def description(device: str = DEVICE) -> ElementTree.Element:
     package = importlib.util.find_spec("pyocd")
     assert package is not None, "pyocd is not installed: run tools/setup test"
     assert package.submodule_search_locations is not None
     data = Path(package.submodule_search_locations[0]) / "debug/svd/svd_data.zip"
     with zipfile.ZipFile(data) as archive:
-        return ElementTree.fromstring(archive.read(DEVICE))
+        return ElementTree.fromstring(archive.read(device))
 
 
 def number(element: ElementTree.Element, name: str) -> int:
@@ -93,8 +99,8 @@ def number(element: ElementTree.Element, name: str) -> int:
 
 
 @cache
-def peripherals() -> dict[str, Peripheral]:
-    elements = {p.findtext("name") or "": p for p in description().iter("peripheral")}
+def peripherals(device: str = DEVICE) -> dict[str, Peripheral]:
+    elements = {p.findtext("name") or "": p for p in description(device).iter("peripheral")}
     found = {}
     for name, element in elements.items():
         source = elements[element.get("derivedFrom", name)]
@@ -124,6 +130,9 @@ BASES = [m.groups() for m in BASE.finditer(TEXT)]
 REGISTER_ROWS = [(m[1], m[2], m[4]) for m in REGISTER.finditer(TEXT) if m[1] not in CORE]
 BIT_ROWS = [(m[1], m[2], m[3], m[5]) for m in BIT.finditer(TEXT) if m[1] not in CORE]
 INTERRUPTS = [m.groups() for m in INTERRUPT.finditer(TEXT)]
+CORE_REGISTER_ROWS = [m.groups() for m in CORE_REGISTER.finditer(TEXT) if m[2] != "DEMCR"]
+CORE_BIT_ROWS = [m.groups() for m in CORE_BIT.finditer(TEXT) if m[2] != "DEMCR"]
+RESET_MASKS = [m.groups() for m in RESET_MASK.finditer(STARTUP.read_text())]
 
 
 @pytest.mark.parametrize(("block", "address"), BASES)
@@ -147,6 +156,49 @@ def test_a_field_is_at_its_place(block: str, register: str, field: str, place: s
 def test_an_interrupt_has_its_number(name: str, value: str) -> None:
     numbers = {i.findtext("name"): number(i, "value") for i in description().iter("interrupt")}
     assert int(value) == numbers[name]
+
+
+def value_of(name: str) -> int:
+    match = re.search(rf"^#define {name} .*?(0x[0-9A-F]+)U", TEXT, re.MULTILINE)
+    assert match
+    return int(match[1], 16)
+
+
+@pytest.mark.parametrize(("block", "register", "address"), CORE_REGISTER_ROWS)
+def test_a_register_of_the_processor_is_at_its_address(
+    block: str, register: str, address: str
+) -> None:
+    found = peripherals(SAME_CORE)[block]
+    assert (
+        int(address, 16)
+        == found.base + found.registers[CORE_REGISTERS.get(register, register)].offset
+    )
+
+
+@pytest.mark.parametrize(("block", "register", "field", "place"), CORE_BIT_ROWS)
+def test_a_field_of_the_processor_is_at_its_place(
+    block: str, register: str, field: str, place: str
+) -> None:
+    assert int(place) == peripherals(SAME_CORE)[block].registers[register].fields[field]
+
+
+def test_reset_key_cycle_counter_and_its_enable_are_those_that_the_debugger_has() -> None:
+    core = importlib.import_module("pyocd.coresight.cortex_m").CortexM
+    dwt = importlib.import_module("pyocd.coresight.dwt").DWT
+    key, reset = core.NVIC_AIRCR_VECTKEY, core.NVIC_AIRCR_SYSRESETREQ
+
+    assert (value_of("SCB_AIRCR_RESET"), value_of("SCB_AIRCR_NO_GROUPS")) == (key | reset, key)
+    assert value_of("SCB_DEMCR") == core.DEMCR
+    assert f"SCB_DEMCR_TRCENA (1U << {core.DEMCR_TRCENA.bit_length() - 1})" in TEXT
+    assert value_of("DWT_CYCCNT") - value_of("DWT_CTRL") == dwt.DWT_CYCCNT - dwt.DWT_CTRL
+    assert f"DWT_CTRL_CYCCNTENA (1U << {dwt.DWT_CTRL_CYCCNTENA_MASK.bit_length() - 1})" in TEXT
+
+
+@pytest.mark.parametrize(("bus", "mask"), RESET_MASKS)
+def test_what_the_start_resets_is_there_to_be_reset(bus: str, mask: str) -> None:
+    fields = peripherals()["RCC"].registers[f"{bus}RSTR"].fields
+    assert len(RESET_MASKS) == 4
+    assert {i for i in range(32) if int(mask, 16) >> i & 1} <= set(fields.values())
 
 
 def test_the_ports_are_one_stride_apart() -> None:
