@@ -30,6 +30,7 @@ if(small)
             target_compile_options(${library} PRIVATE -Os)
         endif()
     endforeach()
+    target_include_directories(hal_stm32 BEFORE PRIVATE ${PROJECT_SOURCE_DIR}/hal/stm32/small)
     target_compile_options(hal_stm32 PRIVATE -Os)
     target_compile_definitions(engine_step PRIVATE STEP_SKIP_MAX=1U)
     # But for the steps, and for what a pulse that is to change waits for most.
