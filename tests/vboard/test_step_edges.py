@@ -29,11 +29,17 @@ FAST = Train(trials=3000, pace_ticks=420, pulses=60, halt_ticks=30_000)
         (SHORT, replace(HALTS, trials=40_000), []),
         (SHORT, HALTS, ODD),
         (SHORT, HALTS, FAST_BUS),
+        (SHORT, HALTS, ["--shared-bus"]),
         (LONG, HALTS, []),
         (SHORT, FAST, []),
         (SHORT, replace(FAST, pace_ticks=110, pulses=200, trials=1000), []),
         (SHORT, replace(FAST, together=4, lead_ticks=16_000, halt_ticks=40_000, trials=1000), []),
         (SHORT, replace(FAST, together=4, lead_ticks=16_000, halt_ticks=40_000, trials=1000), ODD),
+        (
+            SHORT,
+            replace(FAST, together=4, lead_ticks=16_000, halt_ticks=40_000, trials=1000),
+            ["--shared-bus"],
+        ),
         (
             LONG,
             replace(

@@ -89,12 +89,13 @@ def test_a_storm_on_inputs_and_line_moves_no_pulse_and_the_unit_answers(unit, in
         ["--match-equal"],
         ["--pwm-at-once"],
         ["--exti-mask-first"],
+        ["--shared-bus"],
         ["--match-equal", "--pwm-at-once"],
         ["--timer-start", str(2**32 - 30 * TICKS_PER_MS)],
         ["--timer-start", str(2**32 - 200 * TICKS_PER_MS), "--match-equal", "--pwm-at-once"],
         ["--timer-start", str(2**31 - 100 * TICKS_PER_MS)],
     ],
-    ids=["equal", "pwm", "edges", "both", "turns before", "turns in a move", "half-way"],
+    ids=["equal", "pwm", "edges", "bus", "both", "turns before", "turns in a move", "half-way"],
 )
 def test_what_the_manual_leaves_open_and_the_count_of_the_timer_change_no_pulse(unit, options):
     plain = run(unit)

@@ -39,6 +39,17 @@ def test_a_refill_of_two_makes_branches_cheaper(run_image):
     assert result[18] == 300
 
 
+def test_code_in_ram_may_wait_for_the_bus_of_its_data(run_image):
+    plain = run_image("costs").result
+    shared = run_image("costs", "--shared-bus").result
+
+    kept = dict(zip(COSTS_IN_RAM, plain[0:30:2], strict=True))
+    for name, cycles in zip(COSTS_IN_RAM, shared[0:30:2], strict=True):
+        slowed = name.startswith(("loads", "stores", "doubles")) or name == "branches"
+        assert cycles - kept[name] == pytest.approx(100 if slowed else 0, abs=1), name
+    assert shared[1:30:2] == plain[1:30:2]
+
+
 def test_flash_costs_its_wait_states_at_branches_and_where_the_prefetch_is_too_slow(run_image):
     result = run_image("costs").result
     in_flash = dict(zip(COSTS_IN_RAM, result[1:30:2], strict=True))

@@ -34,6 +34,8 @@ static void wire_processor(struct board *board)
     board->stats.wires = (struct stats_wires){.clock = clock, .cpu = &board->cpu, .nvic = &board->nvic};
     board->profile.wires = (struct profile_wires){.clock = clock, .report = report, .stats = &board->stats};
     board->cpu.refill = options->refill;
+    board->cpu.cost.shared_bus = options->shared_bus;
+    board->fetch.shared_bus = options->shared_bus;
 }
 
 /* Clocks, supply and flash: what the part needs to run at all. */

@@ -255,6 +255,13 @@ static void price(struct cost_table *table, struct memory *memory, struct cost *
     }
 }
 
+/* The next instruction waits while this one has the bus for its data. */
+static bool is_slowed(const struct cost_table *table, const cs_insn *instruction, uint32_t address)
+{
+    struct cost unused = {.cycles = 0};
+    return table->shared_bus && !memory_is_flash(address) && price_memory(&unused, instruction, address);
+}
+
 void cost_decode(struct cost_table *table, struct memory *memory, uint32_t address, uint32_t previous)
 {
     struct cost *entry = cost_find(table, address);
@@ -265,7 +272,9 @@ void cost_decode(struct cost_table *table, struct memory *memory, uint32_t addre
     if (code != NULL && code[1] == 0xBF && (code[0] & 0xFU) != 0) {
         open_block(table, &cost, code, address);
     } else if (instruction != NULL) {
+        unsigned more = is_slowed(table, instruction, address) ? 1U : 0U;
         price(table, memory, &cost, instruction, address, previous);
+        cost.cycles = (uint8_t)(cost.cycles + more);
     }
     if (address == table->end_address) {
         set_kind(&cost, COST_END);

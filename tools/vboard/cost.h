@@ -60,6 +60,7 @@ struct cost_table {
     void *instruction;                /* its buffer */
     uint32_t end_address;             /* where the run ends; odd: nowhere */
     uint32_t hold_address;            /* where a fault holds the processor; odd: nowhere */
+    bool shared_bus;                  /* code in RAM is fetched by the bus that has its data */
 };
 
 bool cost_init(struct cost_table *table);

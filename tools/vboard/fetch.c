@@ -17,7 +17,7 @@ uint32_t fetch_jump(struct fetch *fetch, uint32_t address)
     fetch->line_mask = in_flash ? LINE_MASK : 0;
     fetch->line = address & fetch->line_mask;
     fetch->line_cycle = fetch->clock->now + wait;
-    return wait;
+    return wait + (!in_flash && fetch->shared_bus ? 1U : 0U);
 }
 
 /* The prefetch has begun to read the line when the one before was there. */

@@ -16,6 +16,7 @@ struct fetch {
     struct clock *clock;
     const struct flash *flash;
     bool art_modelled;
+    bool shared_bus;
     uint32_t line_mask; /* of the line of the flash that is executed; 0 outside the flash */
     uint32_t line;
     uint64_t line_cycle; /* when it was there */

@@ -319,6 +319,7 @@ static const struct argument rows[] = {
     TEXT("--stack-limit", stack_limit),
     FLAG("--lockstep", lockstep),
     FLAG("--art", art),
+    FLAG("--shared-bus", shared_bus),
     FLAG("--no-crystal", no_crystal),
     FLAG("--slow-flash", flash_settings.slow),
     FLAG("--match-equal", timer_settings.match_equal),

@@ -70,6 +70,7 @@ struct options {
     uint32_t apb_wait;
     int wait_states; /* -1: as FLASH_ACR says */
     bool art;
+    bool shared_bus;
     bool no_crystal;
     bool exti_mask_first;
     bool left_by_loader;
