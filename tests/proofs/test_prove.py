@@ -185,6 +185,14 @@ PLANTED = [
         "path->looked = path->known", "path->looked = path->end",
     ),
     (
+        "path_look_due", "path_look_again", "firmware/engine/path/path_look.c",
+        "uint32_t last = path->looked - 1U", "uint32_t last = path->looked",
+    ),
+    (
+        "path_look_more", "path_look_is_more", "firmware/engine/path/path_look.c",
+        "path->looked != path->known", "path->looked != path->end",
+    ),
+    (
         "path_change_way", "way_at", "firmware/engine/path/path_change.c",
         "ticks = ticks < until_stand ? ticks : until_stand", "ticks = ticks + until_stand",
     ),
@@ -311,8 +319,7 @@ ONLY_MODELLED = {
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
     "lay_cruise", "lay_ramp", "path_course_lay", "come_to_rest", "leave2_of", "path_lay_anew",
-    "path_lay_begin", "path_lay_next", "path_look_again", "path_look_if_due",
-    "path_look_is_more",
+    "path_lay_begin", "path_lay_next",
     "between_steps", "count_void", "find_before", "find_between", "find_early", "find_in",
     "find_origin", "find_step", "is_before", "is_handed_over", "keep_before", "pass_border",
     "path_back", "path_can_rest", "path_change", "path_find", "path_stop", "plan_from",

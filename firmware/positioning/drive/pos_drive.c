@@ -7,7 +7,7 @@
 
 enum {
     AXIS = 0,                         /* of the path */
-    LEAD_TICKS = 205 * TICKS_PER_US,  /* planning one axis takes 0.15 ms beside four at their top rate */
+    LEAD_TICKS = 235 * TICKS_PER_US,  /* planning takes 0.15 ms beside four at their top rate, or more (bench) */
     GO_ON_TICKS = 700 * TICKS_PER_US, /* meanwhile the others are planned */
 };
 
