@@ -169,6 +169,10 @@ PLANTED = [
         "uint64_t way = step * steps", "uint64_t way = step * steps + length",
     ),
     (
+        "path_lay_leave", "come_to_rest", "firmware/engine/path/path_lay.c",
+        ".place = inside ? course->end : (struct wide){0}", ".place = course->end",
+    ),
+    (
         "path_look", "path_look_exit2", "firmware/engine/path/path_look.c",
         "most < least ? least : most", "most",
     ),
@@ -318,7 +322,7 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
-    "lay_cruise", "lay_ramp", "path_course_lay", "come_to_rest", "leave2_of", "path_lay_anew",
+    "lay_cruise", "lay_ramp", "path_course_lay", "path_lay_anew",
     "path_lay_begin", "path_lay_next",
     "between_steps", "count_void", "find_before", "find_between", "find_early", "find_in",
     "find_origin", "find_step", "is_before", "is_handed_over", "keep_before", "pass_border",
