@@ -37,10 +37,12 @@ BENCH_SECONDS_MAX = 2.0
 
 @dataclass(frozen=True)
 class Model:
-    """The cycle model: cycles to refill the pipeline, and wait states of the flash."""
+    """The cycle model: cycles to refill the pipeline, wait states of the flash, slow RAM."""
 
     refill: int
     wait_states: int = 5
+    slow_ram: bool = False
+    """Fetching code from RAM waits for the bus that has the data."""
 
     @property
     def name(self) -> str:
@@ -50,7 +52,8 @@ class Model:
     @property
     def options(self) -> list[str]:
         """For the virtual board."""
-        return ["--refill", str(self.refill), "--wait-states", str(self.wait_states)]
+        slow = ["--shared-bus"] if self.slow_ram else []
+        return ["--refill", str(self.refill), "--wait-states", str(self.wait_states), *slow]
 
 
 GATE = Model(3)
