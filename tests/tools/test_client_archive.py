@@ -156,6 +156,21 @@ def test_a_backup_that_cannot_be_finished_leaves_no_half_file(tool, fake, tmp_pa
     assert not list((tmp_path / "b").glob("*.rks"))
 
 
+def test_a_backup_that_finds_no_room_for_one_program_leaves_none_of_the_others(
+    tool, fake, tmp_path, monkeypatch
+):
+    def write(path: Path, text: str, **more: str) -> int:
+        if "motor-3" in path.name:
+            raise OSError(28, "No space left on device")
+        return whole(path, text, **more)
+
+    whole = Path.write_text
+    monkeypatch.setattr(Path, "write_text", write)
+
+    assert tool("backup", tmp_path / "b").status == 2
+    assert not list((tmp_path / "b").iterdir())
+
+
 def test_restore_changes_nothing_if_a_unit_is_missing(tool, fake, folder, units):
     (folder / "unit-09-motor-1.rks").write_text("\\ F1 R")
     units[0].done.clear()

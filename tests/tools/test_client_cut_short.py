@@ -245,6 +245,17 @@ def test_a_restore_that_is_cut_short_tells_which_motors_have_their_programs(
     )
 
 
+def test_a_unit_that_falls_silent_in_a_backup_leaves_no_part_of_one(tool, fake, unit, tmp_path):
+    unit.programs[1] = b"W1"
+    silent_after(fake, unit, lambda message: message == b"\x052")
+
+    result = tool("backup", tmp_path / "programs")
+
+    assert result.status == 3
+    assert result.complaint.rstrip().endswith("; nothing was saved")
+    assert not (tmp_path / "programs").exists()
+
+
 def test_restore_tells_which_motors_it_has_stopped_and_which_have_no_file(
     tool, fake, unit, folder, monkeypatch
 ):

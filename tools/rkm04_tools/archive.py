@@ -6,9 +6,10 @@ is reset, and then stopped as by K.
 
 from __future__ import annotations
 
+import itertools
 import re
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -54,7 +55,10 @@ class Program(Saved):
 
 
 def backup(line: Line, folder: Path, tell: Tell = silent) -> list[Saved]:
-    """Write all programs of a line to a folder that has none yet; empty memories are left out."""
+    """Write all programs of a line to a folder that has none yet; empty memories are left out.
+
+    All are read before the first is written: a folder with some of them would look like a backup.
+    """
     if folder.is_dir() and any(NAME.fullmatch(path.name) for path in folder.iterdir()):
         raise Failure(f"{folder}: has programs of units already; choose another folder")
     found = line.scan(tell=tell)
@@ -66,11 +70,16 @@ def backup(line: Line, folder: Path, tell: Tell = silent) -> list[Saved]:
     if doubtful:
         raise Failure(f"unit {doubtful[0].node}: {doubtful[0].remark}; nothing was saved", NOT_SO)
     try:
+        texts = _read_memories(line, [each.node for each in found], folder)
+    except Failure as failure:
+        failure.args = (f"{failure}; nothing was saved",)
+        raise
+    try:
         folder.mkdir(parents=True, exist_ok=True)
-        saved = [_save(line, each.node, motor, folder) for each in found for motor in MOTORS]
+        _write_all(texts)
     except OSError as error:
         raise writing_failed(folder, error) from None
-    return [each for each in saved if each]
+    return list(texts)
 
 
 def read_folder(folder: Path) -> list[Program]:
@@ -129,17 +138,34 @@ def motors_without(programs: Sequence[Saved]) -> list[Saved]:
     return [Saved(node, motor, Path(), 0) for node, motor in missing]
 
 
-def _save(line: Line, node: int, motor: int, folder: Path) -> Saved | None:
-    commands = without_hold(held_commands(line.unit(node).motor(motor)))
-    if not commands:
-        return None
-    path = folder / f"unit-{node:02}-motor-{motor}.rks"
-    text = textwrap.fill(
+def _read_memories(line: Line, nodes: Sequence[int], folder: Path) -> dict[Saved, str]:
+    """What is to be written, and its text."""
+    texts = {}
+    for node, motor in itertools.product(nodes, MOTORS):
+        commands = without_hold(held_commands(line.unit(node).motor(motor)))
+        path = folder / f"unit-{node:02}-motor-{motor}.rks"
+        if commands:
+            texts[Saved(node, motor, path, len(commands))] = _text_of(node, motor, commands)
+    return texts
+
+
+def _text_of(node: int, motor: int, commands: Sequence[str]) -> str:
+    filled = textwrap.fill(
         " ".join(commands), COLUMNS, break_long_words=False, break_on_hyphens=False
     )
-    with finished_or_absent(path) as part:
-        part.write_text(f"\\ {{ unit {node}, motor {motor} }}\n{text}\n", encoding="ascii")
-    return Saved(node, motor, path, len(commands))
+    return f"\\ {{ unit {node}, motor {motor} }}\n{filled}\n"
+
+
+def _write_all(texts: Mapping[Saved, str]) -> None:
+    """Write all files, or leave none."""
+    try:
+        for saved, text in texts.items():
+            with finished_or_absent(saved.path) as part:
+                part.write_text(text, encoding="ascii")
+    except BaseException:
+        for saved in texts:
+            saved.path.unlink(missing_ok=True)
+        raise
 
 
 def _read(path: Path) -> Program:
