@@ -28,7 +28,7 @@ CONTROL, LIMIT = range(2)
 """Kinds of events, as the probe numbers them."""
 
 TOLERANCE = 1.0
-LEADS = (205 * US, 215 * US)
+LEADS = (235 * US, 245 * US)
 """Planning takes about so long; pulses that are due before come as they were. So a change on a ramp
 may come later than the contract says, which is counted."""
 
