@@ -252,6 +252,18 @@ def test_a_session_with_a_wrong_byte_is_one_line(tool, steps, tmp_path):
     assert "is damaged" in result.complaint
 
 
+def test_a_session_whose_list_of_files_is_damaged_is_one_line(tool, steps, tmp_path):
+    path = sr_file(tmp_path / "a.sr", samples(SEEN, ANALYSER), names(SEEN))
+    content = bytearray(path.read_bytes())
+    content[content.index(b"PK\1\2") + 6] = 117  # the version that is needed to take it out
+    path.write_bytes(content)
+
+    result = tool("compare", path, steps)
+
+    assert result.status == 2
+    assert "is damaged" in result.complaint
+
+
 @pytest.mark.parametrize(
     ("name", "content", "words"),
     [
@@ -290,6 +302,8 @@ def test_a_session_that_is_not_whole_is_one_line(tool, steps, tmp_path, name, co
         ("# tick_hz=84000000\n1,1,1\n", "does not begin as a steps file"),
         ("# tick_hz=84000000\ntick,motor,position\n", "no motor moves in it"),
         ("# tick_hz=84000000\ntick,motor,position\n1,1\n", "1,1 is no tick,motor,position"),
+        (f"# tick_hz=84000000\ntick,motor,position\n1,1,{10**20}\n", "is no tick,motor,position"),
+        ("# tick_hz=84000000\ntick,motor,position\n1,1,--1\n", "is no tick,motor,position"),
         ("# tick_hz=84000000\ntick,motor,position\n1,9,1\n", "not those of motors 1 to 4"),
         ("# tick_hz=84000000\ntick,motor,position\n9,1,1\n1,1,2\n", "not those of motors 1 to 4"),
     ],

@@ -44,6 +44,8 @@ class SigrokReader:
             raise Failure(
                 f"{path}: its end is missing, so it was cut off; save or copy it once more"
             ) from None
+        except NotImplementedError as error:
+            raise _damaged(path, error) from None
         device = self._device()
         self._sample_hz = hertz(device.get("samplerate", ""))
         self._unit = _number(device.get("unitsize", "1"))
@@ -75,9 +77,7 @@ class SigrokReader:
                 edges.require_room()
                 done, before = done + len(kept), kept[-1:]
         except (BadZipFile, zlib.error, EOFError, RuntimeError, NotImplementedError) as error:
-            raise Failure(
-                f"{self._path}: is damaged ({error}); save or copy it once more"
-            ) from None
+            raise _damaged(self._path, error) from None
         if done == 0:
             raise Failure(f"{self._path}: has no samples; record it once more")
         hz = self._sample_hz
@@ -110,9 +110,7 @@ class SigrokReader:
                 f"{self._path}: is a zip file without {name}, so no session of sigrok; name an .sr"
             ) from None
         except (BadZipFile, zlib.error, EOFError, RuntimeError, NotImplementedError) as error:
-            raise Failure(
-                f"{self._path}: is damaged ({error}); save or copy it once more"
-            ) from None
+            raise _damaged(self._path, error) from None
 
     def _find_parts(self, capture: str) -> list[str]:
         """The names of the parts of the samples, in order; none may be missing."""
@@ -162,6 +160,10 @@ def _add(edges: Edges, masks: dict[str, int], before: Words, words: Words, at: i
     changed = words[where] ^ np.concatenate((before, words))[where]
     for name, mask in masks.items():
         edges.extend(name, where[(changed & changed.dtype.type(mask)) != 0] + at)
+
+
+def _damaged(path: Path, error: Exception) -> Failure:
+    return Failure(f"{path}: is damaged ({error}); save or copy it once more")
 
 
 def _number(text: str) -> int:

@@ -6,6 +6,7 @@ program has written the counter just before. Waveforms have STEP and DIR in whol
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,6 +24,7 @@ TICK_HZ = 84_000_000
 """The timer's rate, which waveforms do not tell."""
 RATE = b"# tick_hz="
 HEAD = b"tick,motor,position"
+ROW = re.compile(rb"-?\d{1,18},-?\d{1,18},-?\d{1,18}")
 FORWARD, BACKWARD, UNKNOWN = 0, 1, -1
 MOTORS = range(1, 5)
 
@@ -77,8 +79,7 @@ def _table(path: Path, part: bytes) -> Ints:
         return np.loadtxt(lines, dtype=np.int64, delimiter=",", ndmin=2, usecols=(0, 1, 2))
     except ValueError:
         for line in lines:
-            cells = line.split(b",")
-            if len(cells) != 3 or not all(c.lstrip(b"-").isdigit() for c in cells):
+            if not ROW.fullmatch(line):
                 shown = line[:40].decode("ascii", "replace")
                 raise Failure(
                     f"{path}: {shown} is no tick,motor,position; write it again"
