@@ -208,6 +208,7 @@ CSV_HEAD = "Time [s],STEP1\n"
         (f"{CSV_HEAD}0,0\n1,1\n0.5,0\n", ":4: the time is not after the one before it"),
         (f"{CSV_HEAD}0,0\n1\n", ":3: is no row of numbers; the file may have been cut off"),
         (f"{CSV_HEAD}0,0\nx,1\n", ":3: is no row of numbers"),
+        (f"{CSV_HEAD}2026-02-30T00:00:00.5,0\n", "has a date that is none (Day out of range"),
         (f"{CSV_HEAD}0,0\n1,3.3\n", ":3: a level is neither 0 nor 1"),
         (f"{CSV_HEAD}0,0\nnan,1\n", ":3: the time is not after"),
         (f"{CSV_HEAD}0,0\n1,1\ninf,0\n2,1\n", ":4: the time is not after"),

@@ -140,7 +140,10 @@ class _Rows:
             if not match:
                 raise Failure(f"{self._path}:{self._line + at}: begins with no date and time")
             cells.append(match[0].decode())
-        times = np.array(cells, dtype="datetime64[ns]")
+        try:
+            times = np.array(cells, dtype="datetime64[ns]")
+        except ValueError as error:
+            raise Failure(f"{self._path}: has a date that is none ({error})") from None
         if self._iso_begin is None:
             self._iso_begin = times[0]
         return np.asarray((times - self._iso_begin).astype(np.int64) * 1e-9, dtype=np.float64)
