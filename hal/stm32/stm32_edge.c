@@ -35,7 +35,6 @@ static void connect_lines(void)
 
 void stm32_edge_start(void)
 {
-    stm32_enable_clock(&RCC_APB2ENR, RCC_APB2ENR_SYSCFGEN);
     connect_lines();
     EXTI_RTSR = INPUT_LINES;
     EXTI_FTSR = INPUT_LINES | STM32_EDGE_START;

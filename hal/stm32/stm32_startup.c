@@ -13,9 +13,12 @@ extern uint32_t stm32_ram_begin[];
 extern uint32_t stm32_ram_end[];
 extern uint32_t stm32_zero_begin[];
 extern uint32_t stm32_zero_end[];
+extern uint32_t stm32_shared_begin[];
+extern uint32_t stm32_shared_end[];
 
 int main(void);
-_Noreturn void stm32_reset(void);
+void stm32_reset(void);
+_Noreturn void stm32_start(void);
 
 enum {
     STACK_PATTERN = 0x5AFE57AC,
@@ -28,6 +31,8 @@ enum {
     EXCEPTION_SYSTICK = 15,
     IRQ_WORDS = (IRQS + 31) / 32,
     LAST_IRQS = (1 << IRQS % 32) - 1, /* of the last word; the rest of it is reserved */
+
+    SRAM1_AT_0 = 3, /* RM0090 9.2.1 */
 
     /* What an STM32F405 has on each bus, by its bits in the reset registers (RM0090 7.3.5 to 7.3.9). */
     ON_AHB1 = 0x206011FF,
@@ -121,14 +126,34 @@ static void start_vectors(void)
     }
     set_vector(EXCEPTIONS + TIM2_IRQ, stm32_step_interrupt);
     set_vector(EXCEPTIONS + STM32_LINE_IRQ, stm32_line_interrupt);
+    /* SRAM1 at address 0, where the handlers are; the read ends when it is there. */
+    SYSCFG_MEMRMP = SRAM1_AT_0;
+    (void)SYSCFG_MEMRMP;
     SCB_VTOR = (uint32_t)(uintptr_t)stm32_vectors;
     stm32_barrier();
+}
+
+/* A boot loader may have switched off the memory with the stack; nothing may be pushed before it is on (RM0090 7.3.10,
+ * 7.3.14; the read-back and the barrier: ES0182, as in stm32_enable_clock). SYSCFG has its clock from here on, too. */
+static_assert(RCC_BASE == 0x40023800U, "stm32_reset has addresses of RCC");
+__attribute__((naked)) void stm32_reset(void)
+{
+    __asm__ volatile("ldr r0, =0x40023830\n\t" /* RCC_AHB1ENR */
+                     "ldr r1, [r0, #0x14]\n\t" /* RCC_APB2ENR */
+                     "orr r1, r1, #0x4000\n\t" /* SYSCFGEN */
+                     "str r1, [r0, #0x14]\n\t"
+                     "ldr r1, [r0]\n\t"
+                     "orr r1, r1, #0x100000\n\t" /* CCMDATARAMEN */
+                     "str r1, [r0]\n\t"
+                     "ldr r1, [r0]\n\t"
+                     "dsb\n\t"
+                     "b stm32_start\n\t");
 }
 
 /* Who comes here without a reset has gone astray; the memory, and the handler in it, is still in use then. The clock
  * comes first, as all the rest then takes a tenth of the time. The stack's pattern shows afterwards how much of it was
  * used. */
-_Noreturn void stm32_reset(void)
+_Noreturn void stm32_start(void)
 {
     assert(SCB_VTOR != (uint32_t)(uintptr_t)stm32_vectors);
     (void)stm32_mask();
@@ -139,6 +164,7 @@ _Noreturn void stm32_reset(void)
     fill(stm32_stack_bottom, here - PAINT_WORDS_LEFT, STACK_PATTERN);
     copy(stm32_ram_begin, stm32_ram_end, stm32_ram_load);
     fill(stm32_zero_begin, stm32_zero_end, 0);
+    fill(stm32_shared_begin, stm32_shared_end, 0);
     stm32_board_clock = clock;
     start_vectors();
     stm32_unmask(0);

@@ -57,7 +57,6 @@
 #define RCC_APB2ENR_TIM1EN (1U << 0)
 #define RCC_APB2ENR_USART1EN (1U << 4)
 #define RCC_APB2ENR_ADC1EN (1U << 8)
-#define RCC_APB2ENR_SYSCFGEN (1U << 14)
 #define RCC_CSR_LSION (1U << 0)
 #define RCC_CSR_LSIRDY (1U << 1)
 #define RCC_CSR_RMVF (1U << 24)
@@ -117,8 +116,9 @@
 #define GPIO_AFRL(port) GPIO_REGISTER(port, 0x20U)  /* 8.4.9 */
 #define GPIO_AFRH(port) GPIO_REGISTER(port, 0x24U)  /* 8.4.10 */
 
-/* Which port has the pin on a line, and the edges of the lines */
+/* What is at address 0; which port has the pin on a line, and the edges of the lines */
 #define SYSCFG_BASE 0x40013800U
+#define SYSCFG_MEMRMP STM32_REGISTER(SYSCFG_BASE + 0x00U)               /* 9.2.1 */
 #define SYSCFG_EXTICR(n) STM32_REGISTER(SYSCFG_BASE + 0x08U + 4U * (n)) /* 9.2.3 to 9.2.6 */
 #define EXTI_BASE 0x40013C00U
 #define EXTI_IMR STM32_REGISTER(EXTI_BASE + 0x00U)  /* 12.3.1 */

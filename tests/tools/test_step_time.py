@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 from rkm04_tools import board, longest, profile, step_time, target_run, virtual_board
-from rkm04_tools.longest import RAM, Facts, Longest, Unknown
+from rkm04_tools.longest import Facts, Longest, Unknown
+from rkm04_tools.objects import RAM_CODE
 from rkm04_tools.target_run import GATE, Move
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -79,7 +80,7 @@ def small(tmp_path_factory) -> Path:
     (folder / "code.s").write_text(CODE)
     image: Path = folder / "code.elf"
     subprocess.run(
-        [board.COMPILER, "-mcpu=cortex-m4", "-nostdlib", "-Wl,-Ttext=0x20000000", "-Wl,-e,plain",
+        [board.COMPILER, "-mcpu=cortex-m4", "-nostdlib", "-Wl,-Ttext=0x400", "-Wl,-e,plain",
          "-o", image, folder / "code.s"],
         check=True,
     )  # fmt: skip
@@ -163,7 +164,7 @@ def too_long(code: step_time.Code, rows: list[profile.Row]) -> list[str]:
     found, by_address = code.longest(step_time.NEVER), {row.address: row for row in rows}
     wrong = []
     for address, function in code.functions.items():
-        prices = found.prices(address) if address in RAM else {}
+        prices = found.prices(address) if address in RAM_CODE else {}
         for start, block in function.blocks.items():
             ran = [by_address[one.address] for one in block if one.address in by_address]
             if ran and sum(row.cycles for row in ran) > ran[0].count * sum(

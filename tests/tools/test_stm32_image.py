@@ -89,8 +89,8 @@ def test_no_path_of_the_machine_is_in_the_image(image):
 
 
 HEADING = "Relocation section '.rel.ram' at offset 0x1 contains 999 entries:"
-GOOD = [HEADING, *["20003de4  00000102 R_ARM_ABS32  20003000   helper"] * ram_code.REFERENCES_MIN]
-ENTRIES = [f"20003000 T {name}" for name in [*ram_code.ENTRIES, *ram_code.UNIT_ENTRIES["rkm04"]]]
+GOOD = [HEADING, *["00003de4  00000102 R_ARM_ABS32  00003000   helper"] * ram_code.REFERENCES_MIN]
+ENTRIES = [f"00003000 T {name}" for name in [*ram_code.ENTRIES, *ram_code.UNIT_ENTRIES["rkm04"]]]
 
 
 def test_good_relocations_have_nothing_wrong():
@@ -101,11 +101,11 @@ def test_good_relocations_have_nothing_wrong():
     ("relocations", "symbols", "complaint"),
     [
         (
-            [*GOOD, "20003c38  0003101e R_ARM_THM_JUMP24       080037a5   far"],
+            [*GOOD, "00003c38  0003101e R_ARM_THM_JUMP24       080037a5   far"],
             ENTRIES,
             "refers to far",
         ),
-        ([*GOOD, "20003c38  0003101e R_ARM_ABS32       08003000   .rodata"], ENTRIES, "to .rodata"),
+        ([*GOOD, "00003c38  0003101e R_ARM_ABS32       08003000   .rodata"], ENTRIES, "to .rodata"),
         (GOOD[:50], ENTRIES, "only 49 relocations"),
         (GOOD, ENTRIES[1:], "stm32_step_interrupt is not in the image"),
         (

@@ -48,6 +48,7 @@ REGISTERS = {
     ("NVIC", "ICPR"): "ICPR0",
     ("NVIC", "IPR"): "IPR0",
     ("SYSCFG", "EXTICR"): "EXTICR1",
+    ("SYSCFG", "MEMRMP"): "MEMRM",
     ("DBG", "IDCODE"): "DBGMCU_IDCODE",
 }
 FIELDS = {

@@ -14,11 +14,10 @@ import re
 import sys
 from collections.abc import Iterator
 
-from rkm04_tools.objects import binutil
+from rkm04_tools.objects import RAM_CODE, binutil
 
 SECTION = ".rel.ram"
 FLASH = range(0x0800_0000, 0x0810_0000)
-RAM = range(0x2000_0000, 0x2002_0000)
 REFERENCES_MIN = 100  # fewer mean that the image was linked without them
 
 # What the vector table has, what interrupts call through a pointer, and what waits for the flash.
@@ -62,7 +61,7 @@ def find_errors(unit: str, relocations: list[str], symbols: list[str]) -> Iterat
     for name in [*ENTRIES, *UNIT_ENTRIES[unit]]:
         if name not in addresses:
             yield f"{name} is not in the image"
-        elif addresses[name] not in RAM:
+        elif addresses[name] not in RAM_CODE:
             yield f"{name} lies in the flash"
 
 

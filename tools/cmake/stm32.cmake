@@ -48,10 +48,12 @@ endif()
 function(firmware_add_image target name library)
     add_executable(${target} ${ARGN})
     set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} SUFFIX .elf LINK_DEPENDS "${script};${unit_script}")
+    set_property(TARGET ${target} PROPERTY sram_data 0)
     target_link_libraries(${target} PRIVATE ${library} hal hal_stm32 warnings)
     # Relocations stay in the image (-q): they tell the checks what refers to what.
     target_link_options(${target} PRIVATE -nostartfiles --specs=nano.specs
-        -Wl,--defsym=stm32_loader_bytes=${loader_bytes} -Wl,--defsym=stm32_stack_bytes=${stack_bytes} -T ${script}
+        -Wl,--defsym=stm32_loader_bytes=${loader_bytes} -Wl,--defsym=stm32_stack_bytes=${stack_bytes}
+        -Wl,--defsym=stm32_sram_data=$<TARGET_PROPERTY:${target},sram_data> -T ${script}
         -L ${PROJECT_SOURCE_DIR}/firmware/${FIRMWARE_UNIT}/image
         -Wl,--gc-sections -Wl,-q -Wl,--fatal-warnings -Wl,-Map=${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name}.map)
 endfunction()
@@ -65,6 +67,7 @@ if(FIRMWARE_UNIT STREQUAL rkm04)
     set(bringup_output ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${bringup})
     file(GLOB bringup_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/hal/stm32/bringup/*.c)
     firmware_add_image(bringup_image ${bringup} engine_step ${bringup_sources})
+    set_property(TARGET bringup_image PROPERTY sram_data 8K) # parts that have less memory are told, not silent
     target_link_libraries(bringup_image PRIVATE base)
     target_include_directories(bringup_image PRIVATE ${PROJECT_SOURCE_DIR}/hal/stm32/boards/${FIRMWARE_BOARD}
         ${PROJECT_SOURCE_DIR}/firmware/${FIRMWARE_UNIT}/image)

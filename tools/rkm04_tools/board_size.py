@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass
 from itertools import pairwise
 from pathlib import Path
 
-from rkm04_tools.objects import Graph, binutil, short
+from rkm04_tools.objects import RAM_CODE, Graph, binutil, short
 from rkm04_tools.tree import ROOT
 
 BUDGETS = ROOT / "hal/stm32/budgets.json"
@@ -64,7 +64,7 @@ RESET_FRAME = 32  # of the code that calls main
 EXCEPTION_FRAME = 36
 
 FLASH = range(0x0800_0000, 0x0802_0000)
-RAM = range(0x2000_0000, 0x2002_0000)
+RAM = (RAM_CODE, range(0x1000_0000, 0x1001_0000), range(0x2000_0000, 0x2002_0000))
 LOADED = (".first_vectors", ".main_only", ".ram", ".text")
 
 
@@ -130,7 +130,7 @@ def sections(image: Path) -> dict[str, tuple[int, int]]:
         name, *rest = line.split() or [""]
         if name.startswith(".") and len(rest) == 2:
             size, address = map(int, rest)
-            if address in FLASH or address in RAM:
+            if any(address in memory for memory in (FLASH, *RAM)):
                 found[name] = (size, address)
     return found
 
@@ -139,7 +139,7 @@ def measure(image: Path, folder: Path, unit: str = "rkm04") -> Sizes:
     found = sections(image)
     return Sizes(
         flash=sum(found[name][0] for name in LOADED),
-        ram=sum(size for size, address in found.values() if address in RAM),
+        ram=sum(size for size, address in found.values() if address not in FLASH),
         stack=sum(stack_parts(call_graph(folder, unit), unit).values()),
     )
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-from rkm04_tools.objects import binutil
+from rkm04_tools.objects import RAM_CODE, binutil
 
 MULTIPLY_ADD, MEMORY = 2, 2
 DIVISION_LEAST, DIVISION_BITS_PER_10 = 2, 32
@@ -28,7 +28,6 @@ BRANCH = re.compile(rf"b({CONDITIONS})?|(cbn?z)")
 RETURN = re.compile(rf"(bx|pop|ldm\w*?)({CONDITIONS})?")
 INDEXED = re.compile(r"\[\w+, *(r\d|ip|lr|sl|fp)")
 PIPELINED = re.compile(r"ldr(s?[bh])?")
-RAM = range(0x2000_0000, 0x2002_0000)
 END = -1
 """Where a return leads."""
 
@@ -201,7 +200,7 @@ class Longest:
             raise Unknown(f"{address:#x}: no function")
         if function.name in self._facts.never:
             return None
-        if address not in RAM:
+        if address not in RAM_CODE:
             raise Unknown(f"{function.name}: not in RAM")
         if address in self._under_way:
             raise Unknown(f"{function.name}: recursion")

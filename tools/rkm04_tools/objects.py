@@ -7,6 +7,9 @@ import subprocess
 from dataclasses import dataclass, field
 from pathlib import Path
 
+RAM_CODE = range(0x200, 0x1_C000)
+"""Where images have code in RAM: hal/stm32/stm32f405.ld."""
+
 CI_FRAME = re.compile(r'node: { title: "([^"]+)" label: "[^"]*\\n(\d+) bytes \(')
 CI_CALL = re.compile(r'edge: { sourcename: "([^"]+)" targetname: "([^"]+)"')
 

@@ -15,8 +15,8 @@ from functools import cache
 from pathlib import Path
 
 from rkm04_tools import board
-from rkm04_tools.longest import RAM, Facts, Longest, Unknown, functions_of
-from rkm04_tools.objects import binutil
+from rkm04_tools.longest import Facts, Longest, Unknown, functions_of
+from rkm04_tools.objects import RAM_CODE, binutil
 from rkm04_tools.target_figures import Figures
 from rkm04_tools.target_run import Model, Rig
 from rkm04_tools.tree import ROOT
@@ -150,7 +150,7 @@ class Code:
             instruction.address
             for function in self.functions.values()
             for instruction in function.code
-            if instruction.address in RAM
+            if instruction.address in RAM_CODE
         ]
         lines = binutil("addr2line", "-f", "-e", image, *map(hex, addresses))
         places = zip(lines[::2], lines[1::2], strict=True)

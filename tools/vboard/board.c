@@ -64,6 +64,7 @@ static void wire_system(struct board *board)
                                              .report = report,
                                              .nvic = &board->nvic,
                                              .conditions = &board->conditions,
+                                             .memory = &board->memory,
                                              .outlet = board_clock_outlet(board),
                                              .crystal_hz = options->crystal_hz,
                                              .has_crystal = !options->no_crystal});
@@ -92,6 +93,8 @@ static void wire_peripherals(struct board *board)
     exti_init(&board->exti,
               (struct exti_wires){.nvic = &board->nvic, .report = report, .mask_first = options->exti_mask_first});
     board->syscfg.exti = &board->exti;
+    board->syscfg.memory = &board->memory;
+    board->syscfg.clock = clock;
     gpio_init(&board->gpio, (struct gpio_wires){.clock = clock,
                                                 .report = report,
                                                 .exti = &board->exti,

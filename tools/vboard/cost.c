@@ -106,12 +106,17 @@ static const cs_arm_op *memory_operand(const cs_insn *instruction)
     return NULL;
 }
 
-static void price_load(struct cost *cost, const cs_insn *instruction, uint32_t address)
+static bool is_literal(const cs_insn *instruction)
 {
     const cs_arm_op *memory = memory_operand(instruction);
+    return memory != NULL && memory->mem.base == ARM_REG_PC;
+}
+
+static void price_load(struct cost *cost, const cs_insn *instruction, bool in_flash)
+{
     cost->cycles = COST_MEMORY;
     cost->flags |= COST_PIPELINED | COST_LOAD;
-    if (memory != NULL && memory->mem.base == ARM_REG_PC && memory_is_flash(address)) {
+    if (in_flash && is_literal(instruction)) {
         cost->flags |= COST_FLASH_DATA;
     }
 }
@@ -125,7 +130,7 @@ static void price_store(struct cost *cost, const cs_insn *instruction)
     cost->flags |= has_index ? COST_PIPELINED : 0;
 }
 
-static bool price_memory(struct cost *cost, const cs_insn *instruction, uint32_t address)
+static bool price_memory(struct cost *cost, const cs_insn *instruction, bool in_flash)
 {
     static const char *const multiples[] = {"ldm", "stm", "push", "pop", "vldm", "vstm", "vpush", "vpop", NULL};
     static const char *const doubles[] = {"ldrd", "strd", NULL};
@@ -137,7 +142,7 @@ static bool price_memory(struct cost *cost, const cs_insn *instruction, uint32_t
     } else if (starts_with_any(instruction, singles)) {
         cost->cycles = COST_MEMORY;
     } else if (starts_with(instruction, "ldr")) {
-        price_load(cost, instruction, address);
+        price_load(cost, instruction, in_flash);
     } else if (starts_with(instruction, "str")) {
         price_store(cost, instruction);
     } else {
@@ -239,7 +244,7 @@ static void price(struct cost_table *table, struct memory *memory, struct cost *
                   uint32_t address, uint32_t previous)
 {
     bool is_float = instruction->mnemonic[0] == 'v';
-    bool is_memory = price_memory(cost, instruction, address);
+    bool is_memory = price_memory(cost, instruction, memory_is_flash(memory, address));
     if (is_float) {
         if (!is_memory) {
             price_float(cost, instruction);
@@ -255,11 +260,15 @@ static void price(struct cost_table *table, struct memory *memory, struct cost *
     }
 }
 
-/* The next instruction waits while this one has the bus for its data. */
-static bool is_slowed(const struct cost_table *table, const cs_insn *instruction, uint32_t address)
+/* The next instruction waits while this one has the bus for its data, or, where instructions have a bus of their own,
+ * at address 0, the memory: that has literals alone. */
+static bool is_slowed(const struct cost_table *table, const struct memory *memory, const cs_insn *instruction,
+                      uint32_t address)
 {
     struct cost unused = {.cycles = 0};
-    return table->shared_bus && !memory_is_flash(address) && price_memory(&unused, instruction, address);
+    bool in_ram = !memory_is_flash(memory, address);
+    bool shares = address >= MEMORY_SRAM_BASE ? price_memory(&unused, instruction, false) : is_literal(instruction);
+    return table->shared_bus && in_ram && shares;
 }
 
 void cost_decode(struct cost_table *table, struct memory *memory, uint32_t address, uint32_t previous)
@@ -272,7 +281,7 @@ void cost_decode(struct cost_table *table, struct memory *memory, uint32_t addre
     if (code != NULL && code[1] == 0xBF && (code[0] & 0xFU) != 0) {
         open_block(table, &cost, code, address);
     } else if (instruction != NULL) {
-        unsigned more = is_slowed(table, instruction, address) ? 1U : 0U;
+        unsigned more = is_slowed(table, memory, instruction, address) ? 1U : 0U;
         price(table, memory, &cost, instruction, address, previous);
         cost.cycles = (uint8_t)(cost.cycles + more);
     }

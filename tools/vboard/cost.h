@@ -10,9 +10,9 @@
 
 #include "memory.h"
 
-/* Regions of code: the flash with its alias at 0, and the SRAM; bit 29 of an address tells which. */
+/* Regions of code: what is at address 0, the flash, the SRAM; bits 27 and 29 of an address tell which. */
 enum {
-    COST_REGIONS = 2,
+    COST_REGIONS = 3,
     COST_REGION_HALFWORDS = 0x80000,
 };
 
@@ -60,7 +60,7 @@ struct cost_table {
     void *instruction;                /* its buffer */
     uint32_t end_address;             /* where the run ends; odd: nowhere */
     uint32_t hold_address;            /* where a fault holds the processor; odd: nowhere */
-    bool shared_bus;                  /* code in RAM is fetched by the bus that has its data */
+    bool shared_bus;                  /* code in RAM waits for data from where it is fetched */
 };
 
 bool cost_init(struct cost_table *table);
@@ -69,9 +69,14 @@ void cost_discard(struct cost_table *table);
 /* Forgets everything, for instance because memory with code has changed. */
 void cost_forget(struct cost_table *table);
 
+static inline unsigned cost_region(uint32_t address)
+{
+    return (address >> 27 & 1U) | (address >> 28 & 2U);
+}
+
 static inline struct cost *cost_find(const struct cost_table *table, uint32_t address)
 {
-    return &table->entry[address >> 29 & 1U][(address & 0xFFFFFU) >> 1];
+    return &table->entry[cost_region(address)][(address & 0xFFFFFU) >> 1];
 }
 
 /* Decodes the instruction at `address`. `previous` is the one before it if control came in line, else odd. */

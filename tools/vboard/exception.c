@@ -75,7 +75,7 @@ static bool push_frame(struct exceptions *exceptions, uint32_t return_address, u
                   (in_thread && (control & CONTROL_SPSEL) != 0 ? RETURN_TO_PSP : 0);
     uint8_t *frame = memory_find(exceptions->memory, frame_sp, words * WORD_BYTES);
     cpu_write(cpu, UC_ARM_REG_SP, frame_sp);
-    if (frame == NULL || memory_is_flash(frame_sp)) {
+    if (frame == NULL || memory_is_flash(exceptions->memory, frame_sp)) {
         return false;
     }
     for (unsigned i = 0; i < FRAME_REGISTERS; i++) {

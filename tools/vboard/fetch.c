@@ -12,12 +12,12 @@ static bool is_cached(struct fetch *fetch, uint32_t address)
 
 uint32_t fetch_jump(struct fetch *fetch, uint32_t address)
 {
-    bool in_flash = memory_is_flash(address);
+    bool in_flash = memory_is_flash(fetch->flash->wires.memory, address);
     uint32_t wait = in_flash && !is_cached(fetch, address) ? fetch->flash->wait_states : 0;
     fetch->line_mask = in_flash ? LINE_MASK : 0;
     fetch->line = address & fetch->line_mask;
     fetch->line_cycle = fetch->clock->now + wait;
-    return wait + (!in_flash && fetch->shared_bus ? 1U : 0U);
+    return wait + (fetch->shared_bus && address >= MEMORY_SRAM_BASE ? 1U : 0U);
 }
 
 /* The prefetch has begun to read the line when the one before was there. */

@@ -148,7 +148,7 @@ bool flash_prefetch_is_on(const struct flash *flash)
 void flash_stall(struct flash *flash, uint32_t address)
 {
     struct clock *clock = flash->wires.clock;
-    if (!memory_is_flash(address) || !flash_is_busy(flash)) {
+    if (!memory_is_flash(flash->wires.memory, address) || !flash_is_busy(flash)) {
         return;
     }
     uint64_t done = clock->source[EVENT_FLASH].due;

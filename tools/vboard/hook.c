@@ -181,11 +181,11 @@ static bool on_bad_access(uc_engine *engine, uc_mem_type type, uint64_t address,
     struct board *board = user;
     struct cpu *cpu = &board->cpu;
     (void)engine;
-    if (type == UC_MEM_WRITE_PROT && memory_is_flash((uint32_t)address)) {
+    if (type == UC_MEM_WRITE_PROT && memory_is_flash(&board->memory, (uint32_t)address)) {
         flash_write(&board->flash, (uint32_t)address, (unsigned)size, (uint32_t)value);
         return true;
     }
-    if (type == UC_MEM_READ_PROT && memory_is_flash((uint32_t)address)) {
+    if (type == UC_MEM_READ_PROT && memory_is_flash(&board->memory, (uint32_t)address)) {
         flash_stall(&board->flash, (uint32_t)address);
         flash_check_read(&board->flash, (uint32_t)address);
         return true;

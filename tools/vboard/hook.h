@@ -17,7 +17,8 @@ bool hook_add_all(struct board *board);
 static inline bool hook_wants_stop(const struct board *board)
 {
     return board->report.end != REPORT_RUNS || board->reset.wanted != RESET_NONE || board->faults.due > 0 ||
-           board->flash.code_changed || flash_watches_reads(&board->flash) != board->flash.read_protected;
+           board->memory.changed || board->flash.code_changed ||
+           flash_watches_reads(&board->flash) != board->flash.read_protected;
 }
 
 #endif

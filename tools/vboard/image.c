@@ -63,13 +63,13 @@ static void note_sections(struct image *image, const Elf32_Ehdr *header)
 }
 
 /* Where the flash holds something of the program first; 0: nowhere. */
-static uint32_t find_begin(const struct image *image, const Elf32_Ehdr *header)
+static uint32_t find_begin(const struct image *image, const struct memory *memory, const Elf32_Ehdr *header)
 {
     uint32_t begin = 0;
     for (unsigned i = 0; i < header->e_phnum; i++) {
         Elf32_Phdr segment;
         bool there = copy_out(image, header->e_phoff + (uint64_t)i * header->e_phentsize, &segment, sizeof segment) &&
-                     segment.p_type == PT_LOAD && segment.p_filesz > 0 && memory_is_flash(segment.p_paddr);
+                     segment.p_type == PT_LOAD && segment.p_filesz > 0 && memory_is_flash(memory, segment.p_paddr);
         if (there && (begin == 0 || segment.p_paddr < begin)) {
             begin = segment.p_paddr;
         }
@@ -81,7 +81,7 @@ static uint32_t find_begin(const struct image *image, const Elf32_Ehdr *header)
  * first instruction are those of the program. */
 static void put_loader(const struct image *image, struct memory *memory, const Elf32_Ehdr *header)
 {
-    uint32_t begin = find_begin(image, header);
+    uint32_t begin = find_begin(image, memory, header);
     if (begin > MEMORY_FLASH_BASE) {
         memcpy(memory_find(memory, MEMORY_FLASH_BASE, VECTORS_BYTES), memory_find(memory, begin, VECTORS_BYTES),
                VECTORS_BYTES);
@@ -197,7 +197,7 @@ bool image_set(const struct image *image, struct memory *memory, const char *tex
     }
     memcpy(name, text, length);
     bool known = image_find_symbol(image, name, &address, &bytes);
-    uint8_t *to = known && memory_is_flash(address) ? memory_find(memory, address, bytes) : NULL;
+    uint8_t *to = known && memory_is_flash(memory, address) ? memory_find(memory, address, bytes) : NULL;
     if (to == NULL) {
         complain("--set %s: the program has no such constant", name);
         return false;

@@ -30,10 +30,16 @@ static bool map(uc_engine *engine, uint32_t base, uint32_t bytes, uint32_t right
            uc_mem_protect(engine, base, bytes, rights) == UC_ERR_OK;
 }
 
+static bool map_at_0(const struct memory *memory, uc_engine *engine)
+{
+    return memory->sram_at_0 ? map(engine, 0, MEMORY_SRAM1_BYTES, UC_PROT_ALL, memory->sram)
+                             : map(engine, 0, memory->flash_bytes, UC_PROT_READ | UC_PROT_EXEC, memory->flash);
+}
+
 static bool map_all(const struct memory *memory, uc_engine *engine)
 {
     /* The CCM RAM hangs on the data bus only: nothing can be executed from it (section 2.3.1). */
-    return map(engine, 0, memory->flash_bytes, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
+    return map_at_0(memory, engine) &&
            map(engine, MEMORY_FLASH_BASE, memory->flash_bytes, UC_PROT_READ | UC_PROT_EXEC, memory->flash) &&
            map(engine, MEMORY_CCM_BASE, MEMORY_CCM_BYTES, UC_PROT_READ | UC_PROT_WRITE, memory->ccm) &&
            map(engine, MEMORY_SYSTEM_BASE, MEMORY_PAGE_BYTES, UC_PROT_READ, memory->system) &&
@@ -55,6 +61,28 @@ bool memory_init(struct memory *memory, uc_engine *engine, uint32_t flash_kb, ui
     fill_system_area(memory, flash_kb, calibration);
     memory->flash_bytes = flash_kb * 1024U;
     return map_all(memory, engine);
+}
+
+void memory_put_at_0(struct memory *memory, bool sram)
+{
+    memory->changed = memory->changed || memory->sram_at_0 != sram;
+    memory->sram_at_0 = sram;
+}
+
+void memory_switch_ccm(struct memory *memory, bool on)
+{
+    memory->changed = memory->changed || memory->ccm_is_off == on;
+    memory->ccm_is_off = !on;
+}
+
+bool memory_map_again(struct memory *memory, uc_engine *engine)
+{
+    uint32_t before = memory->sram_seen_at_0 ? MEMORY_SRAM1_BYTES : memory->flash_bytes;
+    uint32_t ccm_rights = memory->ccm_is_off ? UC_PROT_NONE : UC_PROT_READ | UC_PROT_WRITE;
+    memory->changed = false;
+    memory->sram_seen_at_0 = memory->sram_at_0;
+    return uc_mem_unmap(engine, 0, before) == UC_ERR_OK && map_at_0(memory, engine) &&
+           uc_mem_protect(engine, MEMORY_CCM_BASE, MEMORY_CCM_BYTES, ccm_rights) == UC_ERR_OK;
 }
 
 void memory_forget(struct memory *memory)
@@ -84,11 +112,12 @@ uint8_t *memory_find(struct memory *memory, uint32_t address, uint32_t bytes)
     if (found == NULL) {
         found = inside(memory->flash, MEMORY_FLASH_BASE, MEMORY_FLASH_BYTES, address, bytes);
     }
-    if (found == NULL) {
+    if (found == NULL && !memory->ccm_is_off) {
         found = inside(memory->ccm, MEMORY_CCM_BASE, MEMORY_CCM_BYTES, address, bytes);
     }
     if (found == NULL) {
-        found = inside(memory->flash, 0, MEMORY_FLASH_BYTES, address, bytes);
+        found = memory->sram_at_0 ? inside(memory->sram, 0, MEMORY_SRAM1_BYTES, address, bytes)
+                                  : inside(memory->flash, 0, MEMORY_FLASH_BYTES, address, bytes);
     }
     return found;
 }

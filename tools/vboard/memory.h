@@ -17,6 +17,7 @@
 #define MEMORY_PAGE_BYTES UINT32_C(0x1000)
 #define MEMORY_SRAM_BASE UINT32_C(0x20000000)
 #define MEMORY_SRAM_BYTES UINT32_C(0x20000)
+#define MEMORY_SRAM1_BYTES UINT32_C(0x1C000) /* of them, which can be seen at address 0, too */
 
 /* What the RAM holds at power-on, so that use of what was never written shows and the stack can be measured. */
 #define MEMORY_UNTOUCHED UINT8_C(0xA5)
@@ -28,7 +29,19 @@ struct memory {
     uint8_t *sram;
     uint8_t *system;
     uint8_t *options;
+    bool sram_at_0;      /* else the flash is (section 2.4) */
+    bool sram_seen_at_0; /* by Unicorn */
+    bool ccm_is_off;     /* its clock is (section 7.3.10): an access leads nowhere */
+    bool changed;        /* which Unicorn does not know yet */
 };
+
+/* Another memory is at address 0 from the next instruction on. */
+void memory_put_at_0(struct memory *memory, bool sram);
+
+void memory_switch_ccm(struct memory *memory, bool on);
+
+/* Tells Unicorn what has changed; not while it runs. */
+bool memory_map_again(struct memory *memory, uc_engine *engine);
 
 /* The RAM holds what it does at power-on. */
 void memory_forget(struct memory *memory);
@@ -44,9 +57,9 @@ uint8_t *memory_find(struct memory *memory, uint32_t address, uint32_t bytes);
 /* Word of any memory, little-endian; false if there is none. */
 bool memory_read_word(struct memory *memory, uint32_t address, uint32_t *word);
 
-static inline bool memory_is_flash(uint32_t address)
+static inline bool memory_is_flash(const struct memory *memory, uint32_t address)
 {
-    return address - MEMORY_FLASH_BASE < MEMORY_FLASH_BYTES || address < MEMORY_FLASH_BYTES;
+    return address - MEMORY_FLASH_BASE < MEMORY_FLASH_BYTES || (!memory->sram_at_0 && address < MEMORY_FLASH_BYTES);
 }
 
 #endif

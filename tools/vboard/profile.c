@@ -8,12 +8,11 @@
 
 enum {
     LINE_BYTES_MAX = 128,
-    REGION_SHIFT = 29,
     REGION_MASK = 0xFFFFF, /* of an address in its region */
     HEX_DIGITS = 8,
 };
 
-static const uint32_t region_base[COST_REGIONS] = {MEMORY_FLASH_BASE, MEMORY_SRAM_BASE};
+static const uint32_t region_base[COST_REGIONS] = {0, MEMORY_FLASH_BASE, MEMORY_SRAM_BASE};
 
 static struct profile_table *present_table(struct profile *profile)
 {
@@ -24,7 +23,7 @@ static struct profile_table *present_table(struct profile *profile)
 /* The row of an instruction, in memory that is taken when it is first wanted. Null if there is none. */
 static struct profile_row *find_row(struct profile_table *table, uint32_t address)
 {
-    struct profile_row **rows = &table->code[address >> REGION_SHIFT & 1U];
+    struct profile_row **rows = &table->code[cost_region(address)];
     if (*rows == NULL) {
         *rows = calloc(COST_REGION_HALFWORDS, sizeof **rows);
     }

@@ -29,6 +29,7 @@ enum {
 #define CR_WRITABLE (CR_HSION | (UINT32_C(0x1F) << 3) | CR_HSEON | CR_HSEBYP | CR_CSSON | CR_PLLON | CR_PLLI2SON)
 #define CR_RESET (CR_HSION | UINT32_C(0x80))
 #define PLLCFGR_RESET UINT32_C(0x24003010)
+#define AHB1ENR_CCM (UINT32_C(1) << 20) /* the core-coupled memory */
 #define CIR_CSSF (UINT32_C(1) << 7)
 #define CIR_CSSC (UINT32_C(1) << 23)
 #define CIR_ENABLES UINT32_C(0x3F00)
@@ -223,6 +224,12 @@ bool rcc_is_held(const struct rcc *rcc, uint32_t offset, unsigned bit)
     return offset != 0 && (rcc->word[(offset - (RCC_AHB1ENR - RCC_AHB1RSTR)) / 4U] >> bit & 1U) != 0;
 }
 
+static void switch_ccm(struct rcc *rcc)
+{
+    memory_switch_ccm(rcc->wires.memory, (*word(rcc, RCC_AHB1ENR) & AHB1ENR_CCM) != 0);
+    clock_poke(rcc->wires.clock);
+}
+
 static void write_enable(struct rcc *rcc, uint32_t offset, uint32_t value)
 {
     const uint32_t delays[RCC_ENABLES] = {ENABLE_CYCLES_AHB, ENABLE_CYCLES_APB + rcc->wires.conditions->pclk1_divider,
@@ -230,6 +237,9 @@ static void write_enable(struct rcc *rcc, uint32_t offset, uint32_t value)
     unsigned index = enable_index(offset);
     uint32_t fresh = value & ~*word(rcc, offset);
     *word(rcc, offset) = value;
+    if (offset == RCC_AHB1ENR) {
+        switch_ccm(rcc);
+    }
     if (fresh != 0) {
         uint32_t coming = rcc->wires.clock->now < rcc->enabled[index].cycle ? rcc->enabled[index].bits : 0U;
         rcc->enabled[index].bits = coming | fresh;
@@ -246,7 +256,9 @@ void rcc_run_from_pll(struct rcc *rcc)
     *word(rcc, RCC_PLLCFGR) = m | 120U << 6 | 1U << 16 | (from_crystal ? RCC_PLLCFGR_HSE : 0U) | 5U << 24;
     *word(rcc, RCC_CR) |= CR_PLLON | CR_PLLI2SON | (from_crystal ? CR_HSEON | CR_CSSON : 0U);
     *word(rcc, RCC_CFGR) = RCC_SOURCE_PLL | 4U << 10;
+    *word(rcc, RCC_AHB1ENR) = 0;
     *word(rcc, RCC_APB2ENR) = UINT32_C(1) << 4;
+    switch_ccm(rcc);
     rcc->hse_ready_ps = from_crystal ? now : VTIME_NEVER;
     rcc->pll_ready_ps = now;
     update_switch(rcc);
@@ -279,7 +291,8 @@ void rcc_reset(struct rcc *rcc, enum reset_cause cause)
     rcc->crystal_failed = failed;
     *word(rcc, RCC_CR) = CR_RESET;
     *word(rcc, RCC_PLLCFGR) = PLLCFGR_RESET;
-    *word(rcc, RCC_AHB1ENR) = UINT32_C(1) << 20; /* CCM RAM */
+    *word(rcc, RCC_AHB1ENR) = AHB1ENR_CCM;
+    switch_ccm(rcc);
     *word(rcc, RCC_AHB1LPENR) = UINT32_C(0x7E6791FF);
     *word(rcc, 0x54) = UINT32_C(0x000000F1);
     *word(rcc, 0x58) = UINT32_C(0x00000001);

@@ -10,6 +10,7 @@
 
 #include "clock.h"
 #include "conditions.h"
+#include "memory.h"
 #include "nvic.h"
 #include "report.h"
 #include "reset.h"
@@ -51,6 +52,7 @@ struct rcc_wires {
     struct report *report;
     struct nvic *nvic;
     struct conditions *conditions;
+    struct memory *memory;
     struct rcc_outlet outlet;
     uint64_t crystal_hz;
     bool has_crystal;

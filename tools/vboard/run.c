@@ -33,22 +33,43 @@ static void drop_translations(uc_engine *engine)
 #endif
 }
 
-/* Makes Unicorn report reads of the flash while something is to be done about them. */
-static void update_protection(struct board *board)
+/* Makes Unicorn report reads of the flash, wherever it is. */
+static void protect_flash(struct board *board)
+{
+    uc_engine *engine = board->cpu.engine;
+    uint32_t rights = board->flash.read_protected ? UC_PROT_EXEC : UC_PROT_READ | UC_PROT_EXEC;
+    (void)uc_mem_protect(engine, MEMORY_FLASH_BASE, board->memory.flash_bytes, rights);
+    if (!board->memory.sram_at_0) {
+        (void)uc_mem_protect(engine, 0, board->memory.flash_bytes, rights);
+    }
+    drop_address_cache(engine);
+}
+
+static void map_again(struct board *board)
+{
+    if (!memory_map_again(&board->memory, board->cpu.engine)) {
+        report_fail(&board->report, "the emulator cannot map the memories again");
+    }
+    cost_forget(&board->cpu.cost);
+    drop_translations(board->cpu.engine);
+    protect_flash(board);
+}
+
+/* What an instruction has changed that Unicorn must know of. */
+static void update_memory(struct board *board)
 {
     struct flash *flash = &board->flash;
-    uc_engine *engine = board->cpu.engine;
+    if (board->memory.changed) {
+        map_again(board);
+    }
     if (flash->code_changed) {
         flash->code_changed = false;
         cost_forget(&board->cpu.cost);
-        drop_translations(engine);
+        drop_translations(board->cpu.engine);
     }
     if (flash_watches_reads(flash) != flash->read_protected) {
         flash->read_protected = flash_watches_reads(flash);
-        uint32_t rights = flash->read_protected ? UC_PROT_EXEC : UC_PROT_READ | UC_PROT_EXEC;
-        (void)uc_mem_protect(engine, MEMORY_FLASH_BASE, board->memory.flash_bytes, rights);
-        (void)uc_mem_protect(engine, 0, board->memory.flash_bytes, rights);
-        drop_address_cache(engine);
+        protect_flash(board);
     }
 }
 
@@ -190,7 +211,7 @@ static void run_stretch(struct board *board)
 {
     struct cpu *cpu = &board->cpu;
     faults_apply(&board->faults);
-    update_protection(board);
+    update_memory(board);
     cpu->stop = CPU_RUNS;
     cpu->counted_all = false;
     cpu->last = 0;

@@ -6,18 +6,32 @@ enum {
     SYSCFG_EXTICR1 = 0x08,
     SYSCFG_EXTICR4 = 0x14,
     EXTICR_BITS = 16,
+    MEM_MODE_FLASH = 0,
+    MEM_MODE_SRAM1 = 3,
 };
+
+/* Section 9.2.1; the system memory and the bus of external memories at address 0 are not modelled. */
+static bool remap(struct syscfg *syscfg, uint32_t mode)
+{
+    syscfg->memrmp = mode;
+    memory_put_at_0(syscfg->memory, mode == MEM_MODE_SRAM1);
+    clock_poke(syscfg->clock);
+    return mode == MEM_MODE_FLASH || mode == MEM_MODE_SRAM1;
+}
 
 void syscfg_reset(struct syscfg *syscfg)
 {
-    *syscfg = (struct syscfg){.exti = syscfg->exti};
+    *syscfg = (struct syscfg){.exti = syscfg->exti, .memory = syscfg->memory, .clock = syscfg->clock};
+    (void)remap(syscfg, MEM_MODE_FLASH);
 }
 
 bool syscfg_read(void *model, uint32_t offset, uint32_t *value)
 {
     struct syscfg *syscfg = model;
     *value = 0;
-    if (offset == SYSCFG_PMC) {
+    if (offset == SYSCFG_MEMRMP) {
+        *value = syscfg->memrmp;
+    } else if (offset == SYSCFG_PMC) {
         *value = syscfg->pmc;
     } else if (offset >= SYSCFG_EXTICR1 && offset <= SYSCFG_EXTICR4) {
         *value = syscfg->exticr[(offset - SYSCFG_EXTICR1) / 4U];
@@ -35,12 +49,11 @@ static void route_lines(struct syscfg *syscfg)
     exti_route(syscfg->exti, ports);
 }
 
-/* Another memory at address 0 is not modelled. */
 bool syscfg_write(void *model, uint32_t offset, uint32_t value, uint32_t mask)
 {
     struct syscfg *syscfg = model;
     if (offset == SYSCFG_MEMRMP) {
-        return (value & mask) == 0;
+        return remap(syscfg, (syscfg->memrmp & ~mask) | (value & mask));
     }
     if (offset > SYSCFG_EXTICR4) {
         return false;

@@ -1,5 +1,6 @@
 /*
- * System configuration (RM0090 chapter 9), which is little more than registers here: it puts pins on the lines of EXTI.
+ * System configuration (RM0090 chapter 9), which is little more than registers here: it puts pins on the lines of EXTI,
+ * and SRAM1 at address 0.
  */
 #ifndef SYSCFG_H
 #define SYSCFG_H
@@ -7,7 +8,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "clock.h"
 #include "exti.h"
+#include "memory.h"
 
 enum {
     SYSCFG_EXTICRS = 4
@@ -15,6 +18,9 @@ enum {
 
 struct syscfg {
     struct exti *exti;
+    struct memory *memory;
+    struct clock *clock;
+    uint32_t memrmp;
     uint32_t pmc;
     uint16_t exticr[SYSCFG_EXTICRS];
 };

@@ -3,6 +3,8 @@
  * table that is put into the flash from outside, through the engine's other door. The line is served meanwhile. For the
  * virtual board: `tools/rkm04 bench --target stm32` writes the table and reads the report.
  */
+#include <string.h>
+
 #include "group.h"
 #include "hal_board.h"
 #include "hal_run.h"
@@ -58,7 +60,6 @@ struct path_bench_report path_bench_report;
 void path_bench_done(void);
 
 struct bench {
-    struct rkm04 unit;
     struct group group;
     struct path_section ring[RING];
     struct step_channel channel[UNIT_MOTORS];
@@ -68,6 +69,9 @@ struct bench {
 };
 
 static struct bench bench;
+
+/* The memory of all else has no room for it. It holds what the start found there. */
+static struct rkm04 unit __attribute__((section(".sram1")));
 
 /* The table as it is in the flash, not as the compiler knows it. */
 static const struct path_bench_table *table(void)
@@ -174,7 +178,7 @@ static void act(uint64_t now)
 static uint64_t pass(void)
 {
     uint64_t begin = hal_time_now();
-    uint64_t wake = rkm04_poll(&bench.unit);
+    uint64_t wake = rkm04_poll(&unit);
     add_vectors();
     act(begin);
     uint64_t group = group_poll(&bench.group);
@@ -194,15 +198,16 @@ static void report(void)
 
 static void start(void)
 {
-    rkm04_init(&bench.unit);
+    memset(&unit, 0, sizeof unit);
+    rkm04_init(&unit);
     group_init(&bench.group, bench.ring, RING);
     for (unsigned motor = 0; motor < UNIT_MOTORS; motor++) {
         step_channel_init(&bench.channel[motor], motor);
         group_connect(&bench.group, motor, &bench.channel[motor], motor);
     }
-    bench.unit.client = (struct hal_client){
+    unit.client = (struct hal_client){
         .lay_isr = path_bench_lay_isr, .tick_isr = path_bench_tick_isr, .plan_isr = path_bench_plan_isr};
-    rkm04_start(&bench.unit);
+    rkm04_start(&unit);
     uint64_t ready = hal_time_now() + AHEAD_TICKS;
     while (hal_time_now() < ready) {
         hal_board_idle(pass());
@@ -220,6 +225,6 @@ int main(void)
     }
     report();
     for (;;) {
-        hal_board_idle(rkm04_poll(&bench.unit));
+        hal_board_idle(rkm04_poll(&unit));
     }
 }
