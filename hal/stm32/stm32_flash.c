@@ -77,7 +77,8 @@ static void lock(void)
     FLASH_CR = FLASH_CR_LOCK;
 }
 
-/* What the data cache still holds of an area that was erased is wrong (RM0090 3.5.2). It is cleared while off. */
+/* What the data cache still holds of an area that was erased is wrong. Of a word that was written it has what that
+ * should be, whatever the flash has taken (RM0090 3.6.4). It is cleared while off. */
 static void forget_cached(void)
 {
     uint32_t access = FLASH_ACR;
@@ -133,6 +134,7 @@ bool hal_flash_write_word(unsigned area, uint32_t offset, const uint8_t bytes[HA
         done = wait_until_done(WRITE_TICKS_MAX);
     }
     lock();
+    forget_cached();
     return done && *word == value;
 }
 

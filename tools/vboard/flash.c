@@ -1,6 +1,6 @@
 #include "flash.h"
 
-#include <string.h>
+#include "flash_outcome.h"
 
 enum {
     FLASH_ACR = 0x00,
@@ -99,7 +99,7 @@ static void set_acr(struct flash *flash, uint32_t acr)
 {
     uint32_t latency = acr & ACR_LATENCY;
     flash->acr = acr;
-    flash->stale.cached = flash->stale.cached || (acr & ACR_DCEN) != 0;
+    stale_look_through_cache(&flash->stale, flash->wires.memory->flash, (acr & ACR_DCEN) != 0);
     flash->wires.conditions->flash_latency = latency;
     flash->wait_states = flash->wires.wait_states < 0 ? latency : (uint32_t)flash->wires.wait_states;
 }
@@ -118,7 +118,7 @@ void flash_leave_unlocked(struct flash *flash)
 
 void flash_reset(struct flash *flash)
 {
-    flash->stale = (struct stale){.cached = false};
+    stale_forget(&flash->stale, flash->wires.memory->flash);
     set_acr(flash, 0);
     flash->sr = 0;
     flash->cr = CR_LOCK;
@@ -208,64 +208,10 @@ static void begin(struct flash *flash, enum flash_operation operation, uint64_t 
     clock_poke(flash->wires.clock);
 }
 
-/* Whether anything in a range of the flash has been executed. */
-static bool was_executed(const struct flash *flash, uint32_t offset, uint32_t bytes)
-{
-    for (uint32_t at = offset; at < offset + bytes; at += 2) {
-        if (cost_find(flash->wires.costs, MEMORY_FLASH_BASE + at)->kind != COST_UNKNOWN) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static uint8_t after(const struct flash *flash, uint32_t index, uint8_t before)
-{
-    if (flash->operation == FLASH_ERASE) {
-        return UINT8_MAX;
-    }
-    return (uint8_t)(before & (uint32_t)(flash->value >> 8U * index) & UINT8_MAX);
-}
-
-static void change(struct flash *flash, uint32_t bytes)
-{
-    uint8_t *at = flash->wires.memory->flash + flash->address;
-    for (uint32_t i = 0; i < bytes; i++) {
-        at[i] = after(flash, i, at[i]);
-    }
-    flash->code_changed |= was_executed(flash, flash->address, bytes);
-}
-
-/* Of the bits that were to change some have and some have not (xorshift32). */
-static void change_some(struct flash *flash, uint32_t seed)
-{
-    uint8_t *at = flash->wires.memory->flash + flash->address;
-    uint32_t random = (seed + 1U) * UINT32_C(2654435761) | 1U;
-    for (uint32_t i = 0; i < flash->bytes; i++) {
-        random ^= random << 13;
-        random ^= random >> 17;
-        random ^= random << 5;
-        at[i] = (uint8_t)(at[i] ^ ((at[i] ^ after(flash, i, at[i])) & random >> 11));
-    }
-    flash->code_changed |= was_executed(flash, flash->address, flash->bytes);
-}
-
-static void change_all_but_one_bit(struct flash *flash)
-{
-    uint8_t *at = flash->wires.memory->flash + flash->address;
-    uint32_t place = 0;
-    while (place + 1U < flash->bytes && at[place] == after(flash, place, at[place])) {
-        place++;
-    }
-    uint32_t differs = at[place] ^ after(flash, place, at[place]);
-    change(flash, flash->bytes);
-    at[place] ^= (uint8_t)(differs & (0U - differs));
-}
-
 static void fail(struct flash *flash)
 {
     if (flash->wires.settings->bit) {
-        change_all_but_one_bit(flash);
+        flash_change_all_but_one_bit(flash);
     }
     if (flash->wires.settings->error != 0) {
         set_error(flash, flash->wires.settings->error);
@@ -279,9 +225,9 @@ void flash_cut(struct flash *flash)
         return;
     }
     if (leaves >= (uint32_t)FLASH_CUT_SEED) {
-        change_some(flash, leaves - (uint32_t)FLASH_CUT_SEED);
+        flash_change_some(flash, leaves - (uint32_t)FLASH_CUT_SEED);
     } else if (leaves != (uint32_t)FLASH_CUT_NOTHING) {
-        change(flash, leaves == (uint32_t)FLASH_CUT_ALL ? flash->bytes : flash->bytes / 2U);
+        flash_change(flash, leaves == (uint32_t)FLASH_CUT_ALL ? flash->bytes : flash->bytes / 2U);
     }
     flash->operation = FLASH_IDLE;
 }
@@ -297,13 +243,8 @@ static void lose_power(struct flash *flash)
     }
 }
 
-static void on_flash_event(void *model, uint64_t cycle)
+static void take_effect(struct flash *flash)
 {
-    struct flash *flash = model;
-    (void)cycle;
-    if (flash->operation == FLASH_ERASE) {
-        stale_note_erase(&flash->stale, flash->address, flash->bytes);
-    }
     if (flash->cut != NULL) {
         lose_power(flash);
     } else if (flash->operation == FLASH_OPTIONS) {
@@ -312,11 +253,33 @@ static void on_flash_event(void *model, uint64_t cycle)
     } else if (flash->fails) {
         fail(flash);
     } else if (flash->weak) {
-        change_some(flash, flash->weakened);
+        flash_change_some(flash, flash->weakened);
     } else {
-        change(flash, flash->bytes);
+        flash_change(flash, flash->bytes);
         flash->sr |= (flash->cr & CR_EOPIE) != 0 ? SR_EOP : 0U;
     }
+}
+
+static void on_flash_event(void *model, uint64_t cycle)
+{
+    struct flash *flash = model;
+    uint8_t *memory = flash->wires.memory->flash;
+    struct stale_word word = {.offset = flash->address, .bytes = flash->bytes};
+    (void)cycle;
+    stale_look_through_cache(&flash->stale, memory, false);
+    if (flash->operation == FLASH_ERASE) {
+        stale_note_erase(&flash->stale, flash->address, flash->bytes);
+        take_effect(flash);
+    } else if (flash->operation == FLASH_PROGRAM) {
+        for (uint32_t i = 0; i < flash->bytes; i++) {
+            word.seems[i] = flash_after(flash, i, memory[flash->address + i]);
+        }
+        take_effect(flash);
+        stale_note_program(&flash->stale, memory, &word);
+    } else {
+        take_effect(flash);
+    }
+    stale_look_through_cache(&flash->stale, memory, flash_data_cache_is_on(flash));
     flash->operation = FLASH_IDLE;
     flash->cr &= ~CR_STRT;
     update_interrupt(flash);
@@ -437,7 +400,7 @@ static void write_acr(struct flash *flash, uint32_t value)
         report_fail(flash->wires.report, "FLASH_ACR: a cache is reset while it is on (RM0090 3.9.1)");
     }
     if ((value & ACR_DCRST) != 0) {
-        flash->stale = (struct stale){.cached = false};
+        stale_forget(&flash->stale, flash->wires.memory->flash);
     }
     set_acr(flash, value & ACR_MASK);
     conditions_check(flash->wires.conditions);

@@ -27,6 +27,7 @@ bool flash_load(struct flash *flash, const char *path)
 bool flash_save(struct flash *flash, const char *path)
 {
     struct outfile file;
+    stale_look_through_cache(&flash->stale, flash->wires.memory->flash, false);
     if (!outfile_open(&file, path)) {
         return false;
     }
