@@ -3,6 +3,7 @@
 #include <assert.h>
 #include <string.h>
 
+#include "base_hint.h"
 #include "base_tick.h"
 #include "board.h"
 #include "stm32_private.h"
@@ -62,7 +63,8 @@ static bool wait_until_done(uint32_t ticks_max)
     return good && supply_is_good() && (FLASH_SR & ERRORS) == 0;
 }
 
-static void unlock(uint32_t control)
+/* Apart, as both callers would have it otherwise. */
+BASE_APART static void unlock(uint32_t control)
 {
     if ((FLASH_CR & FLASH_CR_LOCK) != 0) {
         FLASH_KEYR = FLASH_KEY_1;

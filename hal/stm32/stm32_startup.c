@@ -18,7 +18,6 @@ extern uint32_t stm32_shared_end[];
 
 int main(void);
 void stm32_reset(void);
-_Noreturn void stm32_start(void);
 
 enum {
     STACK_PATTERN = 0x5AFE57AC,
@@ -86,12 +85,13 @@ static void set_vector(uint32_t number, void (*handler)(void))
 
 /* A boot loader may have left interrupts on, and pending; what they would lead to is gone. The groups of priorities are
  * those of a reset again: ST's driver of USB leaves one bit of four for who interrupts whom, and with that priorities 0
- * to 3 are all the same (PM0214 4.4.5). */
-static void silence_interrupts(void)
+ * to 3 are all the same (PM0214 4.4.5). A sleep is not a deep one. */
+static void silence_core(void)
 {
     SCB_AIRCR = SCB_AIRCR_NO_GROUPS;
     STK_CTRL = 0;
     SCB_ICSR = SCB_ICSR_PENDSTCLR | SCB_ICSR_PENDSVCLR;
+    SCB_SCR = 0;
     for (uint32_t word = 0; word < IRQ_WORDS; word++) {
         uint32_t there = word + 1U < IRQ_WORDS ? UINT32_MAX : LAST_IRQS;
         NVIC_ICER(word) = there;
@@ -133,31 +133,13 @@ static void start_vectors(void)
     stm32_barrier();
 }
 
-/* A boot loader may have switched off the memory with the stack; nothing may be pushed before it is on (RM0090 7.3.10,
- * 7.3.14; the read-back and the barrier: ES0182, as in stm32_enable_clock). SYSCFG has its clock from here on, too. */
-static_assert(RCC_BASE == 0x40023800U, "stm32_reset has addresses of RCC");
-__attribute__((naked)) void stm32_reset(void)
-{
-    __asm__ volatile("ldr r0, =0x40023830\n\t" /* RCC_AHB1ENR */
-                     "ldr r1, [r0, #0x14]\n\t" /* RCC_APB2ENR */
-                     "orr r1, r1, #0x4000\n\t" /* SYSCFGEN */
-                     "str r1, [r0, #0x14]\n\t"
-                     "ldr r1, [r0]\n\t"
-                     "orr r1, r1, #0x100000\n\t" /* CCMDATARAMEN */
-                     "str r1, [r0]\n\t"
-                     "ldr r1, [r0]\n\t"
-                     "dsb\n\t"
-                     "b stm32_start\n\t");
-}
-
 /* Who comes here without a reset has gone astray; the memory, and the handler in it, is still in use then. The clock
  * comes first, as all the rest then takes a tenth of the time. The stack's pattern shows afterwards how much of it was
  * used. */
-_Noreturn void stm32_start(void)
+_Noreturn static void __attribute__((used)) start(void)
 {
     assert(SCB_VTOR != (uint32_t)(uintptr_t)stm32_vectors);
-    (void)stm32_mask();
-    silence_interrupts();
+    silence_core();
     reset_peripherals();
     struct stm32_clock clock = stm32_clock_start();
     const uint32_t *here = __builtin_frame_address(0);
@@ -171,4 +153,33 @@ _Noreturn void stm32_start(void)
     (void)main();
     for (;;) {
     }
+}
+
+/* A boot loader may have come here from a task of its system: on another stack, which is overwritten soon; after
+ * floating-point instructions, so that each frame had 18 words more (PM0214 2.3.7); with interrupts masked by more than
+ * PRIMASK. And what has the stack may be switched off, or protected. SYSCFG has its clock from here on, too (RM0090
+ * 7.3.10, 7.3.14; the read-back and the barrier: ES0182, as in stm32_enable_clock). */
+static_assert(RCC_BASE == 0x40023800U, "stm32_reset has addresses of RCC");
+__attribute__((naked)) void stm32_reset(void)
+{
+    __asm__ volatile("cpsid i\n\t"
+                     "movs r0, #0\n\t"
+                     "msr control, r0\n\t"
+                     "isb\n\t"
+                     "msr basepri, r0\n\t"
+                     "cpsie f\n\t"
+                     "ldr r1, =0xE000ED94\n\t" /* MPU_CTRL */
+                     "str r0, [r1]\n\t"
+                     "ldr r1, =0x40023830\n\t" /* RCC_AHB1ENR */
+                     "ldr r0, [r1, #0x14]\n\t" /* RCC_APB2ENR */
+                     "orr r0, r0, #0x4000\n\t" /* SYSCFGEN */
+                     "str r0, [r1, #0x14]\n\t"
+                     "ldr r0, [r1]\n\t"
+                     "orr r0, r0, #0x100000\n\t" /* CCMDATARAMEN */
+                     "str r0, [r1]\n\t"
+                     "ldr r0, [r1]\n\t"
+                     "dsb\n\t"
+                     "ldr r0, =stm32_stack_top\n\t"
+                     "mov sp, r0\n\t"
+                     "b start\n\t");
 }

@@ -65,7 +65,7 @@ STREAM = re.compile(r"DMA(\d)_STREAM\(n\) \(DMA\1_BASE \+ (0x\w+)U \+ (0x\w+)U \
 CORE = {"STK", "SCB", "DWT"}  # blocks of the processor
 CORE_REGISTER = re.compile(r"^#define (STK|SCB)_(\w+) STM32_REGISTER\((0x[0-9A-F]+)U\)$", re.M)
 CORE_BIT = re.compile(r"^#define (STK|SCB)_([A-Z]+)_([A-Z]+) \(1U << (\d+)\)$", re.M)
-CORE_REGISTERS = {"CFSR": "CFSR_UFSR_BFSR_MMFSR"}
+CORE_REGISTERS = {("SCB", "CFSR"): "CFSR_UFSR_BFSR_MMFSR", ("MPU", "CTRL"): "MPU_CTRL"}
 RESET_MASK = re.compile(r"ON_(\w+) = (0x[0-9A-F]+),")
 
 
@@ -170,10 +170,8 @@ def test_a_register_of_the_processor_is_at_its_address(
     block: str, register: str, address: str
 ) -> None:
     found = peripherals(SAME_CORE)[block]
-    assert (
-        int(address, 16)
-        == found.base + found.registers[CORE_REGISTERS.get(register, register)].offset
-    )
+    name = CORE_REGISTERS.get((block, register), register)
+    assert int(address, 16) == found.base + found.registers[name].offset
 
 
 @pytest.mark.parametrize(("block", "register", "field", "place"), CORE_BIT_ROWS)

@@ -90,13 +90,9 @@ def test_an_operation_can_fail(run_image, tmp_path):
 
 
 @pytest.mark.parametrize("how", ["wrp", "silent"])
-def test_the_data_cache_has_a_word_that_the_flash_has_not_taken(
-    run_image, tmp_path, how
-):
+def test_the_data_cache_has_a_word_that_the_flash_has_not_taken(run_image, tmp_path, how):
     flash = tmp_path / "flash"
-    run = run_image(
-        "store", "--flash", str(flash), "--flash-fail", f"4:{how}", defines=["CACHED"]
-    )
+    run = run_image("store", "--flash", str(flash), "--flash-fail", f"4:{how}", defines=["CACHED"])
 
     assert run.result[2:6] == [WORDS[2], ERASED, WORDS[2], ERASED]
     assert read_words(flash) == [*WORDS[:2], ERASED, *WORDS[3:]]
@@ -105,9 +101,7 @@ def test_the_data_cache_has_a_word_that_the_flash_has_not_taken(
 def test_a_word_that_is_written_once_more_is_in_the_flash_too(run_image, tmp_path):
     flash = tmp_path / "flash"
     defines = ["CACHED", "AGAIN"]
-    run = run_image(
-        "store", "--flash", str(flash), "--flash-fail", "4", defines=defines
-    )
+    run = run_image("store", "--flash", str(flash), "--flash-fail", "4", defines=defines)
 
     assert run.result[2:6] == [WORDS[2]] * 4
     assert read_words(flash) == WORDS
@@ -115,9 +109,7 @@ def test_a_word_that_is_written_once_more_is_in_the_flash_too(run_image, tmp_pat
 
 @pytest.mark.parametrize("operation", [2, 5, 9])
 def test_power_can_be_cut_while_a_word_is_programmed(run_image, tmp_path, operation):
-    run = run_image(
-        "store", "--flash", str(tmp_path / "flash"), "--power-cut", str(operation)
-    )
+    run = run_image("store", "--flash", str(tmp_path / "flash"), "--power-cut", str(operation))
     written = operation - 2
 
     assert run.summary["ended"] == "power_cut"

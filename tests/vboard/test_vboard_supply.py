@@ -207,6 +207,29 @@ def test_a_boot_loader_leaves_clocks_interrupts_and_errors(run_image):
     assert result[11] == 1 << 6 | 1 << 7  # PB6 and PB7 are open drain
 
 
+def test_a_boot_loader_leaves_a_task_of_its_system(run_image):
+    result = run_image("loader", "--left-by-loader").result
+
+    assert result[12] == 6  # CONTROL: the process stack, floating point
+    assert 0x20003F00 < result[13] <= 0x20004000
+    assert result[14:16] == [0x10, 1]  # BASEPRI, FAULTMASK
+    assert result[16:18] == [4, 1]  # deep sleep, MPU
+
+
+def test_a_deep_sleep_is_told(run_image):
+    run = run_image("loader", "--left-by-loader", defines=["SLEEP"])
+
+    assert "a deep sleep, in which all clocks stop" in run.told
+
+
+def test_the_mpu_of_a_boot_loader_lets_nothing_in_sram_be_executed(run_image):
+    run = run_image("loader", "--left-by-loader", defines=["RAM_CODE"])
+    off = run_image("loader", "--left-by-loader", defines=["RAM_CODE", "MPU_OFF"])
+
+    assert run.summary["watch"]["result"][31] == 0xDEAD0003  # HardFault
+    assert off.result[18] == 1
+
+
 def test_a_boot_loader_leaves_nothing_after_a_reset_of_all(run_image):
     result = run_image("loader", "--left-by-loader", defines=["RESET_ALL"]).result
 

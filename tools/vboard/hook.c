@@ -62,12 +62,23 @@ static uint32_t division_cycles(struct cpu *cpu, struct cost cost)
     return (10U * bits + (DIVIDE_BITS_PER_10_CYCLES - 1U)) / DIVIDE_BITS_PER_10_CYCLES;
 }
 
+static void stop_by_mpu(struct cpu *cpu, uint32_t address)
+{
+    cpu->fault_at = address;
+    cpu->fault_bits = SCB_CFSR_IACCVIOL;
+    stop(cpu, CPU_STOP_FAULT);
+}
+
 /* The instructions that must be looked at each time. True: emulation stops before it. */
 static bool look_closer(struct board *board, uint32_t address, uint32_t previous)
 {
     struct clock *clock = &board->clock;
     struct cpu *cpu = &board->cpu;
     struct cost *cost = cost_find(&cpu->cost, address);
+    if (cost->kind == COST_UNKNOWN && !memory_is_flash(&board->memory, address) && scb_mpu_is_on(&board->scb)) {
+        stop_by_mpu(cpu, address);
+        return true;
+    }
     if (cost->kind == COST_UNKNOWN) {
         cost_decode(&cpu->cost, &board->memory, address, previous);
     }

@@ -5,6 +5,10 @@
  * are those to which the driver of USB in ST's library sets them (USB_OTG_BSP_EnableInterrupt: one bit of group), which
  * loaders of boards have from there; nothing sets them back but a reset (PM0214 4.4.5), and a program is started by a
  * jump (AN3156).
+ *
+ * A loader with a system of tasks jumps from one of them: with the process stack in use, after floating-point
+ * instructions, with interrupts masked in all three ways and the MPU on, by which nothing in SRAM is executed. Projects
+ * report the stack (ArduPilot 14023), BASEPRI (MCUboot 1089) and the MPU (MCUboot 1635). And it may have slept deeply.
  */
 #ifndef LOADER_H
 #define LOADER_H

@@ -161,6 +161,9 @@ static uint32_t after_sleep(struct board *board)
     struct cpu *cpu = &board->cpu;
     const uint8_t *code = memory_find(&board->memory, cpu->next, NARROW_BYTES);
     bool wide = code != NULL && (code[1] & 0xF8U) >= 0xE8U;
+    if ((board->scb.scr & SCB_SCR_SLEEPDEEP) != 0) {
+        report_fail(&board->report, "a deep sleep, in which all clocks stop (RM0090 5.3.4), is not modelled");
+    }
     clock->now++;
     cpu->instructions++;
     board->profile.row->count++;

@@ -169,8 +169,10 @@ bool scb_read(struct scb *scb, uint32_t offset, uint32_t *value)
     case OFFSET_MPU_TYPE:
         *value = MPU_TYPE;
         return true;
-    case OFFSET_AFSR:
     case OFFSET_MPU_CTRL:
+        *value = scb->mpu_ctrl;
+        return true;
+    case OFFSET_AFSR:
     case OFFSET_DHCSR: /* no debugger is there */
         *value = 0;
         return true;
@@ -248,8 +250,9 @@ static bool write_special(struct scb *scb, uint32_t offset, uint32_t value, uint
             nvic_pend(scb->wires.nvic, NVIC_IRQ0 + (value & mask));
         }
         return (value & mask) < NVIC_IRQS;
-    case OFFSET_MPU_CTRL: /* off, as it is */
-        return (value & 1U) == 0;
+    case OFFSET_MPU_CTRL: /* off */
+        scb->mpu_ctrl = value & mask & ~SCB_MPU_CTRL_ENABLE;
+        return (value & mask & SCB_MPU_CTRL_ENABLE) == 0;
     default:
         return false;
     }

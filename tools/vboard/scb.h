@@ -14,6 +14,7 @@
 #include "report.h"
 #include "reset.h"
 
+#define SCB_MPU_CTRL_ENABLE UINT32_C(1)
 #define SCB_CFSR_IACCVIOL (UINT32_C(1) << 0)
 #define SCB_CFSR_IBUSERR (UINT32_C(1) << 8)
 #define SCB_CFSR_PRECISERR (UINT32_C(1) << 9)
@@ -32,6 +33,7 @@
 #define SCB_HFSR_FORCED (UINT32_C(1) << 30)
 #define SCB_HFSR_DEBUGEVT (UINT32_C(1) << 31)
 #define SCB_SCR_SLEEPONEXIT (UINT32_C(1) << 1)
+#define SCB_SCR_SLEEPDEEP (UINT32_C(1) << 2)
 #define SCB_SCR_SEVONPEND (UINT32_C(1) << 4)
 #define SCB_DEMCR_TRCENA (UINT32_C(1) << 24)
 
@@ -59,6 +61,7 @@ struct scb {
     uint32_t fpcar;
     uint32_t fpdscr;
     uint32_t demcr;
+    uint32_t mpu_ctrl; /* on only if a boot loader has left it so */
 };
 
 void scb_init(struct scb *scb, struct scb_wires wires);
@@ -67,6 +70,12 @@ void scb_reset(struct scb *scb);
 /* Registers at E000ED00 on, and those at E000E004 and E000EF00. False: there is none. */
 bool scb_read(struct scb *scb, uint32_t offset, uint32_t *value);
 bool scb_write(struct scb *scb, uint32_t offset, uint32_t value, uint32_t mask);
+
+/* Whether the MPU is on, by which nothing in SRAM may be executed. */
+static inline bool scb_mpu_is_on(const struct scb *scb)
+{
+    return (scb->mpu_ctrl & SCB_MPU_CTRL_ENABLE) != 0;
+}
 
 /* Whether floating-point instructions may run: CPACR gives full access to both coprocessors. */
 bool scb_float_is_enabled(const struct scb *scb);

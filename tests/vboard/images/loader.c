@@ -1,8 +1,24 @@
 /* What is found at the start, and what the PLL's configuration says to a write while it runs. */
 #include "part.h"
 
+RAMCODE static uint32_t code_in_ram(void)
+{
+    return 1;
+}
+
+static void look_at_processor(void)
+{
+    __asm volatile("mrs %0, control" : "=r"(result[12]));
+    __asm volatile("mrs %0, psp" : "=r"(result[13]));
+    __asm volatile("mrs %0, basepri" : "=r"(result[14]));
+    __asm volatile("mrs %0, faultmask" : "=r"(result[15]));
+    result[16] = SCB_SCR;
+    result[17] = MPU_CTRL;
+}
+
 int main(void)
 {
+    look_at_processor();
     result[0] = RCC_CR;
     result[1] = RCC_CFGR & 0xF;
     result[2] = FLASH_SR;
@@ -41,6 +57,19 @@ int main(void)
 #ifdef RESET_CACHE
     FLASH_ACR = 1u << 10;
     FLASH_ACR = 1u << 10 | 1u << 12;
+#endif
+#ifdef SLEEP
+    __asm volatile("wfi");
+#endif
+#ifdef MPU_OFF
+    MPU_CTRL = 0;
+#endif
+#if defined RAM_CODE
+    __asm volatile("cpsie f");
+    SCB_VTOR = 0x08000000;
+    result[18] = code_in_ram();
+#else
+    (void)code_in_ram;
 #endif
 #ifdef READ_LAST
     result[9] = REG(0x080FFFFC);
