@@ -12,7 +12,8 @@ enum {
     INTERNAL_HZ = 16000000,
     INTERNAL_MHZ = 16,
     PLL_MHZ = 336,
-    USB_DIVIDER = 7, /* 48 MHz, where nothing is connected; the field must not be below 2 */
+    USB_DIVIDER = 7,           /* 48 MHz, where nothing is connected; the field must not be below 2 */
+    PLL_RESERVED = 0x20000000, /* bits of PLLCFGR that stay as after a reset (RM0090 7.3.2) */
 
     CLOCK_PLL = 2,
     DIVIDE_BY_2 = 4,
@@ -73,8 +74,8 @@ static bool start_crystal(void)
 static bool start_pll(uint32_t source_mhz, uint32_t source)
 {
     uint32_t step_mhz = source_mhz % 2U == 0 ? 2U : 1U;
-    RCC_PLLCFGR = source | RCC_PLLCFGR_PLLM(source_mhz / step_mhz) | RCC_PLLCFGR_PLLN(PLL_MHZ / step_mhz) |
-                  RCC_PLLCFGR_PLLQ((uint32_t)USB_DIVIDER);
+    RCC_PLLCFGR = (uint32_t)PLL_RESERVED | source | RCC_PLLCFGR_PLLM(source_mhz / step_mhz) |
+                  RCC_PLLCFGR_PLLN(PLL_MHZ / step_mhz) | RCC_PLLCFGR_PLLQ((uint32_t)USB_DIVIDER);
     RCC_CR |= RCC_CR_PLLON;
     return wait_for(&RCC_CR, RCC_CR_PLLRDY, RCC_CR_PLLRDY);
 }

@@ -243,6 +243,12 @@ def test_the_pll_takes_no_configuration_until_it_stands(run_image, define):
     assert "RCC_PLLCFGR must be written only while the PLL is off" in run.told
 
 
+def test_reserved_bits_of_the_pll_are_kept(run_image):
+    run = run_image("loader", defines=["RESERVED"])
+
+    assert "RCC_PLLCFGR: reserved bits must be kept at their reset value, 20000000" in run.told
+
+
 def test_the_pll_takes_no_configuration_while_that_of_i2s_runs(run_image):
     run = run_image("loader", defines=["I2S"])
 

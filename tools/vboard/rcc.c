@@ -30,6 +30,7 @@ enum {
 #define CR_RESET (CR_HSION | UINT32_C(0x80))
 #define PLLCFGR_RESET UINT32_C(0x24003010)
 #define AHB1ENR_CCM (UINT32_C(1) << 20) /* the core-coupled memory */
+#define PLLCFGR_USABLE UINT32_C(0x0F437FFF)
 #define CIR_CSSF (UINT32_C(1) << 7)
 #define CIR_CSSC (UINT32_C(1) << 23)
 #define CIR_ENABLES UINT32_C(0x3F00)
@@ -341,7 +342,12 @@ static void write_pllcfgr(struct rcc *rcc, uint32_t value)
     if ((*word(rcc, RCC_CR) & (CR_PLLON | CR_PLLI2SON)) != 0 || (ready_bits(rcc) & CR_PLLRDY) != 0) {
         report_fail(rcc->wires.report, "RCC_PLLCFGR must be written only while the PLL is off, and the one of I2S");
     }
-    *word(rcc, RCC_PLLCFGR) = value & UINT32_C(0x0F437FFF);
+    if (((value ^ PLLCFGR_RESET) & ~PLLCFGR_USABLE) != 0) {
+        report_fail(rcc->wires.report,
+                    "RCC_PLLCFGR: reserved bits must be kept at their reset value, %08x (RM0090 7.3.2)",
+                    (unsigned)(PLLCFGR_RESET & ~PLLCFGR_USABLE));
+    }
+    *word(rcc, RCC_PLLCFGR) = value;
 }
 
 static void write_cir(struct rcc *rcc, uint32_t value)

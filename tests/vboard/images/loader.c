@@ -39,9 +39,12 @@ int main(void)
     result[11] = GPIO_OTYPER(GPIOB);
 #ifdef I2S
     RCC_CR |= 1u << 26;
-    RCC_PLLCFGR = 8 | 336u << 6 | 1u << 22 | 7u << 24;
+    RCC_PLLCFGR = RCC_PLLCFGR_KEPT | 8 | 336u << 6 | 1u << 22 | 7u << 24;
 #endif
 #ifdef WRITE
+    RCC_PLLCFGR = RCC_PLLCFGR_KEPT | 8 | 336u << 6 | 1u << 22 | 7u << 24;
+#endif
+#ifdef RESERVED
     RCC_PLLCFGR = 8 | 336u << 6 | 1u << 22 | 7u << 24;
 #endif
 #ifdef TOO_SOON
@@ -49,7 +52,7 @@ int main(void)
     while ((RCC_CFGR & 0xC) != 0) {
     }
     RCC_CR &= ~(1u << 24);
-    RCC_PLLCFGR = 8 | 336u << 6 | 1u << 22 | 7u << 24;
+    RCC_PLLCFGR = RCC_PLLCFGR_KEPT | 8 | 336u << 6 | 1u << 22 | 7u << 24;
 #endif
 #ifdef PREFETCH
     FLASH_ACR = 1u << 8;

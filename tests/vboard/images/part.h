@@ -14,6 +14,7 @@
 #define RCC 0x40023800u
 #define RCC_CR REG(RCC + 0x00)
 #define RCC_PLLCFGR REG(RCC + 0x04)
+#define RCC_PLLCFGR_KEPT (2u << 28) /* of the reserved bits */
 #define RCC_CFGR REG(RCC + 0x08)
 #define RCC_CIR REG(RCC + 0x0C)
 #define RCC_AHB1RSTR REG(RCC + 0x10)

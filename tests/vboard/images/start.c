@@ -105,7 +105,7 @@ void run_at_168_mhz(void)
     RCC_CR |= 1u << 16;
     while ((RCC_CR & 1u << 17) == 0) {
     }
-    RCC_PLLCFGR = 8 | 336u << 6 | 0u << 16 | 1u << 22 | 7u << 24;
+    RCC_PLLCFGR = RCC_PLLCFGR_KEPT | 8 | 336u << 6 | 0u << 16 | 1u << 22 | 7u << 24;
     RCC_CFGR = 5u << 10 | 4u << 13;
     RCC_CR |= 1u << 24;
     while ((RCC_CR & 1u << 25) == 0) {
