@@ -33,9 +33,9 @@ enum {
 
     SRAM1_AT_0 = 3, /* RM0090 9.2.1 */
 
-    /* What an STM32F405 has on each bus, by its bits in the reset registers (RM0090 7.3.5 to 7.3.9). */
-    ON_AHB1 = 0x206011FF,
-    ON_AHB2 = 0xC0,
+    /* What an STM32F405 or F407 has on each bus, by its bits in the reset registers (RM0090 7.3.5 to 7.3.9). */
+    ON_AHB1 = 0x226011FF,
+    ON_AHB2 = 0xC1,
     ON_APB1 = 0x36FEC9FF,
     ON_APB2 = 0x75933,
 };
