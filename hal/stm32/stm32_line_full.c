@@ -243,7 +243,6 @@ uint32_t stm32_line_look_ticks(void)
 /* A board with a driver that can be switched drives its line for ever. */
 void stm32_line_start(const struct stm32_clock *clock)
 {
-    stm32_pin_write(STM32_PIN_LINE_DE, true);
     STM32_LINE_CLOCK_ENABLE();
     stm32_enable_clock(&RCC_AHB1ENR, RCC_AHB1ENR_DMA2EN);
     start_stream();
@@ -251,4 +250,6 @@ void stm32_line_start(const struct stm32_clock *clock)
     USART_BRR(STM32_LINE_BASE) = STM32_LINE_DIVIDER(STM32_LINE_CLOCK_HZ(clock), IMAGE_LINE_BD);
     USART_CR3(STM32_LINE_BASE) = USART_CR3_DMAR | USART_CR3_EIE;
     USART_CR1(STM32_LINE_BASE) = LISTENING;
+    stm32_pins_start_sender();
+    stm32_pin_write(STM32_PIN_LINE_DE, true);
 }

@@ -70,6 +70,16 @@ static void set_up(const struct use *use)
     set_field(&GPIO_MODER(port), 2U * pin, 2U, use->use & 3U);
 }
 
+/* The pin of the transmitter, or all others. */
+static void set_up_all(bool sender)
+{
+    for (unsigned i = 0; i < USES; i++) {
+        if (!IMAGE_LINE_FULL_DUPLEX || (uses[i].pin == (uint8_t)STM32_PIN_LINE_TX) == sender) {
+            set_up(&uses[i]);
+        }
+    }
+}
+
 static void start_ports(void)
 {
     uint32_t ports = 0;
@@ -102,7 +112,10 @@ void stm32_pins_start(void)
     for (unsigned i = 0; i < sizeof leds; i++) {
         stm32_pin_write(leds[i], BOARD_LED_LEVEL == 0U);
     }
-    for (unsigned i = 0; i < USES; i++) {
-        set_up(&uses[i]);
-    }
+    set_up_all(false);
+}
+
+void stm32_pins_start_sender(void)
+{
+    set_up_all(true);
 }

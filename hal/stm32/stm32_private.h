@@ -72,8 +72,10 @@ extern struct stm32_clock stm32_board_clock;
 void stm32_driver_disable(void);
 void stm32_driver_tick(void);
 
-/* stm32_pins.c. Safe: outputs and motor drivers off, the bus let go; before the start, too. */
+/* stm32_pins.c. Full duplex, the start leaves out the pin of the transmitter, which is low where that is off: it comes
+ * when the line has started. Safe: outputs and motor drivers off, the bus let go; before the start, too. */
 void stm32_pins_start(void);
+void stm32_pins_start_sender(void);
 void stm32_pins_make_safe(void);
 
 /* stm32_pwm.c. The output is 0 from the start on; safe, before the start, too. */

@@ -67,6 +67,13 @@ def ask(program: Path, tmp_path: Path) -> Ask:
     return run
 
 
+def test_the_start_does_not_hold_the_line_low(ask: Ask) -> None:
+    talk = ask((START_MS, "!0?\r"), ms=START_MS + 10)
+
+    assert talk.answers == [f"0,{VERSION}"]
+    assert talk.summary["line"]["breaks"] == 0
+
+
 @pytest.mark.parametrize("baud", [board.RATES[0], board.RATES[-1]])
 def test_an_answer_begins_at_most_a_millisecond_after_its_command(ask: Ask, baud: int) -> None:
     commands = ["!0?\r", "!0V1000\r", "!7V300\r", "!0PF\r", "!0SR6\r"]

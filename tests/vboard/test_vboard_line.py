@@ -25,6 +25,21 @@ def test_bytes_come_in_and_are_answered(run_image):
     assert [word & 0xFF for word in run.summary["watch"]["result"][:3]] == [0x41, 0x0A, 0xFF]
 
 
+@pytest.mark.parametrize(
+    ("defines", "pins", "breaks"),
+    [
+        ([], PINS, 0),
+        (["DRIVER_ON"], PINS, 1),
+        ([], "line USART2\n", 1),
+        (["PINS_LAST"], "line USART2\n", 0),
+    ],
+)
+def test_a_pin_of_a_transmitter_that_is_off_is_low(run_image, defines, pins, breaks):
+    run = run_image("serial", pins=pins, line="2 41\n7 FF*\n", defines=defines)
+
+    assert run.summary["line"]["breaks"] == breaks
+
+
 def test_a_byte_takes_as_long_as_the_rate_says(run_image):
     run = run_image("serial", pins=PINS, line="2 41\n5 0A\n", seconds=0.02)
 

@@ -255,6 +255,12 @@ static void on_begin(void *model)
     line->driven_throughout = !has_driver(line) || driver_is_on(line);
 }
 
+static void on_low(void *model)
+{
+    struct rs485 *line = model;
+    line->breaks += !has_driver(line) || driver_is_on(line) ? 1U : 0U;
+}
+
 static bool rate_fits(const struct rs485 *line)
 {
     uint64_t baud = usart_baud(line->wires.usart);
@@ -314,6 +320,6 @@ void rs485_note_driver(struct rs485 *line, bool on, uint64_t cycle)
 void rs485_init(struct rs485 *line, struct rs485_wires wires)
 {
     line->wires = wires;
-    wires.usart->listener = (struct usart_listener){.model = line, .begin = on_begin, .end = on_end};
+    wires.usart->listener = (struct usart_listener){.model = line, .begin = on_begin, .low = on_low, .end = on_end};
     clock_attach(wires.clock, EVENT_LINE, on_rs485_event, line);
 }

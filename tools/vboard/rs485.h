@@ -57,6 +57,7 @@ struct rs485 {
     uint64_t sent_end_cycle; /* of the last byte that the unit sent */
     uint64_t sent;           /* bytes that reached the bus */
     uint64_t unheard;        /* that the unit sent with its driver off, cut short, or not connected */
+    uint64_t breaks;         /* how often the transmitter held the bus low before it was on */
     uint64_t heard;          /* bytes of others that arrived at the USART */
     uint64_t collisions;
     uint64_t release_most_ps; /* from the end of a byte to the driver being off */

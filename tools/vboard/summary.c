@@ -194,6 +194,7 @@ static void print_peripherals(const struct board *board)
     put_number("baud", usart_baud(usart));
     put_number("sent", line->sent);
     put_number("unheard", line->unheard);
+    put_number("breaks", line->breaks);
     put_number("heard", line->heard);
     put_number("collisions", line->collisions);
     put_number("overruns", usart->overruns);

@@ -393,6 +393,10 @@ static void write_cr1(struct usart *usart, uint32_t value)
                     usart->wires.number + 1U);
     }
     usart->cr1 = value;
+    if (can_send(usart) && !could && usart->listener.low != NULL &&
+        is_connected(usart, transmit_pins[usart->wires.number])) {
+        usart->listener.low(usart->listener.model);
+    }
     if (can_send(usart) && !could && !usart->shifting) {
         shift_out(usart, true, usart->wires.clock->now); /* section 30.3.2: an idle frame comes first */
     }

@@ -52,6 +52,7 @@ struct usart_sent {
 struct usart_listener {
     void *model;
     void (*begin)(void *model);
+    void (*low)(void *model); /* the transmitter comes on, and its pin was low until then */
     void (*end)(void *model, struct usart_sent sent);
 };
 

@@ -29,10 +29,18 @@ int main(void)
     RCC_AHB1ENR |= 1;
     RCC_APB1ENR |= 1u << 17;
     settle();
-    GPIO_MODER(GPIOA) = (GPIO_MODER(GPIOA) & ~0xFCu) | 0xA4; /* PA1 output, PA2 and PA3 alternate */
     GPIO_AFRL(GPIOA) = 0x7700;
+#ifndef PINS_LAST
+    GPIO_MODER(GPIOA) = (GPIO_MODER(GPIOA) & ~0xFCu) | 0xA4; /* PA1 output, PA2 and PA3 alternate */
+#endif
+#ifdef DRIVER_ON
+    GPIO_BSRR(GPIOA) = 2;
+#endif
     USART_BRR(USART2) = 833; /* 16 MHz / 19200 */
     USART_CR1(USART2) = 1u << 13 | 1u << 5 | 1u << 3 | 1u << 2;
+#ifdef PINS_LAST
+    GPIO_MODER(GPIOA) = (GPIO_MODER(GPIOA) & ~0xFCu) | 0xA4;
+#endif
     while ((USART_SR(USART2) & 0x40) == 0) {
     }
     NVIC_ISER(1) = 1u << (IRQ_USART2 - 32);
