@@ -25,7 +25,8 @@ static void enable_interrupt(uint32_t irq, uint32_t priority)
     NVIC_ISER(irq / IRQS_A_WORD) = UINT32_C(1) << (irq % IRQS_A_WORD);
 }
 
-/* The record outlives every reset but that of the power, and keeps the flags of the chip, which can be read once. */
+/* The record outlives every reset but that of the power, and keeps the flags of the chip, which can be read once. Where
+ * a boot loader has used its memory, the flags alone tell: only the handler of faults resets by software. */
 static enum hal_board_cause find_cause(void)
 {
     uint32_t flags = RCC_CSR;
@@ -33,7 +34,10 @@ static enum hal_board_cause find_cause(void)
     bool power = (flags & (RCC_CSR_PORRSTF | RCC_CSR_BORRSTF)) != 0;
     if (power || stm32_fault_record.magic != STM32_FAULT_MAGIC) {
         stm32_fault_record = (struct stm32_fault){.magic = STM32_FAULT_MAGIC, .cause = HAL_BOARD_CAUSE_RESET};
-        return HAL_BOARD_CAUSE_POWER;
+        if (power || (flags & (RCC_CSR_SFTRSTF | RCC_CSR_IWDGRSTF)) == 0) {
+            return HAL_BOARD_CAUSE_POWER;
+        }
+        stm32_fault_record.cause = HAL_BOARD_CAUSE_FAULT;
     }
     if ((flags & RCC_CSR_IWDGRSTF) != 0) {
         stm32_fault_record.cause = HAL_BOARD_CAUSE_WATCHDOG;

@@ -6,6 +6,7 @@
 
 /* Of the linker script. */
 extern uint32_t stm32_stack_bottom[];
+extern uint32_t stm32_paint_end[]; /* above it is what this file itself needs of the stack */
 extern uint32_t stm32_stack_top[];
 extern uint32_t stm32_vectors[];
 extern const uint32_t stm32_ram_load[];
@@ -21,7 +22,6 @@ void stm32_reset(void);
 
 enum {
     STACK_PATTERN = 0x5AFE57AC,
-    PAINT_WORDS_LEFT = 32, /* what this file itself may need of the stack */
 
     EXCEPTIONS = 16,
     IRQS = 82, /* RM0090 12.1.3 */
@@ -136,14 +136,13 @@ static void start_vectors(void)
 /* Who comes here without a reset has gone astray; the memory, and the handler in it, is still in use then. The clock
  * comes first, as all the rest then takes a tenth of the time. The stack's pattern shows afterwards how much of it was
  * used. */
-_Noreturn static void __attribute__((used)) start(void)
+_Noreturn static void __attribute__((used)) start_program(void)
 {
     assert(SCB_VTOR != (uint32_t)(uintptr_t)stm32_vectors);
     silence_core();
     reset_peripherals();
     struct stm32_clock clock = stm32_clock_start();
-    const uint32_t *here = __builtin_frame_address(0);
-    fill(stm32_stack_bottom, here - PAINT_WORDS_LEFT, STACK_PATTERN);
+    fill(stm32_stack_bottom, stm32_paint_end, STACK_PATTERN);
     copy(stm32_ram_begin, stm32_ram_end, stm32_ram_load);
     fill(stm32_zero_begin, stm32_zero_end, 0);
     fill(stm32_shared_begin, stm32_shared_end, 0);
@@ -181,5 +180,5 @@ __attribute__((naked)) void stm32_reset(void)
                      "dsb\n\t"
                      "ldr r0, =stm32_stack_top\n\t"
                      "mov sp, r0\n\t"
-                     "b start\n\t");
+                     "b start_program\n\t");
 }

@@ -62,6 +62,7 @@
 #define RCC_CSR_RMVF (1U << 24)
 #define RCC_CSR_BORRSTF (1U << 25)
 #define RCC_CSR_PORRSTF (1U << 27)
+#define RCC_CSR_SFTRSTF (1U << 28)
 #define RCC_CSR_IWDGRSTF (1U << 29)
 
 /* Power control */

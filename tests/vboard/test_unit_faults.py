@@ -180,6 +180,25 @@ def test_what_goes_astray_is_caught_with_the_outputs_safe_and_the_cause_kept(
     assert_stands_until_told(unit, modelled, told, "fault")
 
 
+@pytest.mark.parametrize(
+    ("fault", "cause", "number", "restart_ms"),
+    [
+        ("jump=60000000", "fault", CAUSE_FAULT, RESTART_MS),
+        (f"lose={SYSTICK}", "watchdog", CAUSE_WATCHDOG, 1000),
+    ],
+)
+def test_the_cause_is_told_where_a_loader_has_used_the_memory_that_keeps_it(
+    unit, fault, cause, number, restart_ms
+):
+    asked = FAULT_MS + restart_ms
+    told = asked + TOLD_MS
+
+    modelled = run(unit, told / 1000 + 0.1, "--loader-uses-ram", ask_ms=asked, fault=fault)
+
+    assert modelled.summary["watch"]["start_cause"] == number
+    assert_stands_until_told(unit, modelled, told, cause)
+
+
 @pytest.mark.parametrize("stream", [2, 4, 0, 3])
 @pytest.mark.parametrize("fault", ["dma={stream}", "slow={stream},200000"])
 def test_a_step_output_that_fails_is_caught_with_the_outputs_safe_and_the_cause_kept(

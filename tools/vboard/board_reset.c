@@ -49,7 +49,7 @@ void board_reset(struct board *board, enum reset_cause cause)
     board->reset_ps = clock_now_ps(&board->clock);
     board->reset_steps = recorder_active(&board->recorder, SIGNAL_STEP, PINS_MOTORS);
     board->reset_outputs = recorder_active(&board->recorder, SIGNAL_OUTPUT, PINS_OUTPUTS);
-    if (cause == RESET_POWER) {
+    if (cause == RESET_POWER || board->options->loader_uses_ram) {
         memory_forget(&board->memory);
     }
     board->resets[cause]++;

@@ -327,6 +327,7 @@ static const struct argument rows[] = {
     FLAG("--pwm-at-once", timer_settings.pwm_at_once),
     FLAG("--requests-stay", timer_settings.requests_stay),
     FLAG("--left-by-loader", left_by_loader),
+    FLAG("--loader-uses-ram", loader_uses_ram),
     FLAG("--power-back", flash_settings.power_back),
     NUMBER("--for", for_ps, SECONDS_DECIMALS, 1, UINT64_C(1000000000000000), 1000),
     NUMBER("--measure-from", measure_from_ps, MS_DECIMALS, 0, UINT64_C(1000000000000), 1000),

@@ -74,6 +74,7 @@ struct options {
     bool no_crystal;
     bool exti_mask_first;
     bool left_by_loader;
+    bool loader_uses_ram; /* after every reset */
     bool ticks_from_timer;
 };
 

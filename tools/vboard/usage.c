@@ -48,6 +48,7 @@ const char options_usage_more[] =
     "  --supply V[,MS:V...]  the supply in volts; with times, straight lines between them (3.3)\n"
     "  --thresholds low|typical|high  where in their ranges the thresholds of the supply lie (typical)\n"
     "  --left-by-loader      the program is started by a boot loader that leaves PLL, SysTick and interrupts on\n"
+    "  --loader-uses-ram     a boot loader runs after every reset, and the RAM is its own then\n"
     "faults:\n"
     "  --crystal MHZ         frequency of the crystal (8); --no-crystal: there is none\n"
     "  --crystal-stops MS    it stops then\n"
