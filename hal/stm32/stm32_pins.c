@@ -74,7 +74,8 @@ static void set_up(const struct use *use)
 static void set_up_all(bool sender)
 {
     for (unsigned i = 0; i < USES; i++) {
-        if (!IMAGE_LINE_FULL_DUPLEX || (uses[i].pin == (uint8_t)STM32_PIN_LINE_TX) == sender) {
+        bool is_sender = uses[i].pin == (uint8_t)STM32_PIN_LINE_TX;
+        if (!IMAGE_LINE_FULL_DUPLEX || is_sender == sender) {
             set_up(&uses[i]);
         }
     }
