@@ -345,7 +345,7 @@ static void write_pllcfgr(struct rcc *rcc, uint32_t value)
     if (((value ^ PLLCFGR_RESET) & ~PLLCFGR_USABLE) != 0) {
         report_fail(rcc->wires.report,
                     "RCC_PLLCFGR: reserved bits must be kept at their reset value, %08x (RM0090 7.3.2)",
-                    (unsigned)(PLLCFGR_RESET & ~PLLCFGR_USABLE));
+                    PLLCFGR_RESET & ~PLLCFGR_USABLE);
     }
     *word(rcc, RCC_PLLCFGR) = value;
 }
