@@ -27,11 +27,11 @@ if(small)
         string(REPLACE / _ library ${stage})
         target_include_directories(${library} BEFORE PRIVATE ${PROJECT_SOURCE_DIR}/hal/stm32/small)
         if(NOT library STREQUAL engine_step)
-            target_compile_options(${library} PRIVATE -Os)
+            target_compile_options(${library} PRIVATE -Os -fno-tree-pre)
         endif()
     endforeach()
     target_include_directories(hal_stm32 BEFORE PRIVATE ${PROJECT_SOURCE_DIR}/hal/stm32/small)
-    target_compile_options(hal_stm32 PRIVATE -Os)
+    target_compile_options(hal_stm32 PRIVATE -Os -fno-tree-pre)
     target_compile_definitions(engine_step PRIVATE STEP_SKIP_MAX=1U)
     # But for the steps, and for what a pulse that is to change waits for most.
     foreach(fast hal/stm32/stm32_step.c firmware/engine/path/path_divide.c firmware/engine/path/path_fixed.c
