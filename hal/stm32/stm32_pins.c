@@ -2,23 +2,25 @@
 
 #include "stm32_private.h"
 
-/* What a pin is for: its mode (RM0090 8.4.1), its pull-up, the number of its alternate function (datasheet DS8626,
- * table 9). */
+/* What a pin is for: its mode (RM0090 8.4.1), its pull-up, whether it makes steps, the number of its alternate function
+ * (datasheet DS8626, table 9). Pins that make steps are medium fast: edges of slow ones may take 100 ns, a fifth of the
+ * shortest pulse, those of medium fast ones 10 ns (DS8626, I/O AC characteristics, at 50 pF). */
 enum {
     MODE_IN = 0,
     MODE_OUT = 1,
     MODE_ALTERNATE = 2,
     USE_PULL_UP = 1 << 2,
+    USE_FAST = 1 << 3,
     USE_ALTERNATE_PLACE = 4,
 
     USE_IN = MODE_IN,
     USE_IN_UP = MODE_IN | USE_PULL_UP,
     USE_OUT = MODE_OUT,
-    USE_GPIO = MODE_OUT,
-    USE_TIM2_CH1 = MODE_ALTERNATE | 1 << USE_ALTERNATE_PLACE,
+    USE_GPIO = MODE_OUT | USE_FAST,
+    USE_TIM2_CH1 = MODE_ALTERNATE | USE_FAST | 1 << USE_ALTERNATE_PLACE,
     USE_TIM2_CH2 = USE_TIM2_CH1,
     USE_TIM2_CH3 = USE_TIM2_CH1,
-    USE_TIM3_CH1 = MODE_ALTERNATE | 2 << USE_ALTERNATE_PLACE,
+    USE_TIM3_CH1 = MODE_ALTERNATE | USE_FAST | 2 << USE_ALTERNATE_PLACE,
     USE_TIM3_CH2 = USE_TIM3_CH1,
     USE_TIM3_CH3 = USE_TIM3_CH1,
     USE_TIM3_CH4 = USE_TIM3_CH1,
@@ -26,7 +28,7 @@ enum {
     USE_TIM4_CH2 = USE_TIM3_CH1,
     USE_TIM4_CH3 = USE_TIM3_CH1,
     USE_TIM4_CH4 = USE_TIM3_CH1,
-    USE_TIM5_CH1 = MODE_ALTERNATE | 2 << USE_ALTERNATE_PLACE,
+    USE_TIM5_CH1 = MODE_ALTERNATE | USE_FAST | 2 << USE_ALTERNATE_PLACE,
     USE_TIM5_CH2 = USE_TIM5_CH1,
     USE_TIM5_CH3 = USE_TIM5_CH1,
     USE_TIM5_CH4 = USE_TIM5_CH1,
@@ -66,6 +68,7 @@ static void set_up(const struct use *use)
     uint32_t pin = use->pin % 16U;
     volatile uint32_t *alternate = pin < 8U ? &GPIO_AFRL(port) : &GPIO_AFRH(port);
     set_field(alternate, 4U * (pin % 8U), 4U, (uint32_t)use->use >> USE_ALTERNATE_PLACE);
+    set_field(&GPIO_OSPEEDR(port), 2U * pin, 2U, (use->use & USE_FAST) != 0 ? 1U : 0U);
     set_field(&GPIO_PUPDR(port), 2U * pin, 2U, (use->use & USE_PULL_UP) != 0 ? 1U : 0U);
     set_field(&GPIO_MODER(port), 2U * pin, 2U, use->use & 3U);
 }

@@ -110,12 +110,13 @@
 #define GPIO_BASE 0x40020000U
 #define GPIO_STRIDE 0x400U
 #define GPIO_REGISTER(port, offset) STM32_REGISTER(GPIO_BASE + GPIO_STRIDE * (port) + (offset))
-#define GPIO_MODER(port) GPIO_REGISTER(port, 0x00U) /* 8.4.1 */
-#define GPIO_PUPDR(port) GPIO_REGISTER(port, 0x0CU) /* 8.4.4 */
-#define GPIO_IDR(port) GPIO_REGISTER(port, 0x10U)   /* 8.4.5 */
-#define GPIO_BSRR(port) GPIO_REGISTER(port, 0x18U)  /* 8.4.7 */
-#define GPIO_AFRL(port) GPIO_REGISTER(port, 0x20U)  /* 8.4.9 */
-#define GPIO_AFRH(port) GPIO_REGISTER(port, 0x24U)  /* 8.4.10 */
+#define GPIO_MODER(port) GPIO_REGISTER(port, 0x00U)   /* 8.4.1 */
+#define GPIO_OSPEEDR(port) GPIO_REGISTER(port, 0x08U) /* 8.4.3 */
+#define GPIO_PUPDR(port) GPIO_REGISTER(port, 0x0CU)   /* 8.4.4 */
+#define GPIO_IDR(port) GPIO_REGISTER(port, 0x10U)     /* 8.4.5 */
+#define GPIO_BSRR(port) GPIO_REGISTER(port, 0x18U)    /* 8.4.7 */
+#define GPIO_AFRL(port) GPIO_REGISTER(port, 0x20U)    /* 8.4.9 */
+#define GPIO_AFRH(port) GPIO_REGISTER(port, 0x24U)    /* 8.4.10 */
 
 /* What is at address 0; which port has the pin on a line, and the edges of the lines */
 #define SYSCFG_BASE 0x40013800U

@@ -65,14 +65,10 @@ STREAM = re.compile(r"DMA(\d)_STREAM\(n\) \(DMA\1_BASE \+ (0x\w+)U \+ (0x\w+)U \
 CORE = {"STK", "SCB", "DWT"}  # blocks of the processor
 CORE_REGISTER = re.compile(r"^#define (STK|SCB)_(\w+) STM32_REGISTER\((0x[0-9A-F]+)U\)$", re.M)
 CORE_BIT = re.compile(r"^#define (STK|SCB)_([A-Z]+)_([A-Z]+) \(1U << (\d+)\)$", re.M)
-<<<<<<< HEAD
 CORE_REGISTERS = {("SCB", "CFSR"): "CFSR_UFSR_BFSR_MMFSR"}
-=======
-CORE_REGISTERS = {("SCB", "CFSR"): "CFSR_UFSR_BFSR_MMFSR", ("MPU", "CTRL"): "MPU_CTRL"}
 NOT_IN_F407 = {
     "GPIOJ", "GPIOK", "DMA2D", "UART7", "UART8", "SPI4", "SPI5", "SPI6", "SAI1", "LTDC",
 }  # fmt: skip
->>>>>>> 55d20ddf (startup: the Ethernet MAC and the camera's port of an F407 are reset, too)
 RESET_MASK = re.compile(r"ON_(\w+) = (0x[0-9A-F]+),")
 
 

@@ -50,6 +50,42 @@ def test_code_in_ram_may_wait_for_the_bus_of_its_data(run_image):
     assert shared[1:30:2] == plain[1:30:2]
 
 
+def test_sram_may_be_at_address_0_until_the_next_reset(run_image):
+    result = run_image("low").result
+
+    assert result[0:4] == [1, 3, 1, 77]  # the flash; the mode; a word of SRAM, read and written there
+    assert result[11] == 1  # the flash again
+
+
+def test_code_in_sram_costs_the_same_at_address_0(run_image):
+    result = run_image("low").result
+
+    assert result[4:7] == result[7:10]
+
+
+def test_code_at_address_0_waits_for_its_literals_alone(run_image):
+    plain, shared = run_image("low").result, run_image("low", "--shared-bus").result
+
+    more = [there - here for here, there in zip(plain[4:10], shared[4:10], strict=True)]
+    assert more == [pytest.approx(cycles, abs=2) for cycles in (100, 101, 101, 0, 100, 0)]
+
+
+def test_sram2_is_not_at_address_0(run_image):
+    assert run_image("low", defines=["PAST"]).summary["faults"]["count"] == 1
+
+
+@pytest.mark.parametrize("mode", [1, 2])
+def test_another_memory_at_address_0_is_not_modelled(run_image, mode):
+    assert "SYSCFG" in run_image("low", defines=[f"MODE={mode}"]).told
+
+
+def test_the_core_coupled_memory_has_a_clock(run_image):
+    run = run_image("low", defines=["NO_CCM"])
+
+    assert run.summary["watch"]["result"][12] == 5
+    assert run.summary["faults"]["count"] == 1
+
+
 def test_flash_costs_its_wait_states_at_branches_and_where_the_prefetch_is_too_slow(run_image):
     result = run_image("costs").result
     in_flash = dict(zip(COSTS_IN_RAM, result[1:30:2], strict=True))

@@ -194,6 +194,11 @@ def test_pulses_are_as_wide_and_directions_stand_as_long_as_the_readme_says(tour
         assert {k: motor[k] for k, least in least_us.items() if motor[k] < least} == {}, motor
 
 
+def test_edges_of_steps_take_a_fiftieth_of_the_shortest_pulse_at_most(tour):
+    """DS8626: 10 ns with a speed of 1, 100 ns with 0."""
+    assert [motor["pin_speed"] for motor in tour.summary["motors"]] == [1, 1, 1, 1]
+
+
 def test_open_inputs_and_switches_are_off(wired):
     modelled = wired("BI", "S1").run(ask(START_MS, GET_STATUS), (START_MS + STATUS_MS) / 1000)
 

@@ -165,6 +165,12 @@ static void print_vectors(const struct board *board)
     (void)printf("],\n");
 }
 
+/* OSPEEDR (RM0090 8.4.3). */
+static unsigned pin_speed(const struct board *board, struct pin pin)
+{
+    return pin.port < GPIO_PORTS ? board->gpio.port[pin.port].ospeedr >> 2U * pin.number & 3U : 0U;
+}
+
 static void print_motors(const struct board *board)
 {
     const struct recorder *recorder = &board->recorder;
@@ -175,6 +181,7 @@ static void print_motors(const struct board *board)
         const struct recorder_motor *motor = &recorder->motor[i];
         (void)printf("%s\n{\"motor\":%u,", i == 0 ? "" : ",", i + 1U);
         put_number("pulses", motor->pulses);
+        put_number("pin_speed", pin_speed(board, board->pins.pin[SIGNAL_STEP + i]));
         put_us("width_min", motor->width_least_ps);
         put_us("gap_min", motor->gap_least_ps);
         put_us("period_min", motor->period_least_ps);
