@@ -17,6 +17,10 @@ from rkm04_tools.tree import ROOT
 
 STACK_MARGIN_BYTES = 256
 
+CORE_COUPLED = range(0x1000_0000, 0x1001_0001)
+SRAM2 = range(0x2001_C000, 0x2002_0000)
+"""RM0090 2.3.1: DMA reaches the second, not the first."""
+
 pytestmark = pytest.mark.skipif(
     not shutil.which(board.COMPILER),
     reason=f"{board.COMPILER} is not installed: run tools/setup test",
@@ -58,6 +62,30 @@ def test_the_image_begins_with_the_stack_and_the_reset_handler(image):
 
     assert int.from_bytes(first[:4], "little") == address["stm32_stack_top"]
     assert int.from_bytes(first[4:], "little") == address["stm32_reset"] | 1
+
+
+def addresses(image: board.Image, what: str) -> dict[str, int]:
+    """Of all symbols of some kinds, as nm names them."""
+    found = (line.split() for line in binutil("nm", image.file("elf")))
+    return {name: int(value, 16) for value, kind, name in found if kind in what}
+
+
+def test_all_data_is_on_a_bus_of_its_own_and_what_dma_moves_is_where_it_can_reach_it(image):
+    data = addresses(image, "bB")
+    dma = {name for name, address in data.items() if address not in CORE_COUPLED}
+
+    assert {data[name] in SRAM2 for name in dma} <= {True}
+    assert dma <= {"stm32_step", "stm32_shared_begin", "stm32_shared_end"}
+
+
+def test_a_stack_that_overflows_leaves_the_memory(image):
+    assert addresses(image, "bB")["stm32_stack_bottom"] == CORE_COUPLED.start
+    tried = board.build(image.board, what=board.BRINGUP)
+    assert addresses(tried, "bB")["stm32_stack_bottom"] == 0x2000_0000
+
+
+def test_nothing_lies_where_a_null_pointer_leads(image):
+    assert min(address for address in addresses(image, "tTrR").values() if address) >= 0x200
 
 
 def test_dfu_util_finds_the_suffix_of_the_image_and_takes_it_off_again(image, tmp_path):

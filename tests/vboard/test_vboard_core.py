@@ -53,7 +53,7 @@ def test_code_in_ram_may_wait_for_the_bus_of_its_data(run_image):
 def test_sram_may_be_at_address_0_until_the_next_reset(run_image):
     result = run_image("low").result
 
-    assert result[0:4] == [1, 3, 1, 77]  # the flash; the mode; a word of SRAM, read and written there
+    assert result[0:4] == [1, 3, 1, 77]  # the flash; mode; SRAM read and written
     assert result[11] == 1  # the flash again
 
 
