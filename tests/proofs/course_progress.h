@@ -7,23 +7,13 @@
 
 #include "course_speeds.h"
 
-/*@ predicate course_same{L, M}(struct path_course *c) =
-        \at(c->length, L) == \at(c->length, M) && \at(c->grains_per_step, L) == \at(c->grains_per_step, M) &&
-        \at(c->whole.high, L) == \at(c->whole.high, M) && \at(c->whole.low, L) == \at(c->whole.low, M) &&
-        \at(c->end.high, L) == \at(c->end.high, M) && \at(c->end.low, L) == \at(c->end.low, M) &&
-        \at(c->per_length.scaled, L) == \at(c->per_length.scaled, M) &&
-        \at(c->per_length.reciprocal, L) == \at(c->per_length.reciprocal, M) &&
-        \at(c->per_length.shift, L) == \at(c->per_length.shift, M);
-*/
-
 /*@ requires \valid(course) && course->legs <= 2 && \valid_read(at) && \separated(course, at);
-    assigns *course;
+    assigns course->legs, course->leg[\at(course->legs, Pre)];
     ensures course->legs == \old(course->legs) + 1 && \result == &course->leg[\old(course->legs)];
     ensures \result->time.high == at->time.high && \result->time.low == at->time.low;
     ensures \result->place.high == at->place.high && \result->place.low == at->place.low;
     ensures \result->slope.high == at->slope.high && \result->slope.low == at->slope.low;
     ensures \result->twice_speed2 == at->twice_speed2;
-    ensures course_same{Pre, Post}(course);
 */
 static struct path_leg *begin_leg(struct path_course *course, const struct progress *at);
 
