@@ -161,6 +161,10 @@ PLANTED = [
         "speed_of(at->speeds, twice_speed2)", "speed_of(at->speeds, 0)",
     ),
     (
+        "path_course_lay_ramp", "lay_ramp", "firmware/engine/path/path_course.c",
+        "at->place = leg->end", "at->place = leg->place",
+    ),
+    (
         "path_course_step", "path_course_step", "firmware/engine/path/path_course.c",
         "leg = &course->leg[i + 1U]", "leg = &course->leg[i + 2U]",
     ),
@@ -322,7 +326,7 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
-    "lay_cruise", "lay_ramp", "path_course_lay", "path_lay_anew",
+    "lay_cruise", "path_course_lay", "path_lay_anew",
     "path_lay_begin", "path_lay_next",
     "between_steps", "count_void", "find_before", "find_between", "find_early", "find_in",
     "find_origin", "find_step", "is_before", "is_handed_over", "keep_before", "pass_border",
