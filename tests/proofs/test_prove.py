@@ -205,6 +205,38 @@ PLANTED = [
         "ticks = ticks < until_stand ? ticks : until_stand", "ticks = ticks + until_stand",
     ),
     (
+        "path_change_counts", "count_void", "firmware/engine/path/path_change.c",
+        "return count - there", "return count",
+    ),
+    (
+        "path_change_counts", "is_handed_over", "firmware/engine/path/path_change.c",
+        "made < path_section_steps", "made <= path_section_steps",
+    ),
+    (
+        "path_change_section", "section_at", "firmware/engine/path/path_change.c",
+        "path->laid == path->origin.section || ", "",
+    ),
+    (
+        "path_change_early", "find_early", "firmware/engine/path/path_change.c",
+        "early.time.high >= look->early_tick && ", "",
+    ),
+    (
+        "path_change_border", "pass_border", "firmware/engine/path/path_change.c",
+        "place->entry.place = (struct wide){0}", "place->entry.place = (struct wide){1}",
+    ),
+    (
+        "path_change_before", "keep_before", "firmware/engine/path/path_change.c",
+        "kept->valid && kept->section == place->section", "kept->valid",
+    ),
+    (
+        "path_change_origin", "find_origin", "firmware/engine/path/path_change.c",
+        "wish->accel != 0 && rest != 0", "rest != 0",
+    ),
+    (
+        "path_change_back", "path_back", "firmware/engine/path/path_change.c",
+        "!is_handed_over(path, place, axis, there[axis])", "false",
+    ),
+    (
         "path_vector_take", "path_section_take", "firmware/engine/path/path_vector.c",
         "vector->extent2 == square", "vector->extent2 >= square",
     ),
@@ -328,10 +360,10 @@ ONLY_MODELLED = {
 NOT_PROVED = {
     "lay_cruise", "path_course_lay", "path_lay_anew",
     "path_lay_begin", "path_lay_next",
-    "between_steps", "count_void", "find_before", "find_between", "find_early", "find_in",
-    "find_origin", "find_step", "is_before", "is_handed_over", "keep_before", "pass_border",
-    "path_back", "path_can_rest", "path_change", "path_find", "path_stop", "plan_from",
-    "section_at", "set_accel",
+    "between_steps", "find_before", "find_between", "find_in",
+    "find_step",
+    "path_can_rest", "path_change", "path_find", "path_stop", "plan_from",
+    "set_accel",
 }  # fmt: skip
 
 
