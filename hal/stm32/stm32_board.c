@@ -26,7 +26,8 @@ static void enable_interrupt(uint32_t irq, uint32_t priority)
 }
 
 /* The record outlives every reset but that of the power, and keeps the flags of the chip, which can be read once. Where
- * a boot loader has used its memory, the flags alone tell: only the handler of faults resets by software. */
+ * a boot loader has used its memory, the flags alone tell: of what resets by software the handler of faults is the one
+ * to be expected; a debugger is taken for it. */
 static enum hal_board_cause find_cause(void)
 {
     uint32_t flags = RCC_CSR;
