@@ -42,7 +42,7 @@ class Model:
     refill: int
     wait_states: int = 5
     slow_ram: bool = False
-    """Fetching code from RAM waits for the bus that has the data."""
+    """Code in RAM waits for its data, as --shared-bus says."""
 
     @property
     def name(self) -> str:

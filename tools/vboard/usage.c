@@ -34,7 +34,7 @@ const char options_usage[] =
     "  --wait-states N       of the flash, 0 to 15 (as FLASH_ACR says)\n"
     "  --apb-wait N          cycles by which an access to a bus at a quarter of the clock takes longer (8)\n"
     "  --art                 model the accelerator of the flash\n"
-    "  --shared-bus          code in RAM waits for the bus that has its data\n"
+    "  --shared-bus          code in RAM waits for data, at address 0 for its constants alone\n"
     "  --match-equal         a compare value written while the timer stands on it matches\n"
     "  --exti-mask-first     an edge on a masked line of EXTI leaves nothing pending\n"
     "  --pwm-at-once         a channel that comes from a forced level shows the comparison at once\n"
