@@ -26,7 +26,9 @@ pytestmark = pytest.mark.skipif(bool(emulator.missing()), reason=emulator.missin
 
 @pytest.fixture(scope="session")
 def image() -> Path:
-    return board.build(board.DEFAULT_BOARD).file("elf")
+    """That of the board, but all in SRAM: the emulator has no other memory, and puts none at 0."""
+    image = board.build(board.DEFAULT_BOARD, "flat_image")
+    return image.file("elf").with_name(f"{image.name}-flat.elf")
 
 
 @pytest.fixture

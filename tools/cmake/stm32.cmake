@@ -48,12 +48,13 @@ endif()
 function(firmware_add_image target name library)
     add_executable(${target} ${ARGN})
     set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} SUFFIX .elf LINK_DEPENDS "${script};${unit_script}")
-    set_property(TARGET ${target} PROPERTY sram_data 0)
+    set_target_properties(${target} PROPERTIES sram_data 0 flat 0)
     target_link_libraries(${target} PRIVATE ${library} hal hal_stm32 warnings)
     # Relocations stay in the image (-q): they tell the checks what refers to what.
     target_link_options(${target} PRIVATE -nostartfiles --specs=nano.specs
         -Wl,--defsym=stm32_loader_bytes=${loader_bytes} -Wl,--defsym=stm32_stack_bytes=${stack_bytes}
-        -Wl,--defsym=stm32_sram_data=$<TARGET_PROPERTY:${target},sram_data> -T ${script}
+        -Wl,--defsym=stm32_sram_data=$<TARGET_PROPERTY:${target},sram_data>
+        -Wl,--defsym=stm32_flat=$<TARGET_PROPERTY:${target},flat> -T ${script}
         -L ${PROJECT_SOURCE_DIR}/firmware/${FIRMWARE_UNIT}/image
         -Wl,--gc-sections -Wl,-q -Wl,--fatal-warnings -Wl,-Map=${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name}.map)
 endfunction()
@@ -78,7 +79,9 @@ endif()
 firmware_add_image(take_back_image ${image}-take-back firmware_inside tests/vboard/images/take_back_main.c)
 firmware_add_image(step_acts_image ${image}-step-acts firmware_inside tests/vboard/images/step_acts_main.c)
 firmware_add_image(seam_image ${image}-seam base tests/vboard/images/seam_main.c)
-set_target_properties(take_back_image step_acts_image seam_image PROPERTIES EXCLUDE_FROM_ALL ON)
+firmware_add_image(flat_image ${image}-flat ${FIRMWARE_UNIT} firmware/${FIRMWARE_UNIT}/main.c)
+set_target_properties(flat_image PROPERTIES sram_data 56K flat 1) # for an emulator that has no memory but SRAM
+set_target_properties(take_back_image step_acts_image seam_image flat_image PROPERTIES EXCLUDE_FROM_ALL ON)
 
 set(checks ${PROJECT_SOURCE_DIR}/tools/checks)
 set(run_python ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_SOURCE_DIR}/tools PYTHONDONTWRITEBYTECODE=1
