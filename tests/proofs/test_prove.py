@@ -181,6 +181,10 @@ PLANTED = [
         ".place = inside ? course->end : (struct wide){0}", ".place = course->end",
     ),
     (
+        "path_add", "path_add", "firmware/engine/path/path.c",
+        "if (path->end - path->first == path->size)", "if (vector->straight)",
+    ),
+    (
         "path_cursor", "seek_leg", "firmware/engine/path/path.c",
         "cursor->pulse <= cursor->last", "cursor->pulse <= cursor->last + 1U",
     ),
@@ -381,10 +385,9 @@ NOT_PROVED = {
     "path_course_lay", "path_lay_anew",
     "path_lay_begin", "path_lay_next",
     "between_steps", "find_before", "find_between", "find_in",
-    "find_step", "join", "path_add", "path_can_rest",
-    "path_change", "path_find", "path_next", "path_speed_at",
-    "path_start", "path_stop", "plan_from", "reach",
-    "seek", "set_accel",
+    "find_step", "path_can_rest", "path_change", "path_find",
+    "path_next", "path_speed_at", "path_start", "path_stop",
+    "plan_from", "reach", "seek", "set_accel",
 }  # fmt: skip
 
 
