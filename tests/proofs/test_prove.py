@@ -177,6 +177,10 @@ PLANTED = [
         "uint64_t way = step * steps", "uint64_t way = step * steps + length",
     ),
     (
+        "path_lay_anew", "path_lay_anew", "firmware/engine/path/path_lay.c",
+        "path->stopping ? 0 : section->vector.speed", "section->vector.speed",
+    ),
+    (
         "path_lay_leave", "come_to_rest", "firmware/engine/path/path_lay.c",
         ".place = inside ? course->end : (struct wide){0}", ".place = course->end",
     ),
@@ -382,7 +386,7 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
-    "path_course_lay", "path_lay_anew",
+    "path_course_lay",
     "path_lay_begin", "path_lay_next",
     "between_steps", "find_before", "find_between", "find_in",
     "find_step", "path_can_rest", "path_change", "path_find",
