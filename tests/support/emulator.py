@@ -1,4 +1,4 @@
-"""An image of the board, all in SRAM, in QEMU's STM32F405: the line over TCP, the processor over gdb's protocol.
+"""An image, all in SRAM, in QEMU's STM32F405: the line over TCP, the processor over gdb's protocol.
 
 The machine has no clock control, pins, flash controller or watchdog: their registers read 0 and
 ignore writes. So the image finds no crystal and all pins low, that is all switches of S1 on: 16.
