@@ -84,6 +84,14 @@ def test_a_stack_that_overflows_leaves_the_memory(image):
     assert addresses(tried, "bB")["stm32_stack_bottom"] == 0x2000_0000
 
 
+def test_all_that_is_loaded_goes_into_the_flash(image):
+    rows = [line.split() for line in binutil("readelf", "-lW", image.file("elf"))]
+    loaded = [int(row[3], 16) for row in rows if row[:1] == ["LOAD"] and int(row[4], 16) > 0]
+
+    assert loaded
+    assert all(0x0800_0000 <= address < 0x0810_0000 for address in loaded)
+
+
 def test_nothing_lies_where_a_null_pointer_leads(image):
     assert min(address for address in addresses(image, "tTrR").values() if address) >= 0x200
 
