@@ -50,13 +50,15 @@ function(firmware_add_image target name library)
     set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} SUFFIX .elf LINK_DEPENDS "${script};${unit_script}")
     set_target_properties(${target} PROPERTIES sram_data 0 flat 0)
     target_link_libraries(${target} PRIVATE ${library} hal hal_stm32 warnings)
-    # Relocations stay in the image (-q): they tell the checks what refers to what. No segment has the headers (--nmagic).
+    # Relocations stay in the image (-q): they tell the checks what refers to what. No segment has the file's headers
+    # (--nmagic): the first one is not in the flash.
     target_link_options(${target} PRIVATE -nostartfiles --specs=nano.specs
         -Wl,--defsym=stm32_loader_bytes=${loader_bytes} -Wl,--defsym=stm32_stack_bytes=${stack_bytes}
         -Wl,--defsym=stm32_sram_data=$<TARGET_PROPERTY:${target},sram_data>
         -Wl,--defsym=stm32_flat=$<TARGET_PROPERTY:${target},flat> -T ${script}
         -L ${PROJECT_SOURCE_DIR}/firmware/${FIRMWARE_UNIT}/image
-        -Wl,--gc-sections -Wl,-q -Wl,--nmagic -Wl,--fatal-warnings -Wl,-Map=${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name}.map)
+        -Wl,--gc-sections -Wl,-q -Wl,--nmagic -Wl,--fatal-warnings
+        -Wl,-Map=${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${name}.map)
 endfunction()
 firmware_add_image(unit_image ${image} ${FIRMWARE_UNIT} firmware/${FIRMWARE_UNIT}/main.c)
 if(FIRMWARE_UNIT STREQUAL rkm04)

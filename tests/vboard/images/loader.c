@@ -16,9 +16,8 @@ static void look_at_processor(void)
     result[17] = MPU_CTRL;
 }
 
-int main(void)
+static void look_at_part(void)
 {
-    look_at_processor();
     result[0] = RCC_CR;
     result[1] = RCC_CFGR & 0xF;
     result[2] = FLASH_SR;
@@ -29,6 +28,12 @@ int main(void)
     result[7] = REG16(0x1FFF7A22);
     result[8] = REG(0xE0042000);
     result[10] = SCB_AIRCR;
+}
+
+int main(void)
+{
+    look_at_processor();
+    look_at_part();
     RCC_AHB1ENR |= 2;
     (void)RCC_AHB1ENR;
     (void)RCC_AHB1ENR;

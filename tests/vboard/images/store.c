@@ -1,5 +1,5 @@
-/* Erases sector 4 and writes eight words into it; result[0] counts what went well, result[1] the errors. CACHED: behind
- * the data cache; result[2]: the third word, [3] with the cache off, [4] on again, [5] after it was reset. */
+/* Erases sector 4 and writes eight words into it; result[0] counts what went well, result[1] the errors. CACHED: with
+ * the data cache on; result[2]: the third word, [3] with the cache off, [4] on again, [5] after it was reset. */
 #include "part.h"
 
 #define TARGET 0x08010000u
