@@ -1,7 +1,5 @@
 #include "flash.h"
 
-#include "flash_outcome.h"
-
 enum {
     FLASH_ACR = 0x00,
     FLASH_KEYR = 0x04,

@@ -1,4 +1,4 @@
-#include "flash_outcome.h"
+#include "flash.h"
 
 /* Whether anything in a range of the flash has been executed. */
 static bool was_executed(const struct flash *flash, uint32_t offset, uint32_t bytes)
