@@ -39,15 +39,6 @@ def test_feeds_at_full_speed_are_answered_and_make_no_pulse_late(rig):
 
 
 @on_target
-def test_no_pulse_is_late_either_where_fetching_from_ram_is_slow(rig):
-    slow = rig.beside("slow", target_run.Model(3, slow_ram=True))
-
-    figures = loads.measure(slow, "here", loads.FULL, cycles=40)
-
-    assert figures["late_here"] == figures["unanswered_here"] == 0
-
-
-@on_target
 def test_a_request_changes_pulses_after_it_has_come(rig, monkeypatch):
     monkeypatch.setattr(reactions, "ROUNDS", 2)
 

@@ -37,12 +37,10 @@ BENCH_SECONDS_MAX = 2.0
 
 @dataclass(frozen=True)
 class Model:
-    """The cycle model: cycles to refill the pipeline, wait states of the flash, slow RAM."""
+    """The cycle model: cycles to refill the pipeline, and wait states of the flash."""
 
     refill: int
     wait_states: int = 5
-    slow_ram: bool = False
-    """Code in RAM waits for its data, as --shared-bus says."""
 
     @property
     def name(self) -> str:
@@ -52,8 +50,7 @@ class Model:
     @property
     def options(self) -> list[str]:
         """For the virtual board."""
-        slow = ["--shared-bus"] if self.slow_ram else []
-        return ["--refill", str(self.refill), "--wait-states", str(self.wait_states), *slow]
+        return ["--refill", str(self.refill), "--wait-states", str(self.wait_states)]
 
 
 GATE = Model(3)
