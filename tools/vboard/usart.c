@@ -377,7 +377,7 @@ static void write_brr(struct usart *usart, uint32_t value)
     usart->brr = value;
 }
 
-static void write_cr1(struct usart *usart, uint32_t value)
+static void check_cr1(const struct usart *usart, uint32_t value)
 {
     if ((value & 0xFFFFU & ~(uint32_t)CR1_MODELLED) != 0) {
         report_fail(usart->wires.report, "USART%u: CR1 %04x asks for what is not modelled", usart->wires.number + 1U,
@@ -387,17 +387,24 @@ static void write_cr1(struct usart *usart, uint32_t value)
         report_fail(usart->wires.report, "USART%u: CR1 %04x: 7 or 9 bits of data are not modelled",
                     usart->wires.number + 1U, value);
     }
-    bool could = can_send(usart);
     if (usart->shifting && !usart->idle_frame && (value & (CR1_UE | CR1_TE)) != (CR1_UE | CR1_TE)) {
         report_fail(usart->wires.report, "USART%u: the transmitter is switched off in a character (RM0090 30.3.2)",
                     usart->wires.number + 1U);
     }
+}
+
+static void write_cr1(struct usart *usart, uint32_t value)
+{
+    check_cr1(usart, value);
+    bool could = can_send(usart);
     usart->cr1 = value;
-    if (can_send(usart) && !could && usart->listener.low != NULL &&
-        is_connected(usart, transmit_pins[usart->wires.number])) {
+    if (!can_send(usart) || could) {
+        return;
+    }
+    if (usart->listener.low != NULL && is_connected(usart, transmit_pins[usart->wires.number])) {
         usart->listener.low(usart->listener.model);
     }
-    if (can_send(usart) && !could && !usart->shifting) {
+    if (!usart->shifting) {
         shift_out(usart, true, usart->wires.clock->now); /* section 30.3.2: an idle frame comes first */
     }
 }
