@@ -200,9 +200,11 @@ def test_homing_and_capture(page: PosPage) -> None:
     page.at("method-1").select_option("19")
     page.at("home-1").click()
     expect(page.bit("HOMING")).to_be_visible()
-    page.page.get_by_role("button", name="BI2").click()
-    page.page.wait_for_timeout(500)
-    page.page.get_by_role("button", name="BI2").click()
+    home_switch = page.page.get_by_role("button", name="BI2")
+    home_switch.click()
+    expect(home_switch).to_have_attribute("data-level", "1")
+    page.page.wait_for_timeout(500)  # the axis turns, and is on its way back to the switch's edge
+    home_switch.click()
     page.doing("REACHED")
     expect(page.at("position-1")).to_have_text("25.500 mm")
 
