@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 
 import pytest
+
+RESIDENT_KB_MAX = 100_000
 
 
 @pytest.mark.parametrize(
@@ -135,3 +138,15 @@ def test_a_constant_can_be_set(run_image):
 
     assert plain.result[0] == 7
     assert run.result[0] == 0x12345678
+
+
+@pytest.mark.skipif(not hasattr(os, "wait4"), reason="the system does not tell what a process used")
+def test_a_run_takes_no_gigabyte_of_memory(program, build_image):
+    elf = build_image("preset")
+    run = subprocess.Popen([program, "--elf", elf, "--for", "0.01"], stdout=subprocess.DEVNULL)
+
+    _, status, used = os.wait4(run.pid, 0)
+    run.returncode = os.waitstatus_to_exitcode(status)
+
+    assert run.returncode == 0
+    assert used.ru_maxrss < RESIDENT_KB_MAX
