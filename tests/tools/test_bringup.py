@@ -94,6 +94,8 @@ def test_a_good_board_is_gone_through_and_all_is_good(tool, power, monkeypatch, 
     assert (result.status, report["complete"], report["good"]) == (0, True, True)
     assert seen(report, "part", "flash") == ("1024 kB", "good")
     assert seen(report, "pulses", "pulses") == ("16 of 16", "good")
+    told = "4800, 4800, 4800, 4800, 1 us apart"
+    assert seen(report, "all motors", "pulses") == (told, "good")
     for name in ("step", "line", "tick", "plan"):
         cycles = re.fullmatch(
             r"\d+ times, longest (\d+) cycles", seen(report, "interrupts", f"{name} interrupt")[0]
@@ -170,6 +172,27 @@ def test_a_board_without_a_crystal_is_told_and_its_leds_and_directions_too(tool,
 
 
 @modelled
+@pytest.mark.parametrize(
+    ("name", "options", "said"),
+    [
+        ("f405", ["--apb-wait", "9"], r"BAD +edges +one came too late, .* must be longer"),
+        ("skr-pro-1.2", [], r"note +edges +not tried +only streams"),
+        ("f405", ["--no-crystal"], r"BAD +no pulses are made +there is no crystal"),
+    ],
+)
+def test_streams_that_do_not_keep_up_with_four_motors_are_told(
+    tool, power, typed, name, options, said
+):
+    power(*options, name=name)
+    typed(answers(leave=[step.name for step in STEPS if step.name != "all motors"]))
+
+    result = tool("bringup", "--board", name, "--port", "virtual")
+
+    assert re.search(said, result.out)
+    assert ("nothing bad was seen" in result.out) == said.startswith("note")
+
+
+@modelled
 def test_an_image_for_other_pins_ends_the_walk_before_anything_is_switched(tool, power, typed):
     power()
     typed(answers())
@@ -177,7 +200,7 @@ def test_an_image_for_other_pins_ends_the_walk_before_anything_is_switched(tool,
     result = tool("bringup", "--board", "weact-f405", "--port", "virtual")
 
     assert result.status == 1
-    assert "the board has the image bringup-f405 2, not bringup-weact-f405 2" in result.out
+    assert "the board has the image bringup-f405 3, not bringup-weact-f405 3" in result.out
     assert "NOT DONE: line, part" in result.out
 
 
@@ -296,7 +319,7 @@ def whole(text: bytes, letter: bytes) -> bytes:
     return text + b"end %s %d\n" % (letter, sum(text))
 
 
-READY = whole(b"ready bringup-f405 2\n", b"h")
+READY = whole(b"ready bringup-f405 3\n", b"h")
 
 
 @pytest.mark.parametrize(
@@ -306,14 +329,14 @@ READY = whole(b"ready bringup-f405 2\n", b"h")
         READY.replace(b"ready", b"rea\xffy"),
         READY[:-3],
         b"error ? broken\n",
-        whole(b"ready bringup-f405 2\n", b"p"),
+        whole(b"ready bringup-f405 3\n", b"p"),
         b"\xff" * 500,
     ],
 )
 def test_an_answer_that_was_damaged_is_asked_for_again(before):
     line = FakeLine(before, READY)
 
-    assert talk.Talk(line).ask("h").words("ready") == ["bringup-f405", "2"]
+    assert talk.Talk(line).ask("h").words("ready") == ["bringup-f405", "3"]
     assert line.sent == [b"\nh\n"] * 2
 
 

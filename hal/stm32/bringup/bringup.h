@@ -59,7 +59,14 @@ bool bringup_capture_read(void);
 const char *bringup_capture_tell(uint32_t number);
 
 /* The pulses of that. Step interrupt. */
-unsigned bringup_capture_lay_isr(void *context, unsigned motor, struct hal_step_room *room);
+unsigned bringup_capture_lay_isr(unsigned motor, struct hal_step_room *room);
+
+/* Makes pulses of all motors at once, and tells how many. A null answer: done; else why not. Where they are too much
+ * for the part it is reset meanwhile. */
+const char *bringup_together_tell(void);
+
+/* The pulses of that. Step interrupt. */
+unsigned bringup_together_lay_isr(unsigned motor, struct hal_step_room *room);
 
 /* Switches one of the wires of a kind on and all others of all kinds off; number 0: all off. A null answer: done, and
  * the levels that the pins have now were told; else why not. */
@@ -79,6 +86,8 @@ void say_word(const char *word);
 void say_decimal(uint32_t value);
 void say_hex(uint32_t value, unsigned digits);
 void say_line_end(void);
+/* A line of its own. */
+void say_number(const char *name, uint32_t value);
 /* The last line of an answer; of a refusal. */
 void say_end(char command);
 void say_error(char command, const char *why);

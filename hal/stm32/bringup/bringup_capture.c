@@ -88,10 +88,9 @@ static uint32_t interval_ticks(uint32_t i)
     return us * (uint32_t)TICKS_PER_US + i;
 }
 
-unsigned bringup_capture_lay_isr(void *context, unsigned motor, struct hal_step_room *room)
+unsigned bringup_capture_lay_isr(unsigned motor, struct hal_step_room *room)
 {
     unsigned count = 0;
-    (void)context;
     while (motor == train.motor && count < room->count && train.laid < (uint32_t)PULSES &&
            (count == 0 || (int32_t)(train.next_tick - room->until_tick) < 0)) {
         room->pulse[count] = (struct hal_step_pulse){train.next_tick, train.next_tick + room->high_ticks};
@@ -248,17 +247,10 @@ static void tell_wanted(void)
     say_line_end();
 }
 
-static void tell_one(const char *name, uint32_t value)
-{
-    say_name(name);
-    say_decimal(value);
-    say_line_end();
-}
-
 static void tell_captured(const struct captured *captured)
 {
-    tell_one("captured", captured->count);
-    tell_one("overrun", captured->lost ? 1U : 0U);
+    say_number("captured", captured->count);
+    say_number("overrun", captured->lost ? 1U : 0U);
     say_name("intervals");
     for (uint32_t i = 1; i < captured->count; i++) {
         say_decimal(captured->interval[i]);
@@ -297,10 +289,10 @@ const char *bringup_capture_tell(uint32_t number)
     start_timer(timer);
     make_pulses(timer, number, &captured);
     end_timer(timer);
-    tell_one("tick_hz", TICK_HZ);
-    tell_one("capture_hz", capture_hz(timer));
-    tell_one("made", train.laid - count_waiting(number - 1U));
-    tell_one("late", hal_board_late_steps() - late);
+    say_number("tick_hz", TICK_HZ);
+    say_number("capture_hz", capture_hz(timer));
+    say_number("made", train.laid - count_waiting(number - 1U));
+    say_number("late", hal_board_late_steps() - late);
     tell_wanted();
     tell_captured(&captured);
     return NULL;

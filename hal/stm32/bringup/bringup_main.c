@@ -10,7 +10,7 @@
 #include "hal_time.h"
 
 enum {
-    VERSION = 2, /* of the commands and answers; bringup/talk.py knows it */
+    VERSION = 3, /* of the commands and answers; bringup/talk.py knows it */
     COMMAND_BYTES_MAX = 8,
     WATCH_MS = 100,
 };
@@ -110,6 +110,15 @@ static void finish(char letter)
     }
 }
 
+static void finish_or_refuse(char letter, const char *why)
+{
+    if (why == NULL) {
+        say_end(letter);
+    } else {
+        say_error(letter, why);
+    }
+}
+
 static void set(char letter, const struct command *command)
 {
     uint32_t number = 0;
@@ -117,11 +126,7 @@ static void set(char letter, const struct command *command)
     if (command->length > 1U && read_number(command, &number)) {
         why = letter == 's' ? bringup_capture_tell(number) : bringup_outputs_set(letter, number);
     }
-    if (why == NULL) {
-        say_end(letter);
-    } else {
-        say_error(letter, why);
-    }
+    finish_or_refuse(letter, why);
 }
 
 /* The letters of commands that have a number. */
@@ -138,6 +143,8 @@ static void obey(const struct command *command)
         say_error('?', "broken");
     } else if (has_number(letter)) {
         set(letter, command);
+    } else if (command->length == 1U && letter == 'm') {
+        finish_or_refuse(letter, bringup_together_tell());
     } else if (command->length == 1U && tell(letter)) {
         finish(letter);
     } else {
@@ -162,6 +169,14 @@ static void take(struct command *command, const struct hal_line_byte *byte)
     }
 }
 
+/* Only one of them wants any at a time. */
+static unsigned lay(void *context, unsigned motor, struct hal_step_room *room)
+{
+    (void)context;
+    unsigned count = bringup_capture_lay_isr(motor, room);
+    return count != 0 ? count : bringup_together_lay_isr(motor, room);
+}
+
 static void plan_nothing(void *context)
 {
     (void)context;
@@ -169,8 +184,7 @@ static void plan_nothing(void *context)
 
 int main(void)
 {
-    static const struct hal_client client = {
-        .lay_isr = bringup_capture_lay_isr, .tick_isr = bringup_inputs_isr, .plan_isr = plan_nothing};
+    static const struct hal_client client = {.lay_isr = lay, .tick_isr = bringup_inputs_isr, .plan_isr = plan_nothing};
     struct command command = {.length = 0};
     struct hal_line_byte byte;
     bringup_part_take_reset();

@@ -69,6 +69,13 @@ void say_line_end(void)
     put('\n');
 }
 
+void say_number(const char *name, uint32_t value)
+{
+    say_name(name);
+    say_decimal(value);
+    say_line_end();
+}
+
 static void put_ending(const char *what, char command)
 {
     put_text(what);

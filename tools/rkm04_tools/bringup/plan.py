@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rkm04_tools.bringup import deeds, part, pulses, wires
+from rkm04_tools.bringup import deeds, part, pulses, together, wires
 from rkm04_tools.bringup.step import Step
 
 SAFETY = """\
@@ -48,6 +48,9 @@ STEPS = (
          "timer measures 16 pulses, 60 to 135 us apart. Where none comes, the other STEP pins get\n"
          "pulses, and all outputs go on one by one, to see where the wire leads.",
          "all pulses, on their ticks, as wide as the board says", pulses.measure),
+    Step("all motors",
+         "Nothing to connect: 200 short bursts of the narrowest pulses at all STEP pins at once.",
+         "each edge in time", together.try_together),
     Step("interrupts", "Nothing to do: how long the interrupts have taken, in cycles.",
          "they come", wires.look_at_cycles),
     Step("watchdog", "The image hangs on purpose; the watchdog must reset the part.",

@@ -9,7 +9,7 @@ from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.line_errors import GarbledAnswer, NoAnswer
 from rkm04_tools.transport import Transport
 
-VERSION = "2"
+VERSION = "3"
 """Of commands and answers; bringup_main.c has the same."""
 READY = "ready"
 TRIES = 3
