@@ -86,6 +86,13 @@ def store_new(run, tmp_path: Path, stored: Path, *more: str) -> Made:
     return made
 
 
+def test_a_store_that_takes_longer_than_an_answer_may_is_told_by_the_condition(run):
+    made = run(script(*settings(NEW, 50), *look(3000)), 3080, "--slow-flash")
+
+    assert sealed(struct.pack(">BBHH", 1, 16, STORE, 1)) not in made.said
+    assert made.said.endswith(looked(NEW))
+
+
 def test_a_cut_in_any_operation_of_a_store_leaves_all_old_settings_or_all_new_ones(
     run, tmp_path, stored
 ):
