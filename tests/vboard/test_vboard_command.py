@@ -7,7 +7,8 @@ import subprocess
 
 import pytest
 
-RESIDENT_KB_MAX = 100_000
+RESIDENT_KB_MAX = 900_000
+"""More than the run itself needs: what its parent had counts."""
 
 
 @pytest.mark.parametrize(
