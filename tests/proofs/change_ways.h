@@ -32,6 +32,8 @@ static const struct path_leg *leg_at(const struct path_course *course, uint64_t 
     requires speeds_on(look->leg, since(look->tick, look->leg->time.high));
     assigns *rest;
     ensures \result < 0xD000000000000000 && *rest < STEP_QUANTA;
+    ensures look->leg->accel == 0 ==> \result * STEP_QUANTA + *rest ==
+        look->leg->slope.high * since(look->tick, look->leg->time.high);
 */
 static uint64_t way_at(const struct look *look, uint64_t *rest);
 

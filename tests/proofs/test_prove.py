@@ -103,7 +103,7 @@ NOT_PROVED = {
     "path_course_lay",
     "path_lay_begin", "path_lay_next",
     "between_steps", "find_before", "find_between", "find_in",
-    "find_step", "path_can_rest", "path_change", "path_find",
+    "find_step", "path_change", "path_find",
     "path_next", "path_speed_at", "path_start", "path_stop",
     "plan_from", "reach", "seek", "set_accel",
 }  # fmt: skip

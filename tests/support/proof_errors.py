@@ -232,6 +232,10 @@ PLANTED = [
         "!is_handed_over(path, place, axis, there[axis])", "false",
     ),
     (
+        "path_change_rests", "path_can_rest", "firmware/engine/path/path_change.c",
+        "steps - (rest != 0 ? 1U : 0U)", "steps",
+    ),
+    (
         "path_vector_take", "path_section_take", "firmware/engine/path/path_vector.c",
         "vector->extent2 == square", "vector->extent2 >= square",
     ),

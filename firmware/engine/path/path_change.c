@@ -68,10 +68,10 @@ static bool find_step(const struct look *look, uint64_t *step, struct path_entry
     const unsigned most = 4;
     uint64_t rest = 0;
     uint64_t begin = wide_divide(look->leg->place, look->course->grains_per_step, &rest);
-    uint64_t first = wide_divide(look->course->leg[0].place, look->course->grains_per_step, &rest) + 1U;
+    uint64_t before = wide_divide(look->course->leg[0].place, look->course->grains_per_step, &rest);
     uint64_t last = wide_divide(look->course->end, look->course->grains_per_step, &rest);
     uint64_t near = begin + way_at(look, &rest);
-    near = near < first ? first : near;
+    near = near > before ? near : before + 1U;
     *step = last + 1U;
     last = last < near + most ? last : near + most;
     for (uint64_t at = near; at <= last; at++) {
@@ -94,7 +94,7 @@ static struct wide between_steps(const struct look *look, uint64_t grains_per_st
     way = path_wide_add(way, path_fixed_divide(look->leg->place, look->course->grains_per_step));
     struct wide place = path_wide_multiply(way.high, grains_per_step);
     place = path_wide_add(place, (struct wide){.low = path_wide_multiply(way.low, grains_per_step).high + 2U});
-    place.low &= ~UINT64_C(1);
+    place.low -= place.low % 2U;
     return place;
 }
 
@@ -279,7 +279,8 @@ bool path_can_rest(const struct path *path, const struct path_place *place)
         other += section->plain ? 0U : 1U;
         accel = section->vector.accel > accel ? section->vector.accel : accel;
     }
-    steps -= wide_divide(place->entry.place, path_lay_grains(path, place), &rest);
+    uint64_t step = wide_divide(place->entry.place, path_lay_grains(path, place), &rest);
+    steps -= step;
     struct wide gain = path_wide_multiply(PATH_GRAINS_PER_ACCEL / 2U * place->accel, steps - (rest != 0 ? 1U : 0U));
     gain = path_wide_add(gain, (struct wide){.low = path_look_start2(path)});
     bool slow = other == 0U || place->accel >= accel;
