@@ -10,13 +10,14 @@
 /* A cruise that a place is asked of: it is not far beyond its course's end at the tick. */
 /*@ predicate way_within(integer place, integer grains, integer way) =
         (way + 2) * grains + place <= grains * 0x7FFFFFFF;
-    predicate cruise_asked(struct path_course *c, struct path_leg *l, integer ticks) =
-        \forall integer way; 0 <= way && way * STEP_QUANTA <= l->slope.high * ticks ==>
+    predicate cruise_asked(struct path_course *c, struct path_leg *l, integer tick) =
+        \forall integer way; 0 <= way && way * STEP_QUANTA <= l->slope.high * since(tick, l->time.high) ==>
             way_within(value(l->place), c->grains_per_step, way);
     logic integer tick_on(struct path_leg *l, integer tick) = tick > l->time.high ? tick : l->time.high + 1;
     predicate cruise_looks(struct path_course *c, struct path_leg *l, integer tick) =
-        l->accel == 0 ==> leg_moves(l) && cruise_asked(c, l, tick_on(l, tick) - l->time.high);
-    predicate cruises_asked(struct path_course *c, integer tick) = legs_asked(c) && cruise_looks(c, &c->leg[0], tick) &&
+        l->accel == 0 ==> leg_moves(l) && cruise_asked(c, l, tick_on(l, tick));
+    predicate cruises_asked(struct path_course *c, integer tick) =
+        legs_asked(c) && (1 <= c->legs ==> cruise_looks(c, &c->leg[0], tick)) &&
         (2 <= c->legs ==> cruise_looks(c, &c->leg[1], tick)) && (3 <= c->legs ==> cruise_looks(c, &c->leg[2], tick));
 */
 
@@ -24,7 +25,7 @@
 /*@ requires \valid_read(look) && \valid_read(look->course) && \valid_read(look->leg) && leg_moves(look->leg);
     requires look->leg->accel == 0 && 2048 <= look->course->grains_per_step <= 0x20000000000;
     requires 2048 <= grains_per_step <= 0x20000000000;
-    requires cruise_asked(look->course, look->leg, since(look->tick, look->leg->time.high));
+    requires cruise_asked(look->course, look->leg, look->tick);
     requires value(look->leg->begin) * look->course->grains_per_step <= value(look->leg->place) * 0x10000000000000000;
     assigns \nothing;
     ensures value(\result) % 2 == 0 && value(\result) <= grains_per_step * 0x7FFFFFFF;

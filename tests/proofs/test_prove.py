@@ -102,8 +102,8 @@ ONLY_MODELLED = {
 NOT_PROVED = {
     "path_course_lay",
     "path_lay_begin", "path_lay_next",
-    "between_steps", "find_before", "find_between", "find_in",
-    "find_step", "path_change", "path_find",
+    "find_before", "find_in",
+    "path_change", "path_find",
     "path_next", "path_speed_at", "path_start", "path_stop",
     "plan_from", "reach", "seek", "set_accel",
 }  # fmt: skip

@@ -236,6 +236,18 @@ PLANTED = [
         "steps - (rest != 0 ? 1U : 0U)", "steps",
     ),
     (
+        "path_change_steps", "find_step", "firmware/engine/path/path_change.c",
+        "near > before ? near : before + 1U", "near",
+    ),
+    (
+        "path_change_betweens", "between_steps", "firmware/engine/path/path_change.c",
+        "place.low % 2U", "place.low % 3U",
+    ),
+    (
+        "path_change_betweens", "find_between", "firmware/engine/path/path_change.c",
+        "look.leg->time.high + 1U", "look.tick",
+    ),
+    (
         "path_vector_take", "path_section_take", "firmware/engine/path/path_vector.c",
         "vector->extent2 == square", "vector->extent2 >= square",
     ),
