@@ -105,7 +105,7 @@ NOT_PROVED = {
     "find_before", "find_in",
     "path_change", "path_find",
     "path_next", "path_speed_at", "path_start", "path_stop",
-    "plan_from", "reach", "seek", "set_accel",
+    "plan_from", "seek", "set_accel",
 }  # fmt: skip
 
 

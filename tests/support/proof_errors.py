@@ -160,6 +160,10 @@ PLANTED = [
         "cursor->pulse <= cursor->last", "cursor->pulse <= cursor->last + 1U",
     ),
     (
+        "path_reach", "reach", "firmware/engine/path/path.c",
+        "path_is_laid(path) || path->next.time.high", "path->next.time.high",
+    ),
+    (
         "path_late", "cursor_is_late", "firmware/engine/path/path.c",
         "tick >= until_tick", "tick > until_tick",
     ),

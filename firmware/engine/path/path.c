@@ -64,12 +64,13 @@ uint32_t path_speed_at(struct path *path, uint32_t section, uint32_t step)
     if (section - path->first >= path->laid - path->first) {
         return 0;
     }
-    struct wide place = path_wide_multiply(path_section_grains_per_step(path_section_of(path, section)), step);
+    const struct path_section *entered = path_section_of(path, section);
+    struct wide place = path_wide_multiply(path_section_grains_per_step(entered), step);
     const struct path_kept *before = section == path->origin.section ? path_lay_before(path) : NULL;
     bool past = before != NULL && path_wide_is_at_least(path->origin.entry.place, place);
     const struct path_course *course = past ? &before->course : path_lay_course(path, section);
-    struct path_entry at = path_course_step(course, step);
-    return (uint32_t)path_root((struct wide){.low = at.speed2});
+    uint64_t speed2 = course->legs == 0 ? entered->enter2 : path_course_step(course, step).speed2;
+    return (uint32_t)path_root((struct wide){.low = speed2});
 }
 
 bool path_lags(struct path *path)
