@@ -102,10 +102,9 @@ ONLY_MODELLED = {
 NOT_PROVED = {
     "path_course_lay",
     "path_lay_begin", "path_lay_next",
-    "find_before", "find_in",
     "path_change", "path_find",
     "path_next", "path_speed_at", "path_start", "path_stop",
-    "plan_from", "seek", "set_accel",
+    "plan_from", "seek",
 }  # fmt: skip
 
 

@@ -252,6 +252,19 @@ PLANTED = [
         "look.leg->time.high + 1U", "look.tick",
     ),
     (
+        "path_change_finds", "find_in", "firmware/engine/path/path_change.c",
+        "entry->place = path_wide_multiply(grains_per_step, step)",
+        "entry->place = path_wide_multiply(grains_per_step, step + 1U)",
+    ),
+    (
+        "path_change_accels", "set_accel", "firmware/engine/path/path_change.c",
+        "path_section_of(path, i - 1U)", "path_section_of(path, i)",
+    ),
+    (
+        "path_change_kept", "find_before", "firmware/engine/path/path_change.c",
+        "path_lay_grains(path, place)", "0",
+    ),
+    (
         "path_vector_take", "path_section_take", "firmware/engine/path/path_vector.c",
         "vector->extent2 == square", "vector->extent2 >= square",
     ),
