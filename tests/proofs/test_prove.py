@@ -104,7 +104,7 @@ NOT_PROVED = {
     "path_lay_begin", "path_lay_next",
     "path_change", "path_find",
     "path_next", "path_speed_at", "path_start", "path_stop",
-    "plan_from", "seek",
+    "plan_from", "seek", "set_accel",
 }  # fmt: skip
 
 

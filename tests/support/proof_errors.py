@@ -257,10 +257,6 @@ PLANTED = [
         "entry->place = path_wide_multiply(grains_per_step, step + 1U)",
     ),
     (
-        "path_change_accels", "set_accel", "firmware/engine/path/path_change.c",
-        "path_section_of(path, i - 1U)", "path_section_of(path, i)",
-    ),
-    (
         "path_change_kept", "find_before", "firmware/engine/path/path_change.c",
         "path_lay_grains(path, place)", "0",
     ),
