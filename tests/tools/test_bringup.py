@@ -16,8 +16,11 @@ from typing import Any
 import pytest
 from bringup_bench import INNER, Bench, Hands, powered
 from rkm04_tools import board
-from rkm04_tools.bringup import command, talk
+from rkm04_tools.board_header import read_board
+from rkm04_tools.bringup import command, talk, together
+from rkm04_tools.bringup import step as step_bench
 from rkm04_tools.bringup.part import option_bytes
+from rkm04_tools.bringup.person import Person
 from rkm04_tools.bringup.plan import STEPS
 from rkm04_tools.line_errors import GarbledAnswer, NoAnswer
 
@@ -351,6 +354,19 @@ def test_silence_and_noise_are_told_apart():
         talk.Talk(FakeLine(b"\nh\n")).ask("h")
     with pytest.raises(GarbledAnswer, match="no whole answer"):
         talk.Talk(FakeLine(b"\x80\x81\n")).ask("h")
+
+
+def test_a_damaged_answer_is_no_part_that_was_reset():
+    told = whole(b"cause fault\nfaults 1 44 0 0 0 4223\n", b"p")
+    made = b"wanted 2\nmade 2 2 2 2\nlate 0\nperiod_ticks 84\ntick_hz 84000000\n"
+    line = FakeLine(told, b"wanted\xff\n", told, whole(made, b"m"))
+    header = read_board((board.BOARDS / board.DEFAULT_BOARD / "board.h").read_text())
+    bench = step_bench.Bench(
+        board.DEFAULT_BOARD, header, talk.Talk(line), Person(io.StringIO()), patience=1.0
+    )
+
+    assert [each.verdict for each in together.try_together(bench)] == ["good", "good"]
+    assert line.sent == [b"\np\n", b"\nm\n", b"\np\n", b"\nm\n"]
 
 
 def test_what_restarts_the_board_is_sent_once_only():

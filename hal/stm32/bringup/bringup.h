@@ -58,15 +58,19 @@ bool bringup_capture_read(void);
 /* Makes pulses of a motor, 1 to 4, and tells what was captured of them. A null answer: done; else why not. */
 const char *bringup_capture_tell(uint32_t number);
 
-/* The pulses of that. Step interrupt. */
-unsigned bringup_capture_lay_isr(unsigned motor, struct hal_step_room *room);
-
 /* Makes pulses of all motors at once, and tells how many. A null answer: done; else why not. Where they are too much
  * for the part it is reset meanwhile. */
 const char *bringup_together_tell(void);
 
-/* The pulses of that. Step interrupt. */
-unsigned bringup_together_lay_isr(unsigned motor, struct hal_step_room *room);
+/* Begins so many pulses of a motor, 0 to 3, the first at a tick, each an interval after the one before. What was begun
+ * before has been made; with the step interrupt held off. */
+void bringup_train_begin(unsigned motor, uint32_t first_tick, uint32_t count, uint32_t (*interval_ticks)(uint32_t));
+
+/* How many of them have been made. */
+uint32_t bringup_train_count_made(unsigned motor);
+
+/* Lays them. Step interrupt. */
+unsigned bringup_train_lay_isr(void *context, unsigned motor, struct hal_step_room *room);
 
 /* Switches one of the wires of a kind on and all others of all kinds off; number 0: all off. A null answer: done, and
  * the levels that the pins have now were told; else why not. */

@@ -65,13 +65,6 @@ static const struct timer timers[] = {
     [SOURCE_TIM4_CH1] = {TIM4_BASE, &RCC_APB1ENR, RCC_APB1ENR_TIM4EN, 2, &stm32_board_clock.apb1_hz},
 };
 
-/* The pulses that are asked for; the step interrupt lays them. */
-static struct {
-    unsigned motor;
-    uint32_t laid;
-    uint32_t next_tick;
-} train = {.laid = PULSES};
-
 struct captured {
     uint32_t count;
     bool lost; /* a capture came before the last had been read */
@@ -86,19 +79,6 @@ static uint32_t interval_ticks(uint32_t i)
 {
     uint32_t us = (uint32_t)LEAST_INTERVAL_US + i * (uint32_t)STRIDE % (uint32_t)PULSES * (uint32_t)STEP_US;
     return us * (uint32_t)TICKS_PER_US + i;
-}
-
-unsigned bringup_capture_lay_isr(unsigned motor, struct hal_step_room *room)
-{
-    unsigned count = 0;
-    while (motor == train.motor && count < room->count && train.laid < (uint32_t)PULSES &&
-           (count == 0 || (int32_t)(train.next_tick - room->until_tick) < 0)) {
-        room->pulse[count] = (struct hal_step_pulse){train.next_tick, train.next_tick + room->high_ticks};
-        train.next_tick += interval_ticks(train.laid);
-        train.laid++;
-        count++;
-    }
-    return count;
 }
 
 static void set_field(volatile uint32_t *word, uint32_t place, uint32_t width, uint32_t value)
@@ -225,10 +205,8 @@ static void make_pulses(const struct timer *timer, uint32_t number, struct captu
         end += interval_ticks(i);
     }
     hal_step_hold();
-    train.motor = number - 1U;
-    train.next_tick = (uint32_t)now + (uint32_t)(BEGIN_MS * TICKS_PER_MS);
-    train.laid = 0;
-    hal_step_run(train.motor);
+    uint32_t first = (uint32_t)now + (uint32_t)(BEGIN_MS * TICKS_PER_MS);
+    bringup_train_begin(number - 1U, first, (uint32_t)PULSES, interval_ticks);
     hal_step_release();
     while (hal_time_now() < end) {
         look(timer, captured);
@@ -263,14 +241,6 @@ static void tell_captured(const struct captured *captured)
     say_line_end();
 }
 
-static uint32_t count_waiting(unsigned motor)
-{
-    hal_step_hold();
-    uint32_t waiting = hal_step_waiting(motor);
-    hal_step_release();
-    return waiting;
-}
-
 const char *bringup_capture_tell(uint32_t number)
 {
     struct captured captured = {.count = 0};
@@ -291,7 +261,7 @@ const char *bringup_capture_tell(uint32_t number)
     end_timer(timer);
     say_number("tick_hz", TICK_HZ);
     say_number("capture_hz", capture_hz(timer));
-    say_number("made", train.laid - count_waiting(number - 1U));
+    say_number("made", bringup_train_count_made(number - 1U));
     say_number("late", hal_board_late_steps() - late);
     tell_wanted();
     tell_captured(&captured);

@@ -169,14 +169,6 @@ static void take(struct command *command, const struct hal_line_byte *byte)
     }
 }
 
-/* Only one of them wants any at a time. */
-static unsigned lay(void *context, unsigned motor, struct hal_step_room *room)
-{
-    (void)context;
-    unsigned count = bringup_capture_lay_isr(motor, room);
-    return count != 0 ? count : bringup_together_lay_isr(motor, room);
-}
-
 static void plan_nothing(void *context)
 {
     (void)context;
@@ -184,7 +176,8 @@ static void plan_nothing(void *context)
 
 int main(void)
 {
-    static const struct hal_client client = {.lay_isr = lay, .tick_isr = bringup_inputs_isr, .plan_isr = plan_nothing};
+    static const struct hal_client client = {
+        .lay_isr = bringup_train_lay_isr, .tick_isr = bringup_inputs_isr, .plan_isr = plan_nothing};
     struct command command = {.length = 0};
     struct hal_line_byte byte;
     bringup_part_take_reset();

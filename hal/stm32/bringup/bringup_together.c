@@ -29,31 +29,17 @@ enum {
     REST_TICKS = TICKS_PER_MS,
 };
 
-/* The step interrupt lays them. */
-static struct {
-    uint32_t first_tick;
-    uint32_t laid[UNIT_MOTORS];
-} burst = {.laid = {PULSES, PULSES, PULSES, PULSES}};
-
-unsigned bringup_together_lay_isr(unsigned motor, struct hal_step_room *room)
+static uint32_t interval_ticks(uint32_t pulse)
 {
-    unsigned count = 0;
-    uint32_t tick = burst.first_tick + burst.laid[motor] * (uint32_t)PERIOD_TICKS;
-    while (count < room->count && burst.laid[motor] < (uint32_t)PULSES &&
-           (count == 0 || (int32_t)(tick - room->until_tick) < 0)) {
-        room->pulse[count] = (struct hal_step_pulse){tick, tick + room->high_ticks};
-        tick += (uint32_t)PERIOD_TICKS;
-        burst.laid[motor]++;
-        count++;
-    }
-    return count;
+    (void)pulse;
+    return PERIOD_TICKS;
 }
 
 /* One look at the timer after the other, without a pause. */
 static void use_bus(void)
 {
     uint32_t count = 0;
-    __asm__ volatile(".rept 50\n\tldr %0, [%1]\n\t.endr" : "=r"(count) : "r"(&TIM2_CNT));
+    __asm__ volatile(".rept 50\n\tldr %0, [%1]\n\t.endr" : "=&r"(count) : "r"(&TIM2_CNT));
     (void)count;
 }
 
@@ -61,24 +47,14 @@ static void make_burst(void)
 {
     hal_step_hold();
     uint64_t first = hal_time_now() + (uint64_t)LEAD_TICKS;
-    burst.first_tick = (uint32_t)first;
     for (unsigned motor = 0; motor < (unsigned)UNIT_MOTORS; motor++) {
-        burst.laid[motor] = 0;
-        hal_step_run(motor);
+        bringup_train_begin(motor, (uint32_t)first, (uint32_t)PULSES, interval_ticks);
     }
     hal_step_release();
     uint32_t end = (uint32_t)first + (uint32_t)(PULSES * PERIOD_TICKS + REST_TICKS);
     while ((int32_t)(TIM2_CNT - end) < 0) {
         use_bus();
     }
-}
-
-static uint32_t count_made(unsigned motor)
-{
-    hal_step_hold();
-    uint32_t made = burst.laid[motor] - hal_step_waiting(motor);
-    hal_step_release();
-    return made;
 }
 
 const char *bringup_together_tell(void)
@@ -94,7 +70,7 @@ const char *bringup_together_tell(void)
     for (unsigned i = 0; i < (unsigned)BURSTS; i++) {
         make_burst();
         for (unsigned motor = 0; motor < (unsigned)UNIT_MOTORS; motor++) {
-            made[motor] += count_made(motor);
+            made[motor] += bringup_train_count_made(motor);
         }
     }
     say_number("wanted", (uint32_t)(BURSTS * PULSES));

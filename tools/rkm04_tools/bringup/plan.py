@@ -49,7 +49,8 @@ STEPS = (
          "pulses, and all outputs go on one by one, to see where the wire leads.",
          "all pulses, on their ticks, as wide as the board says", pulses.measure),
     Step("all motors",
-         "Nothing to connect: 200 short bursts of the narrowest pulses at all STEP pins at once.",
+         "Motors still unpowered, nothing to connect: 200 short bursts of the narrowest pulses at\n"
+         "all STEP pins at once.",
          "each edge in time", together.try_together),
     Step("interrupts", "Nothing to do: how long the interrupts have taken, in cycles.",
          "they come", wires.look_at_cycles),

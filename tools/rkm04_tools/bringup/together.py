@@ -17,6 +17,7 @@ WIDER = "all in time; else BOARD_STEP_HIGH_NS and _LOW_NS of the header must be 
 def try_together(bench: Bench) -> list[Seen]:
     if bench.header.values.get("BOARD_STEP_CLASS", "1") != "1":
         return [Seen("edges", "not tried", "only streams make edges at one tick", NOTE)]
+    before = _faults(bench.talk.ask("p"))
     try:
         return _judged(bench.talk.ask("m", tries=1))
     except Refused as refused:
@@ -24,7 +25,10 @@ def try_together(bench: Bench) -> list[Seen]:
             raise
         return [compared("no pulses are made", "there is no crystal", "a crystal", good=False)]
     except GarbledAnswer:
-        return [_restarted(bench.talk.ask("p"))]
+        answer = bench.talk.ask("p")
+        if _faults(answer) == before:
+            return _judged(bench.talk.ask("m"))
+        return [_restarted(answer)]
 
 
 def _judged(answer: Answer) -> list[Seen]:
@@ -37,8 +41,12 @@ def _judged(answer: Answer) -> list[Seen]:
     ]  # fmt: skip
 
 
+def _faults(answer: Answer) -> list[str]:
+    """How many since power-on, and what the last one was."""
+    return answer.words("faults")
+
+
 def _restarted(answer: Answer) -> Seen:
-    exception = (answer.words("faults") + ["?"] * 2)[1]
-    if answer.word("cause") == "fault" and exception == OUTPUT_STOPPED:
+    if _faults(answer)[1:2] == [OUTPUT_STOPPED]:
         return compared("edges", "one came too late, and the part was reset", WIDER, good=False)
     return compared("edges", f"the part was reset: {fault_text(answer)}", WIDER, good=False)
