@@ -57,6 +57,8 @@ class Axis:
         """What CAPTURED_STEPS may be; empty: nothing was captured."""
         self.initiated = 0
         """By then the initiator has done its work."""
+        self.permitted = 0
+        """Since when a speed other than 0 is wanted."""
         self.before: tuple[Origin, Bits, Act] | None = None
         """What was before it, and the measure, if it has found nothing to do."""
         self.crystal = True
@@ -225,10 +227,12 @@ class Axis:
         bits = self.bits
         if not bits.disp:
             return
+        held = self.speed == 0
         if mp >= 0:
             bits.mp = bool(mp)
         if bits.prog:
             bits.feed = feed
+            self.permitted = act.tick if held else self.permitted
             self.go(act.tick, max(act.tick, self.initiated) + CHANGE)
 
     def go(self, low: float, high: float) -> None:
@@ -242,7 +246,7 @@ class Axis:
         elif self.speed and self.order.end:
             if self.homing:
                 self.homing.begins()
-            self._start(int(low), int(high))
+            self._start(max(int(low), self.permitted), max(int(high), self.permitted + CHANGE))
 
     def _start(self, low: int, high: int) -> None:
         sign = self.motion.sign

@@ -22,7 +22,8 @@ from pos_bits import Bits
 from pos_curve import Order
 from pos_model import Done, compare, imagine, judge
 from pos_motion import Motion, Train
-from pos_session import Act, Session
+from pos_run import run_session
+from pos_session import Act, Session, Setting
 from pos_sessions import session
 from pos_target import Origin, Seat
 from pos_words import FEED_UNITS, MS, Code, Mismatch, Settings, Unsure
@@ -85,6 +86,31 @@ def test_pulses_too_many_too_few_or_turned_round_are_told() -> None:
     for what, wrong in cases.items():
         (told,) = judge(TRIED, Done([wrong, Train(), Train(), Train()]))
         assert what in told
+
+
+def test_a_start_may_come_a_millisecond_after_it_is_permitted_also_where_a_stand_is_not_told() -> (
+    None
+):
+    """The axis is between two pulses that are far apart when it is told to stop."""
+    session = Session(
+        (
+            Setting(5 * MS, 130, 2),
+            Setting(5 * MS, 132, 5),
+            Setting(5 * MS, 138, 412_877),
+            Act(6 * MS, 1, Code.POS_INIT, (0,)),
+            Act(10 * MS, 1, Code.POS_MODE, (5379, 911)),
+            Act(10 * MS, 1, Code.POS_CONTROL, (511_181, 1)),
+            Act(27 * MS, 1, Code.POS_INIT, (0,)),
+            Act(27 * MS, 1, Code.POS_MODE, (-711, 76)),
+            Act(29 * MS + MS // 2, 1, Code.POS_CONTROL, (2052 * FEED_UNITS, 1)),
+        ),
+        end=60 * MS,
+    )
+    spoken, done = run_session(session)
+    assert judge(spoken, done) == []
+    train = done.trains[0]
+    late = Done([Train([tick + MS for tick in train.ticks], train.signs), *done.trains[1:]])
+    assert "beside its time" in judge(spoken, late)[0]
 
 
 def noticed(plant: Plant, first: int) -> bool:

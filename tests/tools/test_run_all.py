@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 
 import pytest
 from checks import run_all
@@ -48,6 +49,25 @@ def test_few_python_tests_that_fail_are_tried_once_more(
 
     assert python_tests() == count
     assert list(left) == []
+
+
+def test_what_tests_draw_is_the_same_when_they_are_tried_once_more(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    seeds: list[str] = []
+
+    def run(_command: list[str], **options: object) -> subprocess.CompletedProcess[str]:
+        environment = options["env"]
+        assert isinstance(environment, dict)
+        seeds.append(environment["RKM04_SEED"])
+        return subprocess.CompletedProcess([], 1)
+
+    monkeypatch.setattr(subprocess, "run", run)
+    monkeypatch.setattr(run_all, "BUILD", Path("nowhere"))
+
+    assert python_tests() == Count(failed=1)
+    assert len(seeds) == 2
+    assert seeds[0] == seeds[1]
 
 
 SIDE_BY_SIDE = """

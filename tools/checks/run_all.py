@@ -11,6 +11,7 @@ import argparse
 import io
 import os
 import re
+import secrets
 import signal
 import subprocess
 import sys
@@ -42,6 +43,7 @@ ENVIRONMENT = {
     **os.environ,
     "RKM04_BUILD": str(BUILD / "host"),
     "HYPOTHESIS_STORAGE_DIRECTORY": str(BUILD / "cache/hypothesis"),
+    "RKM04_SEED": os.environ.get("RKM04_SEED") or str(secrets.randbelow(2**32)),
 }
 
 
@@ -158,7 +160,8 @@ def python_tests() -> Count:
     """Two processes more than there are cores, as they mostly wait.
 
     Many talk to real processes against the clock. The few that fail are tried once more, one after
-    the other, when the machine is less busy; pytest names them both times.
+    the other, when the machine is less busy; pytest names them both times. What they draw at random
+    is the same again, so what they find by that is found again.
     """
     processes = str((os.cpu_count() or 1) + 2)
     count = pytest("--numprocesses", processes, "--dist", "loadfile")
