@@ -146,7 +146,9 @@ class Axis:
         self.goal, self.programmed, self.homing, self.cut = None, None, None, False
         self.bits.homing = False
         if self.bits.jede:
-            self.want(tick, replace(self.order, speed=0, accel=accel or self.order.accel))
+            # also where it is to stand already: that may wait for a pulse, and this need not
+            self.order = replace(self.order, speed=0, accel=accel or self.order.accel)
+            self.motion.change(tick, self.order, self.late)
         else:
             self.settle()
 

@@ -23,7 +23,7 @@ from pos_curve import Order
 from pos_model import Done, compare, imagine, judge
 from pos_motion import Motion, Train
 from pos_run import run_session
-from pos_session import Act, Session, Setting
+from pos_session import Act, Edge, Session, Setting
 from pos_sessions import session
 from pos_target import Origin, Seat
 from pos_words import FEED_UNITS, MS, Code, Mismatch, Settings, Unsure
@@ -111,6 +111,31 @@ def test_a_start_may_come_a_millisecond_after_it_is_permitted_also_where_a_stand
     train = done.trains[0]
     late = Done([Train([tick + MS for tick in train.ticks], train.signs), *done.trains[1:]])
     assert "beside its time" in judge(spoken, late)[0]
+
+
+def test_a_limit_need_not_wait_for_the_pulse_that_a_hold_waits_for() -> None:
+    """The hold comes on a ramp; at the limit the speed is constant, and the next pulse is far."""
+    spoken, done = run_session(
+        Session(
+            (
+                Setting(5 * MS, 130, 1),
+                Setting(5 * MS, 132, 1000),
+                Setting(5 * MS, 146, 1),
+                Act(6 * MS, 1, Code.POS_INIT, (0,)),
+                Act(7 * MS, 1, Code.POS_MODE, (-10_000, 1091)),
+                Act(7 * MS, 1, Code.POS_CONTROL, (65_535 * FEED_UNITS, 1)),
+                Act(54 * MS, 1, Code.POS_CONTROL, (1320 * FEED_UNITS, 1)),
+                Act(94 * MS, 1, Code.POS_CONTROL, (1320 * FEED_UNITS, 0)),
+            ),
+            edges=(Edge(113 * MS, 1, 1),),
+            end=300 * MS,
+        )
+    )
+    assert judge(spoken, done) == []
+    *before, last = done.trains[0].ticks
+    for off in (-MS, MS):
+        train = Train([*before, last + off], done.trains[0].signs)
+        assert "beside its time" in judge(spoken, Done([train, *done.trains[1:]]))[0]
 
 
 def noticed(plant: Plant, first: int) -> bool:
