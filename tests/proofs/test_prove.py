@@ -100,7 +100,6 @@ ONLY_MODELLED = {
 
 # Of the path: its unit tests try them, and there is no proof for all inputs.
 NOT_PROVED = {
-    "path_course_lay",
     "path_lay_begin", "path_lay_next",
     "path_change", "path_find",
     "path_next", "path_speed_at", "path_start", "path_stop",
