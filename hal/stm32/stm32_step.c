@@ -35,7 +35,7 @@ static void check_made(const struct stm32_channel *channel, uint32_t waiting)
 }
 
 /* The pin is low and stays so. */
-static void stop(struct stm32_channel *channel)
+BASE_APART static void stop(struct stm32_channel *channel)
 {
     set_mode(&channel->step, MODE_LOW);
     set_asking(channel, false);

@@ -40,22 +40,27 @@ def planted(tmp_path: Path, file: str, function: str, right: str, wrong: str) ->
 TRIED = PLANTED if "RKM04_LONG" in os.environ else PLANTED[:1]
 
 
+def unproved(name: str, function: str, root: Path) -> set[str]:
+    """The goals of a function that are left in so short a time."""
+    contracts = put_together(PROOFS / f"{name}.acsl", root)
+    contracts.name = f"planted_{name}"
+    contracts.proved = [function]
+
+    result = prove(contracts, 2, ["-wp-prop=-@lemma"])
+
+    assert 0 < result.proved < result.goals or result.is_good()
+    found = (re.search(rf"typed_(ref_)?{function}_\w+", each) for each in result.complaints)
+    return {goal.group() for goal in found if goal}
+
+
 @needs_provers
 @pytest.mark.parametrize(("name", "function", "file", "right", "wrong"), TRIED)
 def test_a_planted_error_leaves_goals_unproved(
     tmp_path: Path, name: str, function: str, file: str, right: str, wrong: str
 ) -> None:
     root = planted(tmp_path, file, function, right, wrong)
-    contracts = put_together(PROOFS / f"{name}.acsl", root)
-    contracts.name = f"planted_{name}"
 
-    contracts.proved = [function]
-
-    result = prove(contracts, 2, ["-wp-prop=-@lemma"])
-
-    assert 0 < result.proved < result.goals
-    assert not result.is_good()
-    assert any(re.search(rf"typed_(ref_)?{function}_", each) for each in result.complaints)
+    assert unproved(name, function, root) - unproved(name, function, ROOT)
 
 
 @needs_provers
@@ -98,7 +103,8 @@ ONLY_MODELLED = {
     "step_channel_turn_over",
 }  # fmt: skip
 
-# Of the path: its unit tests try them, and there is no proof for all inputs.
+# Of the path: its unit tests try them, and there is no proof for all inputs. Of path_course_lay
+# only how it begins is proved.
 NOT_PROVED = {
     "path_lay_begin", "path_lay_next",
     "path_change", "path_find",
