@@ -106,7 +106,7 @@ def test_its_own_unit_moves_is_held_and_stopped(page: AlonePage) -> None:
     )
     expect(page.at("script-axes")).to_contain_text("Axis 1: 25.000 mm, 2,500 steps; moves: 2")
     expect(page.at("script-told")).to_have_text(
-        "line 9: axis 1: 11.480 mm, READY · stands, has a measure"
+        "line 9: axis 1: 11.490 mm, READY · stands, has a measure"
     )
     page.at("script-text").fill("0,1,POS_MODE")
     expect(page.at("script-words")).to_have_text("Changed since it was played")

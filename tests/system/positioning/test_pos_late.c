@@ -5,7 +5,7 @@
 
 enum {
     HOLD_MS = 400,
-    START_TICKS = 600 * TICKS_PER_US, /* after the pass in which a feed came */
+    START_TICKS = 580 * TICKS_PER_US, /* after the pass in which a feed came */
 };
 
 void setUp(void)
