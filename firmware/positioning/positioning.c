@@ -8,7 +8,7 @@
 #include "hal_time.h"
 
 enum {
-    START_TICKS = 580 * TICKS_PER_US, /* pos_axis_start wants 500 us; it is to begin within 1 ms */
+    START_TICKS = 580 * TICKS_PER_US, /* the first pos_axis_start wants 500 us; all within 1 ms */
     BLINK_TICKS = TICK_HZ / 2U,
     IDLE_TICKS = TICKS_PER_MS, /* a pass comes so often at least */
 };

@@ -136,14 +136,6 @@ PLANTED = [
         "at->place = leg->end", "at->place = leg->place",
     ),
     (
-        "path_course_lay_begin", "path_course_lay", "firmware/engine/path/path_course.c",
-        "speed_of(speeds, profile.enter)->slope", "speed_of(speeds, profile.exit)->slope",
-    ),
-    (
-        "path_course_lay_begin", "path_course_lay", "firmware/engine/path/path_course.c",
-        "course->end = course->whole", "course->end = entry->place",
-    ),
-    (
         "path_course_step", "path_course_step", "firmware/engine/path/path_course.c",
         "leg = &course->leg[i + 1U]", "leg = &course->leg[i + 2U]",
     ),

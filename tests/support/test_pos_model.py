@@ -92,7 +92,7 @@ def test_a_start_may_come_a_millisecond_after_it_is_permitted_also_where_a_stand
     None
 ):
     """The axis is between two pulses that are far apart when it is told to stop."""
-    session = Session(
+    given = Session(
         (
             Setting(5 * MS, 130, 2),
             Setting(5 * MS, 132, 5),
@@ -106,7 +106,7 @@ def test_a_start_may_come_a_millisecond_after_it_is_permitted_also_where_a_stand
         ),
         end=60 * MS,
     )
-    spoken, done = run_session(session)
+    spoken, done = run_session(given)
     assert judge(spoken, done) == []
     train = done.trains[0]
     late = Done([Train([tick + MS for tick in train.ticks], train.signs), *done.trains[1:]])

@@ -6,7 +6,6 @@ import os
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
-from pathlib import Path
 
 import pytest
 from checks import run_all
@@ -51,23 +50,30 @@ def test_few_python_tests_that_fail_are_tried_once_more(
     assert list(left) == []
 
 
-def test_what_tests_draw_is_the_same_when_they_are_tried_once_more(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    seeds: list[str] = []
+SEEDS = """
+import subprocess
+from pathlib import Path
+from checks import run_all
 
-    def run(_command: list[str], **options: object) -> subprocess.CompletedProcess[str]:
-        environment = options["env"]
-        assert isinstance(environment, dict)
-        seeds.append(environment["RKM04_SEED"])
-        return subprocess.CompletedProcess([], 1)
+def run(_command, *, env, **_options):
+    print(env.get("RKM04_SEED"))
+    return subprocess.CompletedProcess([], 1)
 
-    monkeypatch.setattr(subprocess, "run", run)
-    monkeypatch.setattr(run_all, "BUILD", Path("nowhere"))
+subprocess.run = run
+run_all.BUILD = Path("nowhere")
+run_all.python_tests()
+"""
 
-    assert python_tests() == Count(failed=1)
-    assert len(seeds) == 2
-    assert seeds[0] == seeds[1]
+
+def test_what_tests_draw_is_the_same_when_they_are_tried_once_more() -> None:
+    environment = {name: value for name, value in os.environ.items() if name != "RKM04_SEED"}
+    command = [sys.executable, "-P", "-c", SEEDS]
+
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+
+    first, second = (line for line in done.stdout.splitlines() if not line.startswith(" "))
+    assert first.isdigit()
+    assert first == second
 
 
 SIDE_BY_SIDE = """

@@ -89,7 +89,8 @@ uint32_t group_first(const struct group *group);
 uint32_t group_end(const struct group *group);
 
 /* Leaves the stand at `start_tick`, the unit's time: begins, or goes on. At least 0.5 ms ahead, so that drivers are on
- * and DIR stands. False if no vector is left. Only while STANDING. */
+ * and DIR stands; 0.25 ms where another group has just been started at the same tick, which turns all drivers on. False
+ * if no vector is left. Only while STANDING. */
 bool group_start(struct group *group, uint64_t start_tick);
 
 /* Stops the motion down its ramp. True if this is why it ends; else nothing happens, as it does not move, or is being

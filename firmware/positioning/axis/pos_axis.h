@@ -128,7 +128,8 @@ uint64_t pos_axis_poll(struct pos_axis *axis, uint8_t inputs);
  * once, as more is to be handed over, or the initiator has something to do. */
 bool pos_axis_follow(struct pos_axis *axis);
 
-/* Whether it is to leave its stand; and it does, at a tick at least 0.5 ms ahead, unless an input forbids it. */
+/* Whether it is to leave its stand; and it does, at a tick at least 0.5 ms ahead for the first of those that begin
+ * together, unless an input forbids it. */
 bool pos_axis_wants_start(const struct pos_axis *axis);
 void pos_axis_start(struct pos_axis *axis, uint64_t start_tick, uint8_t inputs);
 
