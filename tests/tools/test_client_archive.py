@@ -19,7 +19,7 @@ def units():
 
 @pytest.fixture
 def fake(units, monkeypatch):
-    monkeypatch.setattr("rkm04_tools.line.SCANNING", Wait(0.04, 1))
+    monkeypatch.setattr("rkm04_tools.line.SCANNING", Wait(0.1, 1))
     line = FakeLine(*units)
     monkeypatch.setenv("RKM04_PORT", line.port)
     yield line

@@ -43,8 +43,9 @@ ENVIRONMENT = {
     **os.environ,
     "RKM04_BUILD": str(BUILD / "host"),
     "HYPOTHESIS_STORAGE_DIRECTORY": str(BUILD / "cache/hypothesis"),
-    "RKM04_SEED": os.environ.get("RKM04_SEED") or str(secrets.randbelow(2**32)),
 }
+CHANCE = {"RKM04_SEED": os.environ.get("RKM04_SEED") or str(secrets.randbelow(2**32))}
+"""Of Python tests, which may be tried once more."""
 
 
 @dataclass(frozen=True)
@@ -143,7 +144,9 @@ def pytest(*options: str) -> Count:
         *PYTHON, "pytest", "-q", "-c", CONFIG, "--rootdir", str(ROOT), "--junitxml", str(results),
         "--hypothesis-profile", "ci", *options, "tests",
     ]  # fmt: skip
-    status = subprocess.run(command, cwd=ROOT, env=ENVIRONMENT, stdin=subprocess.DEVNULL).returncode
+    status = subprocess.run(
+        command, cwd=ROOT, env={**ENVIRONMENT, **CHANCE}, stdin=subprocess.DEVNULL
+    ).returncode
     suite = ElementTree.parse(results).getroot().find("testsuite") if results.exists() else None
     if suite is None:
         return Count(failed=1)

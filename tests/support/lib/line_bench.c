@@ -1,8 +1,5 @@
 #include "line_bench.h"
 
-#include <inttypes.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "unity.h"
@@ -11,8 +8,6 @@
 enum {
     ANSWER_MS_MAX = 10000
 };
-
-#define DEFAULT_SEED UINT64_C(20261121)
 
 /* The bench is the context of all its listeners. */
 static struct line_bench *listening;
@@ -125,12 +120,7 @@ void line_check(struct line_bench *line)
 /* xorshift64* */
 uint8_t line_random_byte(void)
 {
-    static uint64_t state;
-    if (state == 0) {
-        const char *given = getenv("RKM04_SEED");
-        state = given != NULL ? strtoull(given, NULL, 0) | 1U : DEFAULT_SEED;
-        printf("noise: RKM04_SEED=%" PRIu64 "\n", state);
-    }
+    static uint64_t state = UINT64_C(20261121);
     state ^= state >> 12U;
     state ^= state << 25U;
     state ^= state >> 27U;
