@@ -54,13 +54,15 @@ class Looks:
         self._own.update(axes)
 
     def look(self, unit: Unit) -> dict[str, Any]:
-        """Ask for all of it."""
-        state = unit.read()
-        now = time.monotonic()
-        others = self._others(state.values["FRAMES"], unit.wire.counts.requests, now)
+        """Ask for all of it, for the clock last: a restart in the middle is seen by that, or by
+        the axes of the next look."""
+        unit.require_known()
         words = unit.wire.read(IMAGE, IMAGE_WORDS * AXES)
         wanted = [Wanted(c, h << 16 | low) for c, h, low in zip(*[iter(words)] * 3, strict=True)]
         axes = [unit.axis(number).read() for number in range(1, AXES + 1)]
+        state = unit.read()
+        now = time.monotonic()
+        others = self._others(state.values["FRAMES"], unit.wire.counts.requests, now)
         if self._has_restarted(state.values["UPTIME"], now, axes):
             raise Restarted(unit.wire.name)
         self._uptime = (state.values["UPTIME"], now)

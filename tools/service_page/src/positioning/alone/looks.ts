@@ -38,12 +38,14 @@ export class Looks {
         }
     }
 
+    /** The clock is read last: a restart in the middle of a look is seen by it, or by the axes of the next look. */
     async look(unit: Unit, stood_s: number): Promise<Live> {
+        await unit.requireKnown();
+        const wanted = await readWanted(unit);
+        const axes = await unit.axes();
         const state = await unit.read();
         const at_ms = performance.now();
         const others = this.#othersOf(state.frames ?? 0, unit.wire.requests, at_ms);
-        const wanted = await readWanted(unit);
-        const axes = await unit.axes();
         if (this.#hasRestarted(state.uptime ?? 0, at_ms, axes)) {
             throw new Restarted(unit.wire.name);
         }
