@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import re
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -22,6 +23,9 @@ from tab import DESK, PATIENCE_SECONDS
 
 NODE, SEED = 3, 5
 WRITE_REGISTERS = 16
+AXIS_1, CLOCK = bytes([3, 0, 110]), bytes([3, 0, 0, 0, 28])
+"""What requests begin with that read an axis, and the unit with its clock."""
+SOON_SECONDS = 2
 ENGLISH = re.compile(r"\b(the|is|of|to|in|as|at|steps|limit|from|never)\b")
 CHOICE_MS = 3000
 BUSY_MS = 8000
@@ -240,11 +244,13 @@ class Line:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        self.started: list[float] = []
         self.units = [self._serve()]
         self.noisy = NoisyLine(self.units[0].place, SEED, probability=0.01, echo=True)
         self.bridge = SerialBridge(self.noisy.port)
 
     def _serve(self) -> Served:
+        self.started.append(time.monotonic())
         more = ("--tcp", "0", "--node", str(NODE), "--unpaced")
         return Served(*more, cwd=self.folder, command=POSITIONING_COMMAND)
 
@@ -333,6 +339,24 @@ def test_a_unit_on_a_line_that_restarts_is_told(line_page: AlonePage, line: Line
     expect(page.at("loud")).to_be_hidden()
     go(page, "1", "REACHED")
     expect(page.at("position-1")).to_have_text("1.000 mm")
+
+
+def test_a_restart_in_the_middle_of_a_look_is_told_however_long_the_line_rests_then(
+    line_page: AlonePage, line: Line, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def to_unit(data: bytes) -> bytes:
+        if data[1:4] == AXIS_1 and len(line.started) == 1:
+            line.restart()
+        if data[1:6] == CLOCK and len(line.started) > 1:
+            before, now = line.started
+            is_younger = time.monotonic() - now < now - before + SOON_SECONDS
+            return b"" if is_younger else data
+        return data
+
+    go(line_page, "1000", "MOVING")
+    monkeypatch.setattr(line.bridge, "to_unit", to_unit)
+    expect(line_page.at("loud")).to_contain_text("THE UNIT DOES NOT ANSWER")
+    expect(line_page.at("loud")).to_contain_text("THE UNIT HAS RESTARTED")
 
 
 def test_settings_whose_writing_was_cut_short_are_read_again(
