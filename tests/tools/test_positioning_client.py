@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import runpy
 import signal
 import socket
 import subprocess
@@ -192,14 +191,18 @@ def test_the_slowest_feed_is_no_standstill(unit: Unit):
     assert unit.wire.read(106, 2) == [0, 1]
 
 
-def test_the_example_moves_there_and_back(
-    pos_serve: Serve, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-):
-    monkeypatch.setenv("POSITIONING_PORT", pos_serve().place)
+def test_the_example_moves_there_and_back_started_as_its_text_says(pos_serve: Serve):
+    environment = {**os.environ, "PYTHONPATH": "tools", "POSITIONING_PORT": pos_serve().place}
+    del environment["RKM04_BUILD"]
+    example = "tools/examples/positioning/first_move.py"
 
-    runpy.run_path(str(ROOT / "tools/examples/positioning/first_move.py"))
+    done = subprocess.run(
+        [sys.executable, example], cwd=ROOT, env=environment, capture_output=True, text=True
+    )
 
-    assert capsys.readouterr().out == "axis 1 stands at 10.0 mm\naxis 1 stands at 0.0 mm\n"
+    assert (done.stdout, done.stderr) == (
+        "axis 1 stands at 10.0 mm\naxis 1 stands at 0.0 mm\n", "",
+    )  # fmt: skip
 
 
 def test_modbus_tcp_and_a_pty_are_ports_too(positioning: Tool, pos_serve: Serve, tmp_path: Path):
@@ -435,6 +438,8 @@ def test_a_fault_ends_a_move(pos_serve: Serve):
             axis.wait()
         with pytest.raises(Refused, match="error 15"):
             axis.mode(-1.0, 500)
+        with pytest.raises(Failure, match=r"axis 1 does not go on: error 7.*init comes first"):
+            axis.go()
 
 
 def test_ctrl_c_holds_and_tells_where(pos_serve: Serve, began: Callable[..., Any]):

@@ -24,6 +24,16 @@ Tool = Callable[..., Any]
 Serve = Callable[..., Served]
 
 
+def test_a_setting_that_is_given_twice_is_refused_and_nothing_is_written(
+    pos_call: Callable[..., str], positioning: Tool
+):
+    result = positioning("settings", "set", "BACKLASH=5", "BACKLASH=6")
+
+    assert result.status == 2
+    assert "BACKLASH is there twice" in result.complaint
+    assert pos_call("settings", "get", "BACKLASH").split()[:2] == ["BACKLASH", "0"]
+
+
 def test_settings_are_saved_compared_and_restored(
     pos_call: Callable[..., str], positioning: Tool, tmp_path: Path
 ):

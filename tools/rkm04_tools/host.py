@@ -26,7 +26,7 @@ SUFFIX = ".exe" if os.name == "nt" else ""
 PROGRAM = f"rkm04-host{SUFFIX}"
 BUILD_VARIABLE = "RKM04_BUILD"
 BUILT = tree.ROOT / "build" / "host"
-"""Where a wheel brings the programs."""
+"""Where the commands of a checkout build the programs, and a wheel brings them."""
 PROGRESS_AFTER_SECONDS = 1.0
 PROGRESS = re.compile(rb"^progress (\d+)\n", re.MULTILINE)
 
@@ -134,10 +134,7 @@ def measure() -> dict[str, Any]:
 
 def program_path() -> Path:
     """Where the program was built."""
-    build = os.environ.get(BUILD_VARIABLE) or (str(BUILT) if tree.IS_INSTALLED else "")
-    if not build:
-        raise Failure(f"{BUILD_VARIABLE} is not set; start the command as tools/rkm04")
-    path = Path(build) / "bin" / PROGRAM
+    path = Path(os.environ.get(BUILD_VARIABLE) or BUILT) / "bin" / PROGRAM
     if not path.is_file():
         raise Failure(f"{path}: not built; start the command as tools/rkm04, which builds it")
     return path

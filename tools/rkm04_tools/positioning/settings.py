@@ -79,6 +79,8 @@ def run_set(options: Namespace, opened: Opened) -> int:
         row = setting(name)
         if not equals or not text.removeprefix("-").isdecimal() or not row.takes(int(text)):
             raise Failure(f"{each}: write {row.name}=VALUE, with a VALUE of {values_text(row)}")
+        if row.name in values:
+            raise Failure(f"{row.name} is there twice; give it once")
         values[row.name] = int(text)
     with in_doubt(Doubt()) as doubt, opened(options) as unit:
         require_free(unit, _concerned(values, options))

@@ -38,6 +38,7 @@ from rkm04_tools.positioning.state import (
     AxisState,
     UnitState,
     axis_state,
+    error_text,
     mm_text,
 )
 from rkm04_tools.positioning.table import (
@@ -353,8 +354,14 @@ class Axis:
         return state
 
     def go(self) -> AxisState:
-        """MP = 1: go on."""
-        return self.control(permitted=True)
+        """MP = 1: go on. After a fault it does not."""
+        state = self.control(permitted=True)
+        if state.has_fault:
+            raise Failure(
+                f"axis {self.number} does not go on: {error_text(state.error)}; init comes first",
+                NOT_SO,
+            )
+        return state
 
     # ---- what is common to them ----
 
