@@ -102,6 +102,8 @@ void stm32_step_interrupt(void);
 void stm32_tick_start(const struct hal_client *client, uint32_t core_hz, bool crystal);
 void stm32_tick_interrupt(void);
 void stm32_edge_interrupt(void);
+/* Set while the unit looks at its inputs, which may stop motors, one after the other. */
+extern volatile bool stm32_looking;
 void stm32_plan_interrupt(void);
 extern volatile bool stm32_event;
 bool stm32_event_take(void);

@@ -150,7 +150,7 @@ static inline uint32_t portion(struct stm32_channel *channel, uint32_t left_tick
     if (channel->laid <= 1U || interval >= (uint32_t)FAST_TICKS) {
         return LAY_MAX;
     }
-    if (left_ticks >= (uint32_t)LONG_TICKS) {
+    if (left_ticks >= (uint32_t)LONG_TICKS && !stm32_looking) {
         return LAY_LONG_MAX;
     }
     return LAY_FAST_MAX;
@@ -349,14 +349,16 @@ static struct agenda look(uint32_t now)
     return agenda;
 }
 
-/* Serves the motors in the order of what they have ahead, while that is urgent, or does not take long. */
+/* Serves the motors in the order of what they have ahead, while that is urgent, or does not take long and holds up no
+ * stop. */
 void stm32_step_interrupt(void)
 {
     TIM_SR(TIM2_BASE) = ~TIM_SR_CC4IF;
     uint32_t entered = TIM2_CNT;
     uint32_t now = entered;
+    uint32_t time_ticks = stm32_looking ? 0U : (uint32_t)ENTRY_TICKS;
     struct agenda agenda = look(now);
-    while (agenda.next != INT32_MAX && (agenda.next < (int32_t)SOON_TICKS || now - entered < (uint32_t)ENTRY_TICKS)) {
+    while (agenda.next != INT32_MAX && (agenda.next < (int32_t)SOON_TICKS || now - entered < time_ticks)) {
         refill(agenda.motor, now, HORIZON_TICKS);
         now = TIM2_CNT;
         agenda = look(now);

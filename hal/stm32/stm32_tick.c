@@ -39,6 +39,7 @@ static struct {
 } tick;
 
 volatile bool stm32_event;
+volatile bool stm32_looking;
 
 static uint64_t time_now(void)
 {
@@ -73,7 +74,9 @@ static void look_at_inputs(bool must_call, uint64_t entered)
     if (must_call || inputs != tick.inputs) {
         tick.inputs = inputs;
         stm32_event = true;
+        stm32_looking = true;
         tick.client.tick_isr(tick.client.context, entered - ENTRY_TICKS);
+        stm32_looking = false;
     }
 }
 
