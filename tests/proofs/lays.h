@@ -48,26 +48,4 @@ uint64_t path_lay_grains(const struct path *path, const struct path_place *place
 */
 void path_lay_pulses(const struct path *path, const struct path_place *place, uint32_t pulses[PATH_AXES]);
 
-/* What is not asked for in the functions that are proved. */
-/*@ requires \false;
-    assigns \nothing;
-*/
-bool path_is_laid(const struct path *path);
-
-/*@ requires \false;
-    assigns \nothing;
-*/
-void path_look(struct path *path);
-
-/*@ requires \false;
-    assigns \nothing;
-*/
-void path_look_if_due(struct path *path);
-
-/*@ requires \false;
-    assigns \nothing;
-*/
-void path_course_lay(struct path_course *course, const struct path_section *section, const struct path_entry *entry,
-                     const struct path_goal *goal, struct path_speeds *speeds);
-
 #endif
