@@ -148,6 +148,14 @@ PLANTED = [
         "path->stopping ? 0 : section->vector.speed", "section->vector.speed",
     ),
     (
+        "path_lay_begin", "path_lay_begin", "firmware/engine/path/path_lay.c",
+        "cursor->pulse = pulses[axis] + 1U", "cursor->pulse = pulses[axis]",
+    ),
+    (
+        "path_lay_begin", "path_lay_begin", "firmware/engine/path/path_lay.c",
+        "path->kept[i].valid = false", "path->kept[i].valid = true",
+    ),
+    (
         "path_lay_leave", "come_to_rest", "firmware/engine/path/path_lay.c",
         ".place = inside ? course->end : (struct wide){0}", ".place = course->end",
     ),
