@@ -13,9 +13,10 @@ NOTES = """\
 The board has the bring-up image: rkm04 board flash --board NAME --image bringup. A jumper wire is
 wanted, from each STEP pin to CAPTURE (rkm04 board pins), to measure pulses. Nothing is sent
 before you have said that the motors are unpowered, nothing is switched before you have confirmed
-its step. What was left out, or not come to, stands in the report as such. The report is printed at
-the end; with --json as one JSON object, and the walk goes to standard error. The file of --report
-must not be there yet, and is not made if nothing was done. Status 0: all was done and is good."""
+its step; what you type before a question is shown does not count. What was left out, or not come
+to, stands in the report as such. The report is printed at the end; with --json as one JSON object,
+and the walk goes to standard error. The file of --report must not be there yet, and is not made if
+nothing was done. Status 0: all was done and is good."""
 PATIENCE_SECONDS = 20.0
 
 

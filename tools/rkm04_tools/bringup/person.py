@@ -7,6 +7,7 @@ import sys
 from typing import TextIO
 
 from rkm04_tools.failure import NOT_SO
+from rkm04_tools.typed import forget_typed
 
 CLEAR = "\033[2J\033[H"
 GO, AGAIN, LEAVE, QUIT, YES, NO = "", "r", "s", "q", "y", "n"
@@ -25,8 +26,10 @@ class Person:
 
     def __init__(self, out: TextIO) -> None:
         self._out = out
+        self._types = False
         if isinstance(sys.stdin, io.TextIOWrapper):  # a byte that is no text is a wrong answer
             sys.stdin.reconfigure(errors="replace")
+            self._types = sys.stdin.isatty()
 
     def screen(self, title: str) -> None:
         """Begin a screen."""
@@ -39,8 +42,13 @@ class Person:
     def choose(
         self, question: str, choices: str, enter: str | None = None, status: int = NOT_SO
     ) -> str:
-        """One of the letters; `enter` is what an empty line means, `status` that of a stop."""
+        """One of the letters; `enter` is what an empty line means, `status` that of a stop.
+
+        At a terminal only what is typed from now on counts: nobody confirms what was not shown yet.
+        """
         while True:
+            if self._types:
+                forget_typed()
             print(f"{question} > ", end="", file=self._out, flush=True)
             line = sys.stdin.readline()
             if not line:

@@ -20,6 +20,7 @@ from rkm04_tools.gve134.stopping import halt_at_signal
 from rkm04_tools.gve134.unit import Unit
 from rkm04_tools.line_errors import LineError, PortError
 from rkm04_tools.stopper import Stopper, nudged
+from rkm04_tools.typed import forget_typed
 
 TYPED = re.compile(r"(?:!7)?[\x20\x22-\x7e]+")
 PROMPT = "> "
@@ -54,7 +55,7 @@ def run_console(options: Namespace) -> int:
                 if not is_typed:
                     raise
                 print(f"gve134: {error}", file=sys.stderr)
-                _forget_typed()
+                forget_typed()  # while nobody answered: it was meant for then
     return DONE if is_typed or not console.refused else NOT_SO
 
 
@@ -96,19 +97,6 @@ def names_typed(commands: list[host.Command]) -> list[str]:
     both = {command.text for command in commands if command.address != SPINDLE}
     spindle = {SPINDLE_ONLY + command.text for command in commands if command.address & SPINDLE}
     return sorted(both) + sorted(spindle)
-
-
-def _forget_typed() -> None:
-    """What was typed while nobody answered was meant for then."""
-    if sys.platform == "win32":
-        import msvcrt
-
-        while msvcrt.kbhit():
-            msvcrt.getwch()
-    else:
-        import termios
-
-        termios.tcflush(sys.stdin.fileno(), termios.TCIFLUSH)
 
 
 @dataclass
