@@ -57,6 +57,11 @@ class Report:
         return all(part.state == DONE for part in self.parts)
 
     @property
+    def looked(self) -> bool:
+        """Whether anything was seen at all."""
+        return any(part.seen for part in self.parts)
+
+    @property
     def bad(self) -> list[tuple[str, Seen]]:
         """Step and what was seen in it."""
         return [(p.name, s) for p in self.parts for s in p.seen if s.verdict == BAD]
@@ -67,7 +72,7 @@ class Report:
             "board": self.board,
             "port": self.port,
             "complete": self.complete,
-            "good": not self.bad,
+            "good": self.looked and not self.bad,
             "steps": [asdict(part) for part in self.parts],
         }
 
@@ -84,7 +89,8 @@ class Report:
         """The last line."""
         missing = [part.name for part in self.parts if part.state != DONE]
         bad = [f"{name} ({seen.what})" for name, seen in self.bad]
-        said = [f"BAD: {', '.join(bad)}"] if bad else ["nothing bad was seen"]
+        good = "nothing bad was seen" if self.looked else "nothing was seen"
+        said = [f"BAD: {', '.join(bad)}" if bad else good]
         if missing:
             said.append(f"NOT DONE: {', '.join(missing)}")
         return "; ".join(said)
