@@ -215,6 +215,15 @@ def test_the_checker_says_what_is_wrong_with_a_file(
     assert f"{header}: PC8 is used twice" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("line", ["#define BOARD_USART 6", ""])
+def test_a_line_that_no_driver_has_is_told_once(line: str) -> None:
+    header = GOOD.replace("USART1)", "USART6)").replace("#define BOARD_USART 1", line)
+
+    assert list(board_pins.find_errors(header)) == [
+        "BOARD_USART must be 1, 2 or 3, as the line's driver has USART1, USART2, USART3"
+    ]
+
+
 EDGES = ("HIGH", "LOW")
 compiled = pytest.mark.skipif(
     not shutil.which(board.COMPILER), reason=f"{board.COMPILER} is not installed"

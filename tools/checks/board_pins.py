@@ -92,6 +92,8 @@ def use_errors(pin: Pin, line: str, step_class: str) -> Iterator[str]:
         elif pin.pin not in channels[pin.use]:
             yield f"P{pin.pin} has no {pin.use}"
     elif pin.signal in ("LINE_TX", "LINE_RX"):
+        if line not in LINE_PINS:
+            return  # told once, of the board
         if pin.use != line:
             yield f"{pin.signal} must be {line}, as BOARD_USART says, not {pin.use}"
         elif pin.pin not in LINE_PINS[line][which]:
@@ -123,6 +125,9 @@ def find_errors(text: str) -> Iterator[str]:
     step_class = board.values.get("BOARD_STEP_CLASS", "1")
     if step_class not in ("1", "2"):
         yield "BOARD_STEP_CLASS must be 1 or 2"
+    line = f"USART{board.values.get('BOARD_USART', '').rstrip('U')}"
+    if line not in LINE_PINS:
+        yield f"BOARD_USART must be 1, 2 or 3, as the line's driver has {', '.join(LINE_PINS)}"
     names = [pin.signal for pin in board.pins]
     yield from enable_errors(names)
     own = {name for name in names if not name.startswith("EN_")} - MAY_BE
@@ -137,7 +142,7 @@ def find_errors(text: str) -> Iterator[str]:
             yield f"{pin.signal}: {package} has no P{pin.pin}"
         if occupant := board.taken.get(pin.pin) or DEBUG.get(pin.pin):
             yield f"{pin.signal}: P{pin.pin} belongs to {occupant}"
-        yield from use_errors(pin, f"USART{board.values.get('BOARD_USART')}", step_class)
+        yield from use_errors(pin, line, step_class)
     yield from channel_errors([pin for pin in board.pins if pin.signal != "CAPTURE"])
 
 
