@@ -89,6 +89,42 @@ def test_raw_data_of_saleae_is_read_and_its_sample_rate_seen(tool, steps, tmp_pa
     assert facts(tool("compare", path, steps, "--json"), "seen") == EXPECTED
 
 
+def test_a_rate_at_which_edges_could_not_be_seen_is_refused(tool, steps, tmp_path):
+    path = csv_file(tmp_path / "a.csv", SEEN)
+
+    result = tool("compare", path, steps, "--sample-rate", "24kHz")
+
+    assert result.status == 2
+    assert "--sample-rate 24000 Hz: the capture has edges of a wire" in result.complaint
+    assert "nearer than two samples; write the rate at" in result.complaint
+
+
+def test_a_dump_that_tells_another_rate_than_the_option_is_refused(tool, steps, tmp_path):
+    path = vcd_file(tmp_path / "a.vcd", SEEN, ANALYSER)
+
+    result = tool("compare", path, steps, "--sample-rate", "8MHz")
+
+    assert result.status == 2
+    assert "--sample-rate 8 MHz: the capture itself tells 24 MHz" in result.complaint
+
+
+def test_the_rate_that_the_file_tells_may_be_said_too(tool, steps, tmp_path):
+    path = sr_file(tmp_path / "a.sr", samples(SEEN, ANALYSER), names(SEEN))
+
+    assert facts(tool("compare", path, steps, "--json", "--sample-rate", "24M")) == EXPECTED
+
+
+def test_the_rate_of_a_session_that_does_not_tell_it_is_said(tool, steps, tmp_path):
+    path = sr_file(tmp_path / "a.sr", samples(SEEN, ANALYSER), names(SEEN))
+    with zipfile.ZipFile(path) as old, zipfile.ZipFile(tmp_path / "b.sr", "w") as new:
+        for name in old.namelist():
+            new.writestr(name, old.read(name).replace(b"samplerate=24 MHz\n", b""))
+
+    result = tool("compare", tmp_path / "b.sr", steps, "--json", "--sample-rate", "24MHz")
+
+    assert facts(result, "given") == EXPECTED
+
+
 def test_rows_without_data_are_the_ends_of_a_recording(tool, steps, tmp_path):
     path = csv_file(tmp_path / "a.csv", SEEN)
     head, first, *rows = path.read_text().splitlines()
@@ -163,12 +199,8 @@ def test_an_inverted_wire_is_turned_back(tool, steps, tmp_path):
         (["D0", "D1"], ["--channels", "STEP1=D0,STEP1=D1"], "STEP1 is named twice"),
         (["D0", "D1"], ["--channels", "STEP1=D0,DIR2=D1"], "motor 2 has DIR and no STEP"),
         (["STEP1", "D1"], ["--sample-rate", "fast"], "--sample-rate fast: write a rate as 24MHz"),
-        (["STEP1", "D1"], ["--sample-rate", "24"], "nearer than two samples; write the rate at"),
-        (
-            ["STEP1", "D1"],
-            ["--sample-rate", "24kHz"],
-            "--sample-rate 24000 Hz: the capture has edges",
-        ),
+        (["STEP1", "D1"], ["--sample-rate", "24"], "the capture itself tells 24 MHz; leave"),
+        (["STEP1", "D1"], ["--sample-rate", "48MHz"], "--sample-rate 48 MHz: the capture its"),
         (["STEP1", "D1"], ["--limit", "-1"], "--limit -1: write nanoseconds"),
         (["STEP1", "D1"], ["--limit", "nan"], "--limit nan: write nanoseconds"),
         (["STEP1", "D1"], ["--limit", "10"], "--limit 10: the capture resolves 41.7 ns"),

@@ -59,7 +59,7 @@ def run(options: Namespace) -> int:
     if not simulated.motors:
         raise Failure(f"{steps}: no motor moves in it, so there is nothing to compare")
     with _reading(capture) as file:
-        captured = _read_capture(capture, file, options.channels)
+        captured = _read_capture(capture, file, options.channels, given_hz)
     result = _compare(captured, steps, simulated, limit, given_hz, options)
     print(json.dumps(as_json(result), indent=2) if options.json else text(result))
     return DONE if result.is_same else NOT_SO
@@ -99,8 +99,8 @@ def _reading(path: Path) -> Iterator[IO[bytes]]:
         raise reading_failed(path, error) from None
 
 
-def _read_capture(path: Path, file: IO[bytes], channels: str | None) -> _Captured:
-    reader = _reader(path, file)
+def _read_capture(path: Path, file: IO[bytes], channels: str | None, given_hz: float) -> _Captured:
+    reader = _reader(path, file, given_hz)
     wirings = wire(str(path), reader.names, channels)
     names = [c.name for w in wirings.values() for c in (w.step, w.direction) if c]
     recording = reader.read(list(dict.fromkeys(names)))
@@ -119,7 +119,7 @@ def _read_capture(path: Path, file: IO[bytes], channels: str | None) -> _Capture
     return _Captured(path, reader.kind, recording, wires)
 
 
-def _reader(path: Path, file: IO[bytes]) -> Reader:
+def _reader(path: Path, file: IO[bytes], given_hz: float) -> Reader:
     """What the begin of a file says that it is."""
     head = file.read(HEAD_BYTES)
     if not head:
@@ -127,7 +127,7 @@ def _reader(path: Path, file: IO[bytes]) -> Reader:
     if head.startswith(MAGIC):
         if not path.is_file():
             raise Failure(f"{path}: a session of sigrok must be a file, and no pipe")
-        return SigrokReader(path)
+        return SigrokReader(path, given_hz)
     if head.lstrip()[:1] == b"$":
         return VcdReader(path, file, head)
     return SaleaeReader(path, file, head)

@@ -32,7 +32,11 @@ def add_arguments(command: ArgumentParser) -> None:
     options = [
         ("--channels", "MAP", "as STEP1=D0,DIR1=D1,STEP2=!D2: which channel is which wire"),
         ("--limit", "NS", "how far a pulse may be off (default: a sample and a tick)"),
-        ("--sample-rate", "RATE", "as 24MHz: where the file does not tell it"),
+        (
+            "--sample-rate",
+            "RATE",
+            "as 24MHz: where the file does not tell it; no other than it tells",
+        ),
     ]
     for flag, metavar, about in options:
         command.add_argument(flag, metavar=metavar, help=about)

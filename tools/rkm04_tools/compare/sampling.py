@@ -20,6 +20,8 @@ EDGES_MIN, EDGES_MAX = 16, 200_000
 """So many edges on the same grid are no chance; more tell nothing more."""
 GRID_PART_MAX = 0.3
 """How far from the grid a time may be written, in parts of it."""
+TOLD_PART_MAX = 1e-3
+"""A file may tell its rate rounded."""
 
 TOLD, GIVEN, SEEN, DIGITS = "told", "given", "seen", "digits"
 """Where a resolution comes from: the file, an option, the times of its edges, their last digit."""
@@ -35,15 +37,29 @@ class Resolution:
 
 
 def resolution(recording: Recording, given_hz: float) -> Resolution:
-    """The resolution of a recording; what the user says of its rate comes first."""
+    """The resolution of a recording: by the rate that the file tells, or else the user."""
     digit = recording.digit_seconds
-    if given_hz:
+    if given_hz and recording.sample_hz:
+        _require_told(recording.sample_hz, given_hz)
+    elif given_hz:
         _require_possible(recording, given_hz)
-    for hz, source in ((given_hz, GIVEN), (recording.sample_hz, TOLD)):
+    for hz, source in ((recording.sample_hz, TOLD), (given_hz, GIVEN)):
         if hz:
             return Resolution(max(1 / hz, digit), hz, source)
     hz = _seen(recording, digit)
     return Resolution(1 / hz, hz, SEEN) if hz else Resolution(digit, 0.0, DIGITS)
+
+
+def _require_told(told_hz: float, given_hz: float) -> None:
+    if abs(given_hz - told_hz) > TOLD_PART_MAX * told_hz:
+        raise Failure(
+            f"--sample-rate {_shown(given_hz)}: the capture itself tells {_shown(told_hz)}; leave "
+            "the option out"
+        )
+
+
+def _shown(hz: float) -> str:
+    return f"{hz / 1e6:g} MHz" if hz >= 1e5 else f"{hz:g} Hz"
 
 
 def _require_possible(recording: Recording, given_hz: float) -> None:

@@ -36,8 +36,9 @@ class SigrokReader:
 
     kind = "a session of sigrok"
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, given_hz: float = 0.0) -> None:
         self._path = path
+        self._given_hz = given_hz
         try:
             self._zip = ZipFile(path)
         except (BadZipFile, EOFError):
@@ -61,8 +62,9 @@ class SigrokReader:
 
     def read(self, wanted: Collection[str]) -> Recording:
         """Read all samples, and keep the edges."""
-        if not self._sample_hz:
-            raise Failure(f"{self._path}: does not tell its sample rate; record it once more")
+        hz = self._sample_hz or self._given_hz
+        if not hz:
+            raise Failure(f"{self._path}: does not tell its sample rate: --sample-rate tells it")
         edges = Edges(self._path, wanted)
         masks = [1 << self._bits[name] for name in wanted]
         done, before = 0, None
@@ -80,8 +82,7 @@ class SigrokReader:
             raise _damaged(self._path, error) from None
         if done == 0:
             raise Failure(f"{self._path}: has no samples; record it once more")
-        hz = self._sample_hz
-        return Recording(0.0, done / hz, hz, 0.0, edges.traces(1 / hz))
+        return Recording(0.0, done / hz, self._sample_hz, 0.0, edges.traces(1 / hz))
 
     def _device(self) -> dict[str, str]:
         """What the file says of the device whose channels it holds."""
