@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from checks import board_pins
 from rkm04_tools import board, board_header, board_wiring
-from rkm04_tools.failure import Failure
+from rkm04_tools.failure import NOT_SO
 from rkm04_tools.tree import ROOT
 from wires import times_us, wires
 
@@ -330,16 +330,33 @@ def test_the_pins_of_a_board_are_shown_with_what_the_hardware_makes_of_them(
 LOADER_BOARD = "skr-pro-1.2"
 
 
-def test_an_image_after_a_loader_is_written_there_and_never_over_the_loader(tmp_path: Path) -> None:
-    image = board.Image(LOADER_BOARD, tmp_path)
-    (tmp_path / "bin").mkdir()
-    image.file("bin").write_bytes(bytes(40_000))
-
-    command = board.flash_command("dfu-util", image, "stlink", "")
+def test_an_image_after_a_loader_is_written_there(tmp_path: Path) -> None:
+    command = board.flash_command("dfu-util", board.Image(LOADER_BOARD, tmp_path), "stlink", "")
 
     assert "0x08008000:leave" in command
-    with pytest.raises(Failure, match="would erase the loader"):
-        board.flash_command("stm32flash", image, "stlink", "/dev/null")
+
+
+@pytest.mark.parametrize(
+    ("options", "why"),
+    [
+        (["--tool", "stm32flash", "--port", "x"], "stm32flash would erase the loader of the board"),
+        (["--tool", "dfu-util"], f"dfu-util is said not to work on {LOADER_BOARD}: its crystal"),
+    ],
+)
+@pytest.mark.parametrize("image", board.IMAGES)
+def test_what_does_not_get_an_image_into_a_board_is_refused_before_anything_is_built(
+    tool: Callable[..., Any], monkeypatch: pytest.MonkeyPatch, options: list[str], why: str,
+    image: str,
+) -> None:  # fmt: skip
+    monkeypatch.setattr(board, "build", lambda *_, **__: pytest.fail("it was built"))
+
+    result = tool(
+        "board", "flash", "--board", LOADER_BOARD, "--dry-run", "--image", image, *options
+    )
+
+    assert result.status == NOT_SO
+    assert why in result.complaint
+    assert result.complaint.endswith("; take --tool openocd")
 
 
 def test_a_board_of_class_2_has_its_steps_on_any_pins_and_says_so() -> None:

@@ -262,6 +262,21 @@ def loader_bytes(name: str) -> int:
     return int(values.get("BOARD_LOADER_BYTES", "0"), 0)
 
 
+def require_tool(tool: str, name: str) -> None:
+    """Refuse what does not get an image into a board."""
+    values = read_board((BOARDS / name / "board.h").read_text()).values
+    why = ""
+    if tool == "stm32flash" and loader_bytes(name):
+        why = "stm32flash would erase the loader of the board"
+    if tool == "dfu-util" and values.get("BOARD_SLOW_CRYSTAL") == "1":
+        why = (
+            f"dfu-util is said not to work on {name}: its crystal starts too slowly for the chip's "
+            "own loader by USB"
+        )
+    if why:
+        raise Failure(f"{why}; take --tool openocd", NOT_SO)
+
+
 def flash_command(tool: str, image: Image, probe: str, port: str) -> list[str]:
     """What writes an image, checks it and starts it; stored programs stay as they are."""
     if tool == "openocd":
@@ -278,8 +293,6 @@ def flash_command(tool: str, image: Image, probe: str, port: str) -> list[str]:
             f"{FLASH_ADDRESS + loader_bytes(image.board):#010x}:leave",
         ]
         return ["dfu-util", *where, "-D", str(image.file("bin"))]
-    if loader_bytes(image.board):
-        raise Failure("stm32flash would erase the loader of the board; take --tool openocd", NOT_SO)
     sectors = -(-image.file("bin").stat().st_size // SECTOR_BYTES)
     return ["stm32flash", "-e", str(sectors), "-w", str(image.file("hex")), "-v", "-g", "0", port]
 
@@ -288,6 +301,8 @@ def run_flash(options: Namespace) -> int:
     """`board flash`: write the image into the board, or show how."""
     if options.tool == "stm32flash" and not options.port:
         raise Failure("stm32flash needs --port, the serial device that the board is connected to")
+    image_of(options.board, options.image)
+    require_tool(options.tool, options.board)
     image = _build_asked(options)
     command = flash_command(options.tool, image, options.probe, options.port or "")
     if options.dry_run:

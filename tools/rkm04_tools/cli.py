@@ -359,7 +359,7 @@ BOOT0 = """\
 dfu-util and stm32flash speak to the loader in the chip: reset the board with BOOT0 high, and take
 that away afterwards. dfu-util often ends with 74 as the board leaves the loader; that counts as
 done when the whole image had been written before. The size of the part's flash is read first;
-stm32flash does not tell it."""
+stm32flash does not tell it. A board that one of the two cannot serve refuses it."""
 
 
 def add_board(commands: Commands, unit: str = board.UNIT) -> None:

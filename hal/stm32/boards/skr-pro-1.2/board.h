@@ -113,6 +113,9 @@
 /* What the loader of the board has of the flash; the image begins after it. */
 #define BOARD_LOADER_BYTES 0x8000
 
+/* The crystal is said to start too slowly for the chip's own loader by USB (README.md, Flashing): no dfu-util. */
+#define BOARD_SLOW_CRYSTAL 1
+
 #define BOARD_PACKAGE "LQFP144"
 #define BOARD_CRYSTAL_MHZ 8U
 #define BOARD_USART 3
