@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from rkm04_tools.compare.recording import Trace
+from rkm04_tools.compare.recording import Names, Trace
 from rkm04_tools.failure import Failure
 
 STEP, DIR = "STEP", "DIR"
@@ -52,18 +52,26 @@ def role(name: str) -> Role | None:
     return KINDS[match["kind"].upper()], MOTORS[motor]
 
 
-def wire(file: str, names: Sequence[str], mapping: str | None) -> dict[int, Wiring]:
+def wire(file: str, names: Names, mapping: str | None) -> dict[int, Wiring]:
     """The channels of each motor whose STEP was captured."""
     roles = _by_mapping(file, names, mapping) if mapping is not None else _by_name(file, names)
+    for channel in roles.values():
+        if channel.name in names.twice:
+            raise Failure(
+                f"{file}: two of its channels are named {channel.name}; rename one in the program "
+                "that has recorded them, or say by --channels which others are meant"
+            )
     wirings = {
         motor: Wiring(channel, roles.get((DIR, motor)))
         for (kind, motor), channel in sorted(roles.items())
         if kind == STEP
     }
     if not wirings:
+        wide = ", ".join(too_wide(names, roles))
+        wide = f" ({wide}: of more than one bit)" if wide else ""
         raise Failure(
-            f"{file}: its channels are {_listed(names)}, and none is named as STEP1 or m1_step; "
-            f"say which is which: --channels {_proposal(names)}"
+            f"{file}: its channels are {_listed(names.wires)}{wide}, and none is named as STEP1 or "
+            f"m1_step; say which is which: --channels {_proposal(names.wires)}"
         )
     for kind, motor in roles:
         if motor not in wirings:
@@ -71,9 +79,25 @@ def wire(file: str, names: Sequence[str], mapping: str | None) -> dict[int, Wiri
     return wirings
 
 
-def _by_name(file: str, names: Sequence[str]) -> dict[Role, Channel]:
+def too_wide(names: Names, found: Collection[Role]) -> list[str]:
+    """Names as of a wire that was not found, of what has more than one bit."""
+    return sorted(name for name in names.wide if (what := role(name)) and what not in found)
+
+
+def mapping_of(wirings: Mapping[int, Wiring]) -> str:
+    """What `--channels` would say of them."""
+    pairs = [
+        f"{kind}{motor}={channel.name}"
+        for motor, each in wirings.items()
+        for kind, channel in ((STEP, each.step), (DIR, each.direction))
+        if channel
+    ]
+    return _quoted(",".join(pairs))
+
+
+def _by_name(file: str, names: Names) -> dict[Role, Channel]:
     found: dict[Role, Channel] = {}
-    for name in names:
+    for name in names.wires:
         if (what := role(name)) is None:
             continue
         if what in found:
@@ -86,7 +110,7 @@ def _by_name(file: str, names: Sequence[str]) -> dict[Role, Channel]:
     return {what: channel for what, channel in found.items() if what[1] in steps}
 
 
-def _by_mapping(file: str, names: Sequence[str], mapping: str) -> dict[Role, Channel]:
+def _by_mapping(file: str, names: Names, mapping: str) -> dict[Role, Channel]:
     found: dict[Role, Channel] = {}
     for item in mapping.split(","):
         key, equals, text = item.partition("=")
@@ -94,10 +118,13 @@ def _by_mapping(file: str, names: Sequence[str], mapping: str) -> dict[Role, Cha
         if not equals or what is None:
             raise Failure(f"--channels {item}: write STEP1=NAME or DIR1=NAME, with commas between")
         name = text.strip().removeprefix(INVERTED)
-        if name not in names:
-            raise Failure(
-                f"{file}: has no channel {name or text}; its channels are {_listed(names)}"
+        if name not in names.wires:
+            why = (
+                f"{name} has more than one bit"
+                if name in names.wide
+                else f"has no channel {name or text}"
             )
+            raise Failure(f"{file}: {why}; its channels are {_listed(names.wires)}")
         if what in found:
             raise Failure(f"--channels: {what[0]}{what[1]} is named twice; leave one away")
         found[what] = Channel(name, text.strip().startswith(INVERTED))
@@ -116,5 +143,9 @@ def _proposal(names: Sequence[str]) -> str:
         for what, name in zip(("STEP1", "DIR1"), names, strict=False):
             yield f"{what}={name}"
 
-    text = ",".join(pairs())
+    return _quoted(",".join(pairs()))
+
+
+def _quoted(text: str) -> str:
+    """As a shell takes it."""
     return f'"{text}"' if " " in text else text

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from argparse import Namespace
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,7 +14,7 @@ from typing import IO
 import numpy as np
 
 from rkm04_tools.compare.align import Alignment, Trains, align
-from rkm04_tools.compare.channels import wire
+from rkm04_tools.compare.channels import DIR, STEP, Role, Wiring, mapping_of, too_wide, wire
 from rkm04_tools.compare.clock import RATE_MAX
 from rkm04_tools.compare.findings import (
     Allowed,
@@ -26,11 +26,11 @@ from rkm04_tools.compare.findings import (
 )
 from rkm04_tools.compare.options import LIMIT_NS_MAX
 from rkm04_tools.compare.recording import Reader, Recording, hertz
-from rkm04_tools.compare.report import Result, as_json, text
+from rkm04_tools.compare.report import Result, Scope, as_json, text
 from rkm04_tools.compare.saleae import SaleaeReader
 from rkm04_tools.compare.sampling import resolution
 from rkm04_tools.compare.sigrok import MAGIC, SigrokReader
-from rkm04_tools.compare.simulated import Pulses, Simulated, read_simulated
+from rkm04_tools.compare.simulated import UNKNOWN, Pulses, Simulated, read_simulated
 from rkm04_tools.compare.vcd import VcdReader
 from rkm04_tools.failure import DONE, NOT_SO, Failure, reading_failed
 from rkm04_tools.source import named
@@ -47,6 +47,10 @@ class _Captured:
     kind: str
     recording: Recording
     wires: Mapping[int, Wires]
+    mapping: str
+    """Which channels were taken, as `--channels` says it."""
+    too_wide: Sequence[str]
+    """What is named as another wire and is none."""
 
 
 def run(options: Namespace) -> int:
@@ -116,7 +120,13 @@ def _read_capture(path: Path, file: IO[bytes], channels: str | None, given_hz: f
             f"{path}: has no pulse in {', '.join(each.step.name for each in wirings.values())}; "
             "check the probes, their ground and the trigger"
         )
-    return _Captured(path, reader.kind, recording, wires)
+    wide = [] if channels is not None else too_wide(reader.names, _roles(wirings))
+    return _Captured(path, reader.kind, recording, wires, mapping_of(wirings), wide)
+
+
+def _roles(wirings: Mapping[int, Wiring]) -> list[Role]:
+    found = [(STEP, motor) for motor in wirings]
+    return found + [(DIR, motor) for motor, each in wirings.items() if each.direction]
 
 
 def _reader(path: Path, file: IO[bytes], given_hz: float) -> Reader:
@@ -159,8 +169,15 @@ def _compare(
         find_shift(alignment, trains, rises, finest, noise) if alignment else None,
         find_jump(alignment, trains, rises, limit) if alignment else None,
         [compare(m, pulses[m], w, alignment, allowed) for m, w in captured.wires.items()],
-        [m for m in simulated.motors if m not in captured.wires],
-        [m for m, w in captured.wires.items() if w.direction is None],
+        Scope(
+            [m for m in simulated.motors if m not in captured.wires],
+            [m for m, w in captured.wires.items() if w.direction is None],
+            [
+                m for m, w in captured.wires.items()
+                if w.direction is None and (pulses[m].directions != UNKNOWN).any()
+            ],
+            options.channels is not None, captured.mapping, captured.too_wide,
+        ),
     )  # fmt: skip
 
 

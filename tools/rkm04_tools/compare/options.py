@@ -20,6 +20,8 @@ Channels are found by their names (STEP1, DIR_2, m3_step, X STEP); --channels sa
 before a name is for a wire that an inverter follows. DIR is high for backward.
 
 The same (status 0) is: every pulse there and no other, each within the limit, DIR right at each.
+STEP and DIR of each motor that moves in STEPS must have been captured. With --channels, what it
+does not name is left out on purpose; the result tells that, and of which motors it speaks.
 tools/rkm04_tools/compare/README.md tells how to capture and what the figures mean.\
 """
 LIMIT_NS_MAX = 1e6

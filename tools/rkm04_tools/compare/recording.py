@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import re
 from array import array
-from collections.abc import Collection, Iterator, Mapping
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Protocol
@@ -71,11 +72,23 @@ class Recording:
     traces: Mapping[str, Trace]
 
 
+@dataclass(frozen=True)
+class Names:
+    """What a file calls its wires."""
+
+    wires: Sequence[str]
+    """In its order."""
+    twice: Collection[str] = ()
+    """Names that two of them have, so that they tell neither."""
+    wide: Collection[str] = ()
+    """Names of what has more than one bit, and is no wire."""
+
+
 class Reader(Protocol):
-    """A file that was opened: what it is, and the names of its wires in its order."""
+    """A file that was opened, and what it is."""
 
     kind: str
-    names: list[str]
+    names: Names
 
     def read(self, wanted: Collection[str]) -> Recording:
         """Read all of it, once."""
@@ -114,6 +127,12 @@ class Edges:
             name: Trace(max(self._first.get(name, 0), 0), np.asarray(times) * unit_seconds)
             for name, times in self.times.items()
         }
+
+
+def names_of(wires: Iterable[str]) -> Names:
+    """Names of the columns or channels of a file, as they come."""
+    counts = Counter(wires)
+    return Names(list(counts), {name for name, count in counts.items() if count > 1})
 
 
 def hertz(text: str) -> float:

@@ -25,6 +25,38 @@ NO_WIDTH_SAMPLES = 2
 
 
 @dataclass(frozen=True)
+class Scope:
+    """What of the simulation the capture shows."""
+
+    not_captured: Sequence[int]
+    """Motors that move in the simulation, and whose STEP was not captured."""
+    without_dir: Sequence[int]
+    """Motors whose STEP was captured, and whose DIR was not."""
+    unseen_dir: Sequence[int]
+    """Those of them whose DIR the simulation tells."""
+    is_chosen: bool
+    """The channels were named: what is not among them was left out on purpose."""
+    mapping: str
+    """How the channels that there are would be named."""
+    too_wide: Sequence[str]
+
+    @property
+    def absent(self) -> str:
+        """Wires that should be there and are not; empty: none."""
+        return "" if self.is_chosen else self._unseen
+
+    @property
+    def left_out(self) -> str:
+        """Those that were left out on purpose."""
+        return self._unseen if self.is_chosen else ""
+
+    @property
+    def _unseen(self) -> str:
+        wires = (("STEP", self.not_captured), ("DIR", self.unseen_dir))
+        return " and ".join(f"{name} of {_motors(which)}" for name, which in wires if which)
+
+
+@dataclass(frozen=True)
 class Result:
     """A comparison."""
 
@@ -40,14 +72,14 @@ class Result:
     shift: Shift | None
     jump: Jump | None
     motors: Sequence[Motor]
-    not_captured: Sequence[int]
-    """Motors that move in the simulation, and whose STEP was not captured."""
-    without_dir: Sequence[int]
+    scope: Scope
 
     @property
     def is_same(self) -> bool:
         """Whether the capture is what was simulated."""
-        return self.is_steady and all(motor.is_same for motor in self.motors)
+        return (
+            self.is_steady and not self.scope.absent and all(motor.is_same for motor in self.motors)
+        )
 
     @property
     def told_jump(self) -> Jump | None:
@@ -95,8 +127,7 @@ def stretches(places: Places) -> list[Stretch]:
 
 def text(result: Result) -> str:
     """The result in words."""
-    moving = [motor for motor in result.motors if motor.captured or motor.simulated]
-    rows = [HEAD, *(_row(result, motor) for motor in moving)]
+    rows = [HEAD, *(_row(result, motor) for motor in _moving(result))]
     details = [line for motor in result.motors for line in _details(result, motor)]
     return "\n".join(
         [
@@ -104,6 +135,10 @@ def text(result: Result) -> str:
             *(["", *details] if details else []), "", *_notes(result), _verdict(result),
         ]
     )  # fmt: skip
+
+
+def _moving(result: Result) -> list[Motor]:
+    return [motor for motor in result.motors if motor.captured or motor.simulated]
 
 
 def _head(result: Result) -> Iterator[str]:
@@ -146,7 +181,9 @@ def _row(result: Result, motor: Motor) -> tuple[str, ...]:
         motor.captured, motor.simulated, len(motor.both), len(motor.missing) + motor.outside,
         len(motor.surplus),
     )  # fmt: skip
-    direction = "?" if motor.motor in result.without_dir else thousands(len(motor.wrong_direction))
+    direction = (
+        "?" if motor.motor in result.scope.without_dir else thousands(len(motor.wrong_direction))
+    )
     median = float(np.median(np.abs(motor.deviations))) if worst is not None else None
     width = motor.width
     return (
@@ -188,13 +225,7 @@ def _details(result: Result, motor: Motor) -> Iterator[str]:
 
 
 def _notes(result: Result) -> Iterator[str]:
-    if result.not_captured:
-        yield (
-            f"not captured: STEP of {_motors(result.not_captured)}, which the simulation moves: "
-            "nothing is said about it"
-        )
-    if result.without_dir:
-        yield f"not captured: DIR of {_motors(result.without_dir)}: nothing is said about it"
+    yield from _not_captured(result.scope)
     if result.alignment and result.alignment.elsewhere:
         yield (
             "the capture fits as well at another place of the simulation, as where moves repeat: "
@@ -223,6 +254,19 @@ def _notes(result: Result) -> Iterator[str]:
     yield from _unsteady(result)
 
 
+def _not_captured(scope: Scope) -> Iterator[str]:
+    if scope.too_wide:
+        yield f"not used, as it has more than one bit: {', '.join(scope.too_wide)}"
+    if scope.absent:
+        yield (
+            f"not captured: {scope.absent}, which the simulation moves: look at the names of the "
+            f"channels; if it is left out on purpose, say so: --channels {scope.mapping}"
+        )
+    still = [motor for motor in scope.without_dir if motor not in scope.unseen_dir]
+    if still:
+        yield f"not captured: DIR of {_motors(still)}: nothing is said about it"
+
+
 def _unsteady(result: Result) -> Iterator[str]:
     """What no crystal does."""
     if (jump := result.told_jump) is not None:
@@ -247,10 +291,16 @@ def _unsteady(result: Result) -> Iterator[str]:
 
 def _verdict(result: Result) -> str:
     limit = f"{_time(result.allowed.limit)} = {result.ticks(result.allowed.limit):.1f} ticks"
+    pulses, left_out = "every pulse", ""
+    if result.scope.left_out:
+        pulses = f"every pulse of {_motors([motor.motor for motor in _moving(result)])}"
+        left_out = f"; left out: {result.scope.left_out}"
     if result.is_same:
         finest = _time(result.resolution.seconds)
-        return f"the same: every pulse is within {limit}; what is below {finest} cannot be seen"
-    return f"not the same: see above; a pulse may be off by {limit}"
+        return (
+            f"the same: {pulses} is within {limit}{left_out}; what is below {finest} cannot be seen"
+        )
+    return f"not the same: see above; a pulse may be off by {limit}{left_out}"
 
 
 def _listed(places: Places) -> str:
@@ -320,7 +370,10 @@ def as_json(result: Result) -> dict[str, Any]:
         "shift": None if result.shift is None else asdict(result.shift),
         "jump": None if result.told_jump is None else asdict(result.told_jump),
         "fits_elsewhere": bool(alignment and alignment.elsewhere),
-        "not_captured": list(result.not_captured),
+        "not_captured": list(result.scope.not_captured),
+        "dir_not_captured": list(result.scope.unseen_dir),
+        "left_out_on_purpose": bool(result.scope.left_out),
+        "not_used": list(result.scope.too_wide),
         "motors": [_motor_as_json(result, motor) for motor in result.motors],
     }
 
@@ -337,7 +390,9 @@ def _motor_as_json(result: Result, motor: Motor) -> dict[str, Any]:
         "step_upside_down": motor.upside_down,
         "missing": _as_list(motor.missing),
         "surplus": _as_list(motor.surplus),
-        "wrong_dir": None if motor.motor in result.without_dir else _as_list(motor.wrong_direction),
+        "wrong_dir": None
+        if motor.motor in result.scope.without_dir
+        else _as_list(motor.wrong_direction),
         "too_far": _as_list(motor.too_far),
         "worst_ns": None if far is None else far * 1e9,
         "worst_ticks": None if far is None else result.ticks(far),

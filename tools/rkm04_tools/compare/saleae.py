@@ -14,7 +14,7 @@ from typing import IO
 
 import numpy as np
 
-from rkm04_tools.compare.recording import Edges, Floats, Recording, parts
+from rkm04_tools.compare.recording import Edges, Floats, Recording, names_of, parts
 from rkm04_tools.failure import Failure
 
 HEAD = re.compile(r"time\s*[\[(]s[\])]", re.IGNORECASE)
@@ -48,7 +48,7 @@ class SaleaeReader:
                 "Saleae Logic, whose first line begins with Time [s]; name another file"
             )
         self._columns = {name: at for at, name in reversed(list(enumerate(columns)))}
-        self.names = list(dict.fromkeys(columns[1:]))
+        self.names = names_of(columns[1:])
 
     def read(self, wanted: Collection[str]) -> Recording:
         """Read all rows, and keep the edges."""

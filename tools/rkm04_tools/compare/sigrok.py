@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rkm04_tools.bar import Bar
-from rkm04_tools.compare.recording import PART_BYTES, Edges, Recording, hertz
+from rkm04_tools.compare.recording import PART_BYTES, Edges, Recording, hertz, names_of
 from rkm04_tools.failure import Failure
 
 MAGIC = b"PK\x03\x04"
@@ -51,9 +51,9 @@ class SigrokReader:
         self._sample_hz = hertz(device.get("samplerate", ""))
         self._unit = _number(device.get("unitsize", "1"))
         self._parts = self._find_parts(device.get("capturefile", ""))
-        found = ((PROBE.fullmatch(key), name) for key, name in device.items())
+        found = [(PROBE.fullmatch(key), name) for key, name in device.items()]
         self._bits = {name: int(match[1]) - 1 for match, name in found if match}
-        self.names = list(self._bits)
+        self.names = names_of(name for match, name in found if match)
         if not 1 <= self._unit <= UNIT_BYTES_MAX:
             raise Failure(f"{path}: has samples of {self._unit} bytes, and not of 1 to 8")
         for name, bit in self._bits.items():

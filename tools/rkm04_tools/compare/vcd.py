@@ -6,11 +6,11 @@ Only wires of one bit are taken; a value that is neither 0 nor 1 changes nothing
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable
 from pathlib import Path
 from typing import IO
 
-from rkm04_tools.compare.recording import PART_BYTES, Edges, Recording, hertz, parts
+from rkm04_tools.compare.recording import PART_BYTES, Edges, Names, Recording, hertz, parts
 from rkm04_tools.failure import Failure
 
 HEAD_BYTES_MAX = 1 << 20
@@ -50,9 +50,8 @@ class VcdReader:
         self._sample_hz = hertz(rate[1]) if rate else 0.0
         if any(kind == "version" and OWN.match(text) for kind, text in sections):
             self._sample_hz = 1 / self._unit_seconds
-        self._codes = dict(_wires(text for kind, text in sections if kind == "var"))
-        self.names = list(self._codes)
-        if not self.names:
+        self._codes, self.names = _wires(text for kind, text in sections if kind == "var")
+        if not self._codes:
             raise Failure(f"{path}: has no wires of one bit; export digital channels")
 
     def read(self, wanted: Collection[str]) -> Recording:
@@ -132,11 +131,17 @@ class _Changes:
             self._skips = 1
 
 
-def _wires(texts: Iterable[str]) -> Iterator[tuple[str, str]]:
-    """Names and codes of the wires of one bit; of two with the same name the first one counts."""
-    seen: set[str] = set()
+def _wires(texts: Iterable[str]) -> tuple[dict[str, str], Names]:
+    """Codes of the wires of one bit, by name; a wire may stand in two scopes, with one code."""
+    codes: dict[str, str] = {}
+    twice, wide = set(), set()
     for text in texts:
-        kind, size, code, *name = text.split()[:4] if len(text.split()) >= 4 else ("", "", "")
-        if size == "1" and kind not in NO_WIRES and name[0] not in seen:
-            seen.add(name[0])
-            yield name[0], code
+        words = text.split()
+        if len(words) < 4 or words[0] in NO_WIRES:
+            continue
+        _, size, code, name = words[:4]
+        if size != "1":
+            wide.add(name)
+        elif codes.setdefault(name, code) != code:
+            twice.add(name)
+    return codes, Names(list(codes), twice, wide - set(codes))
