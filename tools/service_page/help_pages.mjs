@@ -144,11 +144,12 @@ async function boards() {
             const document = `${BOARDS}/${name}/README.md`;
             const header = await readFile(`${ROOT}/${BOARDS}/${name}/board.h`, "utf8");
             const loader_bytes = Number(/^#define BOARD_LOADER_BYTES (\w+)$/m.exec(header)?.[1] ?? 0);
+            const slow_crystal = /^#define BOARD_SLOW_CRYSTAL 1$/m.test(header);
             const text = await readFile(`${ROOT}/${document}`, "utf8");
             const czech = inCzech(document);
             const cs = czech === document ? undefined : await chapterOf(czech, FLASHING.cs, czechPlaces);
             const flashing = { en: await chapterOf(document, FLASHING.en, places), cs };
-            return { name, title: /^# (.+)$/m.exec(text)[1], loader_bytes, flashing };
+            return { name, title: /^# (.+)$/m.exec(text)[1], loader_bytes, slow_crystal, flashing };
         }),
     );
 }

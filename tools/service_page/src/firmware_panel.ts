@@ -54,10 +54,13 @@ export class FirmwarePanel {
         }
         const address = hex(FLASH_ADDRESS + board.loader_bytes);
         const image = `rkm04-${board.name}.bin`;
-        const lines = [
-            `tools/rkm04 board flash --board ${board.name}`,
+        const byUsb = [
             `tools/rkm04 board flash --board ${board.name} --tool dfu-util`,
             `dfu-util -a 0 -d 0483:df11 -s ${address}:leave -D ${image}`,
+        ];
+        const lines = [
+            `tools/rkm04 board flash --board ${board.name}`,
+            ...(board.slow_crystal ? [] : byUsb),
             `st-flash --reset write ${image} ${address}`,
         ];
         byId("firmware-commands", HTMLElement).textContent = lines.join("\n");

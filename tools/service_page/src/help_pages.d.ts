@@ -27,6 +27,8 @@ declare module "help-pages" {
         title: string;
         /** What a loader of the board has of the flash, before the image. */
         loader_bytes: number;
+        /** Whether its crystal is too slow for the chip's own loader by USB. */
+        slow_crystal: boolean;
         /** What its page says of flashing. */
         flashing: { en: string; cs?: string };
     }
