@@ -1,7 +1,12 @@
+#include <assert.h>
+
 #include "board.h"
 #include "stm32_private.h"
 #include "stm32_supply.h"
 #include "stm32f4.h"
+
+static_assert((BOARD_CRYSTAL_MHZ >= 4U) && (BOARD_CRYSTAL_MHZ <= 26U),
+              "BOARD_CRYSTAL_MHZ must be 4 to 26, what the part's oscillator is for (DS8626)");
 
 /*
  * 168 MHz for the core, 42 MHz for APB1 (its timers run at 84 MHz), 84 MHz for APB2. The PLL gets 2 MHz, or 1 MHz from

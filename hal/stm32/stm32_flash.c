@@ -23,8 +23,21 @@ enum {
     WRITE_TICKS_MAX = 2 * TICKS_PER_MS, /* datasheet: 100 us */
 };
 #define AREA_FIRST 0x080C0000U
+#define FLASH_FIRST 0x08000000U
+#define IMAGE_BYTES_MAX 0x10000U       /* stm32f405.ld */
 #define ERASE_TICKS_MAX (4U * TICK_HZ) /* DS8626: 2 s at 32 bits, 2.6 s at 16 */
 #define ERRORS (FLASH_SR_OPERR | FLASH_SR_WRPERR | FLASH_SR_PGAERR | FLASH_SR_PGPERR | FLASH_SR_PGSERR)
+
+/* Sectors 0 to 3 have 16 kB, 4 has 64 kB, the others have 128 kB (RM0090 3.3). */
+#ifndef BOARD_LOADER_BYTES
+#define BOARD_LOADER_BYTES 0
+#endif
+#define LOADER_BYTES ((uint32_t)BOARD_LOADER_BYTES)
+#define SECTOR_STEP ((LOADER_BYTES <= 0x10000U) ? 0x4000U : 0x20000U)
+static_assert((LOADER_BYTES % SECTOR_STEP) == 0U,
+              "BOARD_LOADER_BYTES must be where a sector begins: flashing the image would erase the loader");
+static_assert(LOADER_BYTES <= (AREA_FIRST - FLASH_FIRST - IMAGE_BYTES_MAX),
+              "BOARD_LOADER_BYTES: the image would lie where programs are stored");
 
 static_assert(BOARD_FLASH_BYTES == 4 || BOARD_FLASH_BYTES == 2, "BOARD_FLASH_BYTES: 4 or 2 at a time");
 

@@ -1,6 +1,20 @@
 #include "stm32_pins.h"
 
+#include <assert.h>
+
 #include "stm32_private.h"
+
+/* Anything else would count as low in one place and as high in another. */
+static_assert(BOARD_STEP_LEVEL <= 1U, "BOARD_STEP_LEVEL must be 1 (high) or 0 (low)");
+static_assert(BOARD_DIR_LEVEL <= 1U, "BOARD_DIR_LEVEL must be 1 (high) or 0 (low)");
+static_assert(BOARD_ENABLE_LEVEL <= 1U, "BOARD_ENABLE_LEVEL must be 1 (high) or 0 (low)");
+static_assert(BOARD_BI_LEVEL <= 1U, "BOARD_BI_LEVEL must be 1 (high) or 0 (low)");
+static_assert(BOARD_BO_LEVEL <= 1U, "BOARD_BO_LEVEL must be 1 (high) or 0 (low)");
+static_assert(BOARD_LED_LEVEL <= 1U, "BOARD_LED_LEVEL must be 1 (high) or 0 (low)");
+static_assert(BOARD_S1_LEVEL <= 1U, "BOARD_S1_LEVEL must be 1 (high) or 0 (low)");
+#ifdef BOARD_PWM_PINS
+static_assert(BOARD_PWM_LEVEL <= 1U, "BOARD_PWM_LEVEL must be 1 (high) or 0 (low)");
+#endif
 
 /* What a pin is for: its mode (RM0090 8.4.1), its pull-up, whether it makes steps, the number of its alternate function
  * (datasheet DS8626, table 9). Pins that make steps are medium fast: edges of slow ones may take 100 ns, a fifth of the

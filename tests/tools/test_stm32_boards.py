@@ -124,6 +124,7 @@ def test_a_build_for_an_unknown_board_is_told_which_there_are(tmp_path: Path) ->
 
 
 FIRST = "X(STEP_1, A, 0, TIM5_CH1)"
+LAST = "#define BOARD_DIR_HOLD_NS"
 
 
 @pytest.mark.parametrize(
@@ -160,6 +161,13 @@ FIRST = "X(STEP_1, A, 0, TIM5_CH1)"
         (CAPTURE, "X(CAPTURE, A, 8, TIM1_CH1)", "PA8 is used twice: LINE_DE and CAPTURE"),
         ("X(BI_1, C, 0, IN_UP)", "X(BI_9, C, 0, IN_UP)", "BI_9 is not a signal"),
         ('"LQFP64"', '"LQFP65"', "BOARD_PACKAGE must be one of"),
+        ("BOARD_BI_LEVEL 0U", "BOARD_BI_LEVEL 0", "BOARD_BI_LEVEL must be 0U or 1U, not 0"),
+        ("BOARD_PWM_LEVEL 1U", "BOARD_PWM_LEVEL 2U", "BOARD_PWM_LEVEL must be 0U or 1U, not 2U"),
+        ("BOARD_USART 1", "BOARD_USART 1 /* P5 */", "BOARD_USART must be one plain value"),
+        ("BOARD_USART 1", "BOARD_USART (1)", "BOARD_USART must be one plain value"),
+        ("#define BOARD_USART", " # define BOARD_USART", "BOARD_USART must be one plain value"),
+        (LAST, f"#define BOARD_LOADER_BYTES 0x8000U\n{LAST}", "as 0x8000, not 0x8000U"),
+        (LAST, f"#define BOARD_LOADER_BYTES 32 * 1024\n{LAST}", "BOARD_LOADER_BYTES must be one"),
     ],
 )
 def test_a_planted_fault_is_found(old: str, new: str, complaint: str) -> None:
@@ -247,6 +255,17 @@ def compile_steps(folder: Path, high_ns: int, unit: str) -> subprocess.Completed
     return subprocess.run([*command, *sources], capture_output=True, text=True, check=False)
 
 
+def compile_one(folder: Path, source: str, header: str) -> subprocess.CompletedProcess[str]:
+    """A source of the backend with this header of a board."""
+    (folder / "board.h").write_text(header)
+    places = ("hal/include", "firmware/base", "firmware/gve134/image")
+    folders = [folder, *(ROOT / each for each in places)]
+    command = [board.COMPILER, "-std=c11", "-mcpu=cortex-m4", "-mthumb", "-Wall", "-Wextra"]
+    command += ["-Wconversion", "-fsyntax-only", *(f"-I{each}" for each in folders)]
+    path = str(ROOT / f"hal/stm32/stm32_{source}.c")
+    return subprocess.run([*command, path], capture_output=True, text=True, check=False)
+
+
 @compiled
 @pytest.mark.parametrize("high_ns", [500, 2500, 4900, 5000, 10_000])
 def test_a_board_may_want_pulses_of_half_a_microsecond_to_ten(tmp_path: Path, high_ns: int) -> None:
@@ -290,14 +309,77 @@ def test_levels_that_do_not_fit_the_supply_do_not_compile(
     tmp_path: Path, old: str, new: str, complaint: str
 ) -> None:
     assert old in GOOD
-    (tmp_path / "board.h").write_text(GOOD.replace(old, new))
-    folders = [tmp_path, *(ROOT / each for each in ("hal/include", "firmware/base"))]
-    command = [board.COMPILER, "-std=c11", "-fsyntax-only", *(f"-I{each}" for each in folders)]
-    source = str(ROOT / "hal/stm32/stm32_supply.c")
-    done = subprocess.run([*command, source], capture_output=True, text=True)
+    done = compile_one(tmp_path, "supply", GOOD.replace(old, new))
 
     assert done.returncode == 1
     assert complaint in done.stderr
+
+
+ENABLE = """#define BOARD_ENABLE_PINS(X) X(EN_ALL, D, 2, OUT)
+#define BOARD_ENABLE_READY_US 150U
+#define BOARD_ENABLE_IDLE_MS 2500U
+"""
+LEVELS = ("STEP", "DIR", "ENABLE", "BI", "BO", "LED", "S1", "PWM")
+
+
+def with_value(name: str, value: str) -> str:
+    """A header that has nothing wrong but this value."""
+    header = GOOD.replace(LAST, f"{ENABLE}#define BOARD_ENABLE_LEVEL 0U\n{LAST}")
+    old = re.compile(rf"#define {name} .*\n")
+    return old.sub("", header).replace(LAST, f"#define {name} {value}\n{LAST}")
+
+
+@compiled
+@pytest.mark.parametrize(
+    ("source", "name", "values"),
+    [
+        *(("pins", f"BOARD_{level}_LEVEL", ("0U", "1U")) for level in LEVELS),
+        ("clock", "BOARD_CRYSTAL_MHZ", ("4U", "8U", "25U", "26U")),
+        ("flash", "BOARD_LOADER_BYTES", ("0", "0x4000", "0xC000", "0x10000", "131072", "0xA0000")),
+    ],
+)
+def test_values_that_a_board_can_have_compile(
+    tmp_path: Path, source: str, name: str, values: tuple[str, ...]
+) -> None:
+    for value in values:
+        done = compile_one(tmp_path, source, with_value(name, value))
+
+        assert (value, done.returncode, done.stderr) == (value, 0, "")
+
+
+ERASED, OVERLAPS = "flashing the image would erase the loader", "where programs are stored"
+
+
+@compiled
+@pytest.mark.parametrize(
+    ("source", "name", "value", "complaint"),
+    [
+        *(("pins", f"BOARD_{level}_LEVEL", "2U", f"BOARD_{level}_LEVEL must") for level in LEVELS),
+        *(("clock", "BOARD_CRYSTAL_MHZ", mhz, "must be 4 to 26") for mhz in ("0U", "3U", "27U")),
+        ("flash", "BOARD_LOADER_BYTES", "0x1000", ERASED),
+        ("flash", "BOARD_LOADER_BYTES", "0x14000", ERASED),
+        ("flash", "BOARD_LOADER_BYTES", "0x30000", ERASED),
+        ("flash", "BOARD_LOADER_BYTES", "0xB4000", ERASED),
+        ("flash", "BOARD_LOADER_BYTES", "0xC0000", OVERLAPS),
+        ("flash", "BOARD_LOADER_BYTES", "0xE0000", OVERLAPS),
+        ("flash", "BOARD_LOADER_BYTES", "-0x4000", OVERLAPS),
+    ],
+)
+def test_values_that_no_board_can_have_do_not_compile(
+    tmp_path: Path, source: str, name: str, value: str, complaint: str
+) -> None:
+    done = compile_one(tmp_path, source, with_value(name, value))
+
+    assert done.returncode == 1
+    assert complaint in done.stderr
+
+
+def test_the_room_for_an_image_is_that_of_its_script() -> None:
+    script = (ROOT / "hal/stm32/stm32f405.ld").read_text()
+    flash = (ROOT / "hal/stm32/stm32_flash.c").read_text()
+
+    assert "stm32_loader_bytes, LENGTH = 64K\n" in script
+    assert "#define IMAGE_BYTES_MAX 0x10000U" in flash
 
 
 def test_the_pins_of_a_board_are_shown_with_what_the_hardware_makes_of_them(
