@@ -36,7 +36,7 @@
     X(BO_6, E, 5, OUT)                                                                                                 \
     X(BO_7, E, 6, OUT)                                                                                                 \
     X(BO_8, C, 9, OUT)                                                                                                 \
-    X(LED_1, G, 2, OUT)                                                                                                \
+    X(LED_1, A, 7, OUT)                                                                                                \
     X(LED_2, G, 3, OUT)                                                                                                \
     X(LED_3, G, 6, OUT)                                                                                                \
     X(LED_4, G, 7, OUT)                                                                                                \
