@@ -13,6 +13,7 @@ from rkm04_tools import board
 from rkm04_tools.board_header import read_board
 from rkm04_tools.board_part import openocd
 from rkm04_tools.failure import DONE, NOT_SO, Failure
+from rkm04_tools.typed import forget_typed
 
 STATUS, CONTROL, KEYS = "0x40023c0c", "0x40023c14", "0x40023c08"
 """FLASH_SR, FLASH_OPTCR and FLASH_OPTKEYR (RM0090 3.9)."""
@@ -131,6 +132,7 @@ def run(options: Namespace) -> int:
 def _agreed(as_json: bool) -> bool:
     if as_json or not sys.stdin.isatty():
         return False
+    forget_typed()
     print(QUESTION, end="", flush=True)
     return sys.stdin.readline().strip().lower() in ("y", "yes")
 

@@ -16,5 +16,5 @@ def forget_typed() -> None:
     else:
         import termios
 
-        with suppress(termios.error):  # the terminal has gone: the next reading tells it
+        with suppress(termios.error, OSError):  # it has gone: the next reading tells that
             termios.tcflush(sys.stdin.fileno(), termios.TCIFLUSH)
