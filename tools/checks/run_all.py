@@ -160,13 +160,13 @@ def pytest(*options: str) -> Count:
 
 
 def python_tests() -> Count:
-    """Three processes more than there are cores, as they mostly wait.
+    """Two processes more than there are cores, as they mostly wait.
 
     Many talk to real processes against the clock. The few that fail are tried once more, one after
     the other, when the machine is less busy; pytest names them both times. What they draw at random
     is the same again, so what they find by that is found again.
     """
-    processes = str((os.cpu_count() or 1) + 3)
+    processes = str((os.cpu_count() or 1) + 2)
     count = pytest("--numprocesses", processes, "--dist", "loadfile")
     if not 0 < count.failed <= TRIED_AGAIN:
         return count
