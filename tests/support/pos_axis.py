@@ -147,8 +147,11 @@ class Axis:
         self.bits.homing = False
         if self.bits.jede:
             # also where it is to stand already: that may wait for a pulse, and this need not
-            self.order = replace(self.order, speed=0, accel=accel or self.order.accel)
-            self.motion.change(tick, self.order, self.late)
+            before, self.order = (
+                self.order,
+                replace(self.order, speed=0, accel=accel or self.order.accel),
+            )
+            self.motion.change(tick, self.order, self.late, anew=self.order != before)
         else:
             self.settle()
 

@@ -116,7 +116,8 @@ class Follower:
         """Whether it makes a difference to an event if the axis stands or is about to."""
         settings = self.axis.settings
         if isinstance(event, Edge):
-            return event.number in {abs(settings.limit_minus), abs(settings.limit_plus)}
+            limits = {abs(settings.limit_minus), abs(settings.limit_plus)}
+            return event.number in limits or self.axis.blocked(self.axis.motion.sign)
         return isinstance(event, Act) and self.axis.minds(event)
 
     def advance(self, tick: int, event: Event | None = None) -> None:

@@ -79,12 +79,13 @@ class Motion:
         """Leave the stand at a tick within a window, from where each curve rests."""
         self._keep(begun(self.families, order, low, high))
 
-    def change(self, tick: int, order: Order, late: int = CHANGE) -> None:
-        """Something else is wanted from a tick on, or a little later."""
+    def change(self, tick: int, order: Order, late: int = CHANGE, *, anew: bool = True) -> None:
+        """Something is wanted from a tick on, or a little later; not `anew`: it was so before."""
         self.verify(tick)
         first = self.offset + self.seen
         ahead = self.train.array[first : self.train.count_until(tick + late)]
-        self._keep(changed(self.families, self.seen, (tick, late), order, ahead))
+        as_before = [] if anew else [replace(family, kept={}) for family in self.families]
+        self._keep(changed(self.families, self.seen, (tick, late), order, ahead) + as_before)
 
     def _keep(self, families: list[Family]) -> None:
         self._work(len(families))

@@ -181,13 +181,15 @@ def without_slack(right: Any) -> Any:
 
 
 def late_by(ticks: int) -> Callable[[Any], Any]:
-    return lambda right: lambda motion, tick, order, late=0: right(motion, tick + ticks, order, 0)
+    return lambda right: (
+        lambda motion, tick, order, late=0, **more: right(motion, tick + ticks, order, 0, **more)
+    )
 
 
 def hard_stop(right: Any) -> Any:
-    def change(motion: Motion, tick: int, order: Order, late: int) -> Any:
+    def change(motion: Motion, tick: int, order: Order, late: int, *, anew: bool = True) -> Any:
         harder = order if order.speed else replace(order, accel=2 * order.accel)
-        return right(motion, tick, harder, late)
+        return right(motion, tick, harder, late, anew=anew)
 
     return change
 
