@@ -1,10 +1,17 @@
 # Looks into the objects of the firmware for what must not be there. A build without a board always does: it makes all
-# as those of a fast image are made.
+# as those of a fast image are made. One of a board looks at what its unit may have.
 find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
 
 set(arguments "")
 set(libraries "")
-foreach(stage IN LISTS FIRMWARE_STAGES)
+set(stages ${FIRMWARE_STAGES})
+if(FIRMWARE_BOARD)
+    set(others rkm04 gve134 positioning)
+    list(REMOVE_ITEM others ${FIRMWARE_UNIT})
+    list(JOIN others | others)
+    list(FILTER stages EXCLUDE REGEX "^(${others})(/|$)")
+endif()
+foreach(stage IN LISTS stages)
     string(REPLACE / _ library ${stage})
     list(APPEND libraries ${library})
     list(APPEND arguments --stage ${stage} $<TARGET_OBJECTS:${library}>)

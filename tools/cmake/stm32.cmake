@@ -70,8 +70,9 @@ function(firmware_add_image target name library)
 endfunction()
 firmware_add_image(unit_image ${image} ${FIRMWARE_UNIT} firmware/${FIRMWARE_UNIT}/main.c)
 if(FIRMWARE_UNIT STREQUAL rkm04)
-    firmware_add_image(bench_image ${image}-bench firmware_inside hal/stm32/bench/bench_main.c)
-    firmware_add_image(paths_image ${image}-paths firmware_inside hal/stm32/bench/path_main.c)
+    firmware_add_image(bench_image ${image}-bench rkm04 hal/stm32/bench/bench_main.c)
+    firmware_add_image(paths_image ${image}-paths rkm04 hal/stm32/bench/path_main.c)
+    target_link_libraries(paths_image PRIVATE engine_group)
 
     # What a new board is tried with; it speaks as the RKM04 unit does.
     set(bringup bringup-${FIRMWARE_BOARD})
@@ -86,11 +87,13 @@ if(FIRMWARE_UNIT STREQUAL rkm04)
 endif()
 
 # For the tests that ask for them.
-firmware_add_image(take_back_image ${image}-take-back firmware_inside tests/vboard/images/take_back_main.c)
-firmware_add_image(step_acts_image ${image}-step-acts firmware_inside tests/vboard/images/step_acts_main.c)
+firmware_add_image(take_back_image ${image}-take-back engine_step tests/vboard/images/take_back_main.c)
+firmware_add_image(step_acts_image ${image}-step-acts engine_step tests/vboard/images/step_acts_main.c)
 firmware_add_image(seam_image ${image}-seam base tests/vboard/images/seam_main.c)
 firmware_add_image(flat_image ${image}-flat ${FIRMWARE_UNIT} firmware/${FIRMWARE_UNIT}/main.c)
 set_target_properties(flat_image PROPERTIES sram_data 56K flat 1) # for an emulator that has no memory but SRAM
+target_link_libraries(take_back_image PRIVATE base)
+target_link_libraries(step_acts_image PRIVATE base)
 set_target_properties(take_back_image step_acts_image seam_image flat_image PROPERTIES EXCLUDE_FROM_ALL ON)
 
 set(checks ${PROJECT_SOURCE_DIR}/tools/checks)
