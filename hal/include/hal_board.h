@@ -36,7 +36,8 @@ uint32_t hal_board_late_steps(void);
 bool hal_board_steps_are_timed(void);
 
 /* The end of one pass of the main loop: tells the watchdog that main lives, and sleeps until `wake_tick` (nearly; now
- * or past: not at all) or until an interrupt has something for main that came after the pass began. */
+ * or past: not at all) or until an interrupt has something for main that came after the pass began: a tick interrupt
+ * with other inputs, a step interrupt that says so (main_has_work), bytes of the line. */
 void hal_board_idle(uint64_t wake_tick);
 
 #endif

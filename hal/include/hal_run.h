@@ -17,9 +17,9 @@ struct hal_client {
      * is not asked while a change of DIR is to come between two pulses that it has laid. */
     unsigned (*lay_isr)(void *context, unsigned motor, struct hal_step_room *room);
 
-    /* Tick interrupt, every millisecond and whenever an input changes: senses the inputs for guards and stops. They had
-     * not changed before `since_tick`, the unit's time; an input that a board looks at every millisecond only has
-     * changed in the last one. */
+    /* Tick interrupt, whenever an input changes; a board may call it every millisecond, too: senses the inputs for
+     * guards and stops. They had not changed before `since_tick`, the unit's time; an input that a board looks at every
+     * millisecond only has changed in the last one. Main has a pass after it (hal_board_idle). */
     void (*tick_isr)(void *context, uint64_t since_tick);
 
     /* Plan interrupt, below the tick interrupt and above main: whenever hal_run_plan has asked for it. Plans, which

@@ -31,7 +31,8 @@ struct hal_step_room {
 
 /* Lays what is due of a motor, and goes on asking for more: where it begins, where pulses were taken back, and where
  * what follows has changed, also if there was no more before. What lay_isr says of main is not looked at. A pulse is
- * due less than 25 s ahead; one whose tick has gone by is made good at once and counted as late. Only while
+ * due less than 25 s ahead; one whose tick has gone by is made good at once and counted as late. But for the next one,
+ * none is laid more than a millisecond ahead, or a stop is less exact (design.md). Only while
  * hal_step_hold is in force. */
 void hal_step_run(unsigned motor);
 

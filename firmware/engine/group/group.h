@@ -36,7 +36,8 @@ struct group_speeds {
 struct group_manner {
     uint32_t start_speed; /* path_set_start_speed */
     uint32_t fault_accel; /* with which a stop for AXIS_CAUSE_FAULT brakes, 1/128 step/s^2, up to PATH_ACCEL_MAX; 0, or
-                             where the motion ends before: as other stops. What is left is not to be gone on with. */
+                             where the motion ends before: as other stops. What is left is not to be gone on with.
+                             Less than that of a vector: only where no axis turns (path_can_rest) */
     uint32_t lead_ticks;  /* from when a change is asked for until it can take effect, as long as planning takes, which
                              hangs on the axes and where the code lies, up to 0.33 ms; 0: that */
     uint32_t go_on_ticks; /* so much is handed over at once after that; 0: 0.37 ms */

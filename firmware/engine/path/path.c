@@ -52,8 +52,9 @@ bool path_add(struct path *path, const struct path_vector *vector)
     for (unsigned axis = 0; axis < (unsigned)PATH_AXES; axis++) {
         path->axes |= (uint8_t)(vector->steps[axis] != 0 ? 1U << axis : 0U);
     }
+    bool waits = path->start_speed != 0 && !(vector->straight && path->chain == path->end);
     path->end++;
-    if (path->start_speed == 0 || vector->straight) {
+    if (!waits) {
         join(path);
     }
     return true;

@@ -95,10 +95,11 @@ void path_init(struct path *path, struct path_section *ring, uint32_t size, uint
  *   begins with it, or the speed of its first vector if that is less, as far as the end can be braked to; ends with it,
  *   or the speed of its last vector; and goes on with it after a stop,
  *   takes speeds up to S at once where it is changed, no higher than the border allowed as long as an axis that turned
- *   there has not made its first pulse; and falls from S to a speed below at once,
+ *   there has not made its first pulse; and falls from S to a speed below at once, in the vector that it is in then,
  *   is stopped when it has braked to S; at once, if it is no faster,
- *   is the vectors that were there when it left the stand, and later ones that go straight on: others wait for the next
- *   start, as a border with a turn or a low border speed may be slower than the end that was planned.
+ *   is the vectors that were there when it left the stand, and later ones that go straight on, up to the first that
+ *   does not: that one and all after it wait for the next start, as a border with a turn or a low border speed may be
+ *   slower than the end that was planned.
  * Borders are as ever: the path is at 0 where a border speed wants it. The path must stand. */
 void path_set_start_speed(struct path *path, uint32_t start_speed);
 
@@ -138,7 +139,7 @@ bool path_next(struct path *path, unsigned axis, uint64_t until_tick, struct pat
 struct path_wish {
     uint64_t tick;
     uint64_t patience_ticks; /* in a cruise, also one that begins within so many more, a place between steps is
-                                taken if no step is due within them */
+                                taken if no step is due within them; at least 1; from 2^62 on: whole steps only */
     uint64_t early_ticks;    /* up to PATH_EARLY_US_MAX. On a ramp, where no step is due for so long, a step up to so
                                 many earlier than `tick`, if whatever follows a change there comes at `tick` or later */
     uint32_t accel;          /* for a stop with an acceleration of its own, 1 to PATH_ACCEL_MAX; else 0 */
@@ -151,14 +152,15 @@ enum {
 /* The first whole step of the longest axis that is due at or after the wish, or, in a cruise, a place between steps
  * about then, or where the cruise begins. Where the path left its stand or was changed last counts as a step, so that
  * what comes together acts together, unless it is in a cruise until then, and no step is due within the patience; not
- * between steps for a stop with an acceleration of its own. False if the path
- * comes to rest before. Lays sections up to the wish, goes back over those of the ring at most, and looks at five steps
- * at most. */
+ * between steps for a stop with an acceleration of its own. False if the path comes to rest before; where vectors were
+ * added after all had been laid, the rest itself is a place. Lays sections up to the wish, goes back over those of the
+ * ring at most, and looks at five steps at most. */
 bool path_find(struct path *path, const struct path_wish *wish, struct path_place *place);
 
 /* Whether a path that is stopped at a place with an acceleration of its own comes to rest before its end. Not where
  * that brakes less than planned and a vector counts another length (extent2): beyond a border it could be faster than
- * any vector may be. */
+ * any vector may be. Where it brakes less than planned no axis may turn on the way: it would come through that border
+ * faster than DIR wants. */
 bool path_can_rest(const struct path *path, const struct path_place *place);
 
 /* Another speed for a section, in two parts, as the first takes time: it changes nothing yet, at any time after the

@@ -59,7 +59,7 @@ struct path_vector {
     uint32_t
         border_speed; /* not exceeded where another vector joins this one's beginning, 1/256 step/s of that number */
 
-    bool straight; /* it goes on as the vector before it: same direction, speed and acceleration */
+    bool straight; /* it goes on as the vector before it: same direction, speed, acceleration; for a start speed */
 };
 
 /* A place of the caller's ring. */

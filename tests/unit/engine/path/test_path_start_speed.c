@@ -341,6 +341,21 @@ void test_vectors_that_come_later_and_go_straight_on_join(void)
     TEST_ASSERT_EQUAL_UINT64(speed2_of(3000), rig.ring[1].enter2);
 }
 
+/* An axis would turn there at the start speed. */
+void test_what_goes_straight_on_after_a_vector_that_waits_waits_too(void)
+{
+    struct path_vector vector = rig_vector(-1000, 0, 3000, 10000);
+    (void)rig_add(&rig, 1000, 0, 3000, 10000);
+    start(1000);
+    TEST_ASSERT_TRUE(path_add(&rig.path, &vector));
+    vector.straight = true;
+    TEST_ASSERT_TRUE(path_add(&rig.path, &vector));
+    TEST_ASSERT_EQUAL_UINT32(1, rig.path.known);
+    TEST_ASSERT_EQUAL_UINT(1000, pulses(UINT64_MAX));
+    TEST_ASSERT_TRUE(path_start(&rig.path, UINT64_C(1) << 32U));
+    TEST_ASSERT_EQUAL_UINT(2000, pulses(UINT64_MAX));
+}
+
 void test_vectors_that_have_joined_are_part_of_what_is_planned_anew(void)
 {
     struct path_vector vector = rig_vector(1000, 0, 3000, 10000);
