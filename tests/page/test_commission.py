@@ -186,14 +186,14 @@ def test_a_run_goes_no_farther_than_was_allowed(bench):
     assert expect_cleared(bench) == 300
 
 
-@pytest.mark.parametrize("text", ["", "-5", "1.5", "99999999"])
-def test_where_it_may_go_at_most_is_not_told_nothing_is_moved(bench, text):
-    bench.page.locator("#commission-farthest").fill(text)
-    aim(bench.page, "#jog-forth")
-    bench.page.mouse.down()
-    bench.page.wait_for_timeout(500)
-    bench.page.mouse.up()
-    assert "request" not in bench.sent
+def test_where_it_may_go_at_most_is_not_told_nothing_is_moved(bench):
+    for text in ("", "-5", "1.5", "99999999"):
+        bench.page.locator("#commission-farthest").fill(text)
+        aim(bench.page, "#jog-forth")
+        bench.page.mouse.down()
+        bench.page.wait_for_timeout(500)
+        bench.page.mouse.up()
+        assert "request" not in bench.sent
 
 
 def test_a_step_that_is_pressed_twice_is_not_cut_off(bench):

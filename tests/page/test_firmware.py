@@ -96,28 +96,40 @@ def damaged(content: bytes, place: int) -> bytes:
 WHOLE = image_suffix.suffixed(image_of(41_144), "rkm04-weact-f405")
 
 
-@pytest.mark.parametrize(
-    "content",
-    [b"", b"no image", bytes(5000), image_of(41_144), WHOLE[:-1], WHOLE[:20_000], WHOLE + b"\0",
-     WHOLE[1:], damaged(WHOLE, 0), damaged(WHOLE, 30_000), damaged(WHOLE, 41_150),
-     damaged(WHOLE, -1), image_suffix.suffixed(image_of(70_000), "rkm04-weact-f405")],
-    ids=["empty", "text", "zeros", "without its name", "a byte short", "half", "a byte more",
-         "no first byte", "other stack", "other code", "other name", "other sum", "too long"],
-)  # fmt: skip
-def test_what_is_no_whole_image_is_told_when_it_is_chosen_and_refused(panel, content):
-    choose_file(panel, content)
-    said(panel, "rkm04.bin: no image of this project, or not whole", "nothing was written")
-    panel.locator("#firmware-confirm").check()
-    panel.locator("#firmware-write").click()
-    said(panel, "rkm04.bin: no image of this project, or not whole", "nothing was written")
-    assert panel.evaluate("window.fakeLoader.orders") == 0
+NOT_WHOLE = {
+    "empty": b"",
+    "text": b"no image",
+    "zeros": bytes(5000),
+    "without its name": image_of(41_144),
+    "a byte short": WHOLE[:-1],
+    "half": WHOLE[:20_000],
+    "a byte more": WHOLE + b"\0",
+    "no first byte": WHOLE[1:],
+    "other stack": damaged(WHOLE, 0),
+    "other code": damaged(WHOLE, 30_000),
+    "other name": damaged(WHOLE, 41_150),
+    "other sum": damaged(WHOLE, -1),
+    "too long": image_suffix.suffixed(image_of(70_000), "rkm04-weact-f405"),
+}
 
 
-@pytest.mark.parametrize("name", ["rkm04-f405", "rkm04-skr-pro-1.2", "weact-f405", "rkm04-weact"])
-def test_an_image_of_another_board_is_refused_before_anything_is_asked(panel, name):
-    choose(panel, image_of(41_144), name)
-    said(panel, f"this is {name}, no image for WeAct", "nothing was written")
-    assert panel.evaluate("window.fakeLoader.orders") == 0
+def test_what_is_no_whole_image_is_told_when_it_is_chosen_and_refused(panel):
+    for content in NOT_WHOLE.values():
+        choose_file(panel, WHOLE)
+        expect(panel.locator("#firmware-said")).to_have_text("rkm04-weact-f405, whole.")
+        choose_file(panel, content)
+        said(panel, "rkm04.bin: no image of this project, or not whole", "nothing was written")
+        panel.locator("#firmware-confirm").check()
+        panel.locator("#firmware-write").click()
+        said(panel, "rkm04.bin: no image of this project, or not whole", "nothing was written")
+        assert panel.evaluate("window.fakeLoader.orders") == 0
+
+
+def test_an_image_of_another_board_is_refused_before_anything_is_asked(panel):
+    for name in ("rkm04-f405", "rkm04-skr-pro-1.2", "weact-f405", "rkm04-weact"):
+        choose(panel, image_of(41_144), name)
+        said(panel, f"this is {name}, no image for WeAct", "nothing was written")
+        assert panel.evaluate("window.fakeLoader.orders") == 0
 
 
 def test_what_a_file_is_is_told_when_it_is_chosen_and_anew_for_another_board(panel):

@@ -69,7 +69,7 @@ def assert_exact(cases: list[Case]) -> None:
         assert worst.ticks <= GOAL_TICKS, f"{case.move}, pulse {worst.pulse}: {case.line}"
 
 
-@settings(max_examples=800, deadline=None)
+@settings(max_examples=400, deadline=None)
 @given(moves(), EPOCHS)
 @example(Move(1, (Section(3000, 16_000, 60_000),)), 0)
 @example(Move(1, (Section(3000, 16_000, 1),), ((1500, 1), (1501, 16_000))), 0)

@@ -54,7 +54,7 @@ def test_every_pulse_of_the_corner_cases_is_on_its_tick() -> None:
 
 
 def test_pulses_do_not_drift_in_millions_of_steps_and_in_hours() -> None:
-    assert_exact(long_corners()[:: 1 if LONG else 2])
+    assert_exact(long_corners()[:: 1 if LONG else 3])
 
 
 def test_of_what_is_told_in_part_nothing_is_another_pulse() -> None:

@@ -1,6 +1,6 @@
 """Random programs, and random messages at random times, against the model of the language.
 
-`RKM04_PROGRAMS=11000` draws that many scripts instead of a few hundred; RKM04_SEED=... repeats
+`RKM04_PROGRAMS=11000` draws that many scripts instead of 150; RKM04_SEED=... repeats
 a run.
 """
 
@@ -18,7 +18,7 @@ from language_signals import Unsure
 from program_probe import Probe, Request, Script
 from program_strategies import scripts
 
-PROGRAMS = int(os.environ.get("RKM04_PROGRAMS", "300"))
+PROGRAMS = int(os.environ.get("RKM04_PROGRAMS", "150"))
 BATCH = 300
 """Programs that are drawn together, by one seed; hypothesis grows slow and large with many more."""
 

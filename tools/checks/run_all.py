@@ -27,7 +27,7 @@ from types import MappingProxyType
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
-FUZZ_SECONDS = 3  # of exploration, each fuzzer
+FUZZ_SECONDS = 1  # of exploration, each fuzzer
 FUZZ_SEED = 1  # the same inputs in each run of some minutes; a long one tries others
 LONG_MINUTES = 4  # the same with --long
 SOAK_MINUTES = 24 * 60  # of unit time, with --long
