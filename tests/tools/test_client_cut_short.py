@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import os
 import signal
 import subprocess
 import time
@@ -9,11 +11,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from fake_unit import MOVING, RUNNING, STOPPED, FakeLine, FakeUnit
+from fake_unit import MOVING, RUNNING, STOPPED, FakeLine, FakeUnit, lost
 from rkm04_tools import acting
 from rkm04_tools.client_base import PORT_VARIABLE
 from rkm04_tools.doubt import interrupted_by_any_end
-from rkm04_tools.line import Wait
+from rkm04_tools.line import ATTEMPTS, Wait
+from statuses import Vector
 
 NODE = 3
 GET_STATUS = b"\x10"
@@ -119,8 +122,13 @@ SENT = [
     ("\\ F100 R", lambda message: message[0] > 7, "{} was taken, but what the motor does: ",
      acting.MAY_MOVE),
     (LONG, has(b"[C100"), "how much of {} was taken: what there is of it waits for the rest: ",
-     "0 of 3 messages taken; what was in the memory before is gone; rkm04 reset forgets it"),
-    (OWN_BRACKETS, has(b"\\["), "how much of {} was taken: ", "0 of 3 messages taken"),
+     "0 of 3 messages taken; what was in the memory before may be gone; rkm04 reset forgets it"),
+    (OWN_BRACKETS, has(b"\\["),
+     "how much of {} was taken: rkm04 resume would run what there is of it: ",
+     "0 of 3 messages taken; what was in the memory before may be gone; do not resume: rkm04 "),
+    (OWN_BRACKETS, has(b"W1]"),
+     "how much of {} was taken: rkm04 resume would run what there is of it: ",
+     "2 of 3 messages taken; what was in the memory before is gone; do not resume: rkm04 reset"),
     (LONG, has(b"R]"), "whether {} was taken whole, and runs: ", "2 of 3 messages taken"),
     (OWN_BRACKETS, has(b"C75"), "{} was taken, but what the motor does: ", acting.MAY_MOVE),
 ]  # fmt: skip
@@ -187,7 +195,89 @@ def test_an_interrupted_send_tells_it_too(start, fake, unit, write):
     _, err = process.communicate(timeout=10)
 
     assert process.returncode == 130
-    assert "waits for the rest: interrupted; 0 of 3 messages taken; what was in the memory" in err
+    assert (
+        "waits for the rest: interrupted; 0 of 3 messages taken; what was in the memory before may"
+        in err
+    )
+
+
+CUTS: list[Callable[[FakeLine], object]] = [
+    lambda fake: os.kill(os.getpid(), signal.SIGINT),
+    lambda fake: fake.faults.extend([lost] * ATTEMPTS),
+]
+
+
+def cut_at(
+    fake: FakeLine, monkeypatch: pytest.MonkeyPatch, text: bytes, cut: Callable[[FakeLine], object]
+) -> None:
+    """Cut the command short, once, when the unit takes what is meant."""
+    original, cuts = FakeUnit.execute, [cut]
+
+    def execute(unit: FakeUnit, message: bytes) -> bytes:
+        if has(text)(message) and cuts:
+            cuts.pop()(fake)
+        return original(unit, message)
+
+    monkeypatch.setattr(FakeUnit, "execute", execute)
+
+
+@pytest.mark.parametrize("part", [b"\\[", b"]C100", b"W1]"])
+@pytest.mark.parametrize("cut", CUTS)
+def test_a_part_of_a_program_that_k_holds_is_forgotten(tool, fake, unit, write, monkeypatch, part,
+                                                       cut):  # fmt: skip
+    """`resume`, which is for all motors, would run it."""
+    cut_at(fake, monkeypatch, part, cut)
+
+    result = tool("send", write(OWN_BRACKETS))
+
+    assert result.status == (130 if cut is CUTS[0] else 3)
+    assert unit.programs[1] == b""
+    assert acts(unit)[-1] == b"\x021\\"
+    assert "NOT CONFIRMED" not in result.complaint
+    assert (
+        f"; what had come of it is forgotten again: the memory of motor 1 of unit {NODE} is empty"
+    ) in result.complaint
+    assert "resume" not in result.complaint
+
+
+def test_so_is_the_part_that_restore_has_sent(tool, fake, unit, folder, monkeypatch):
+    cut_at(fake, monkeypatch, b"W2", CUTS[0])
+
+    result = tool("restore", folder)
+
+    assert result.status == 130
+    assert unit.programs[2] == b""
+    assert f"the memory of motor 2 of unit {NODE} is empty; restored: " in result.complaint
+
+
+REFUSED = [["--motor", "1"], ["--motor", "0"], ["--motor", "1", "--node", "0"]]
+
+
+@pytest.mark.parametrize("where", REFUSED)
+def test_what_is_refused_leaves_the_memory_and_says_that_a_motor_moves_on(tool, fake, unit, write,
+                                                                          where):  # fmt: skip
+    unit.status = Vector("T40", switches=4).whole
+
+    result = tool("send", write("\\" + "W100" * 699), *where)
+
+    assert result.status == 1
+    assert acts(unit) == []
+    assert "gone" not in result.complaint
+    assert "taken" not in result.complaint
+    assert result.complaint.endswith(f"; {acting.KEPT}")
+
+
+def test_so_does_a_machine_of_which_a_program_is_refused(tool, fake, unit, write):
+    unit.status = Vector("T40", switches=4).whole
+    motors = [{"program": "\\" + "W100" * 699}, *[{"program": ""}] * 3]
+    content = {"format": "rkm04-machine", "version": 1, "name": "a", "motors": motors}
+
+    result = tool("machine", "send", write(json.dumps(content), "a.rkm"))
+
+    assert (result.status, acts(unit)) == (1, [])
+    assert result.complaint == (
+        f"rkm04: motor 1: has no room for [ and ] while T40 is on; send C40 first; {acting.KEPT}"
+    )
 
 
 def test_a_stream_whose_unit_falls_silent_tells_what_runs_on(tool, fake, unit, write):

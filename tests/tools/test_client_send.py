@@ -127,7 +127,7 @@ def test_a_stop_waits_until_the_motor_stands(motor, unit, monkeypatch):
     with pytest.raises(Failure, match="send again when it stands"):
         motor.send(LONG + "[")
 
-    assert sent_texts(unit) == ["\\["]
+    assert sent_texts(unit) == ["\\[", "\\"]
 
 
 @pytest.mark.parametrize("text", ["\\" + "R" * 701, "R" * 1500])
@@ -184,7 +184,7 @@ def test_a_motor_that_is_not_held_gets_no_program_that_must_be(motor, unit):
     with pytest.raises(Failure, match="could not be held by K; nothing more was sent"):
         motor.send(LONG + "]")
 
-    assert sent_texts(unit) == ["\\[", "K"]
+    assert sent_texts(unit) == ["\\[", "K", "\\"]
 
 
 @pytest.mark.parametrize("text", [LONG[1:] + "[", "W100" * 700])

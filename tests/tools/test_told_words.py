@@ -276,6 +276,8 @@ OTHERWISE = {
     "motor 7: 7 commands stored", "no move in progress", "reset, the program memory is empty",
     "told to go on", "told to store", "units that answer: 7", "the port is closed",
     "to all units: 7; none of them answers, so it is not known who has got it",
+    # Notes of failures, which commands tell, and pages do not.
+    "what had come of it is forgotten again: the memory of 7 of unit 7 is empty", "all motors",
     # Nobody is told these: faults of the project, and what is looked for in other texts.
     "the line has ended a request by 7", "there is not memory enough for the line",
     "7 is not for the unit", "the program is not there", "there is no next command",

@@ -27,6 +27,7 @@ QUIET_SECONDS = 0.5
 POLL_SECONDS = 0.05
 EMERGENCY = "use the emergency stop"
 MAY_MOVE = "it may move: rkm04 status tells what it does, rkm04 stop stops it"
+KEPT = "nothing was changed: a motor that moves goes on"
 BROADCAST_NOTE = "NOT CONFIRMED: no unit answers a broadcast; look at each motor, or ask each unit"
 
 

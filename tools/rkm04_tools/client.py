@@ -200,7 +200,7 @@ def run_restore(options: Namespace) -> int:
         if done < total:
             doubt.what = (
                 f"{archive.names_of([programs[done]])}: its memory may hold a part of the program, "
-                "and what is stored is the old program or the new one"
+                "which rkm04 resume would run, and what is stored is the old program or the new one"
             )
             doubt.done += f"; not begun: {archive.names_of(programs[done + 1 :])}"
         bar.show(done, total)

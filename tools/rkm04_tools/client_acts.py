@@ -25,7 +25,7 @@ from rkm04_tools.failure import DONE, INTERRUPTED, NOT_SO, Failure
 from rkm04_tools.frame import BROADCAST
 from rkm04_tools.host import opcode_rows
 from rkm04_tools.line import Motor, Unit, open_line
-from rkm04_tools.sending import COMMANDS_MAX, Plan, Sent, plan_program, send_program
+from rkm04_tools.sending import COMMANDS_MAX, Hold, Plan, Sent, plan_program, send_program
 from rkm04_tools.streaming import PART_COMMANDS_MAX, stream_program
 
 Act = Callable[[Unit, int, Doubt], list[Told]]
@@ -82,6 +82,7 @@ def run_send(options: Namespace) -> int:
 
         if node != BROADCAST:
             motor.unit.begin()
+        doubt.done = acting.KEPT
         sent = send_program(motor, checked, show)
         return _tell_sent(options, motor, sent)
 
@@ -92,13 +93,28 @@ def _note_sending(doubt: Doubt, plan: Plan, done: int, total: int) -> None:
     counts = f"{done} of {count_of(total, 'message')} taken" if has_more else ""
     if done == total:
         doubt.about(f"{name} was taken, but what the motor does", acting.MAY_MOVE)
-    elif done == total - 1:
+    elif done == total - 1 and plan.hold is not Hold.STOP:
         what = f"whether {name} was taken{' whole' if has_more else ''}, and runs"
         doubt.about(what, acting.MAY_MOVE, counts)
     else:
-        gone = "; what was in the memory before is gone" if plan.resets else ""
-        what = f"how much of {name} was taken: what there is of it waits for the rest"
-        doubt.about(what, "rkm04 reset forgets it, or send it again", f"{counts}{gone}")
+        _note_part(doubt, plan, counts, is_first=not done)
+
+
+def _note_part(doubt: Doubt, plan: Plan, counts: str, is_first: bool) -> None:
+    """Note what is not known of a program of which there is a part."""
+    what, advice = (
+        "what there is of it waits for the rest",
+        "rkm04 reset forgets it, or send it again",
+    )
+    if plan.hold is Hold.STOP:
+        what, advice = "rkm04 resume would run what there is of it", f"do not resume: {advice}"
+    # The \ is the first to go: without an answer nobody knows whether it was taken.
+    gone = f"what was in the memory before {'may be' if is_first else 'is'} gone"
+    if plan.resets and is_first:
+        advice = f"{gone}; {advice}"
+    elif plan.resets:
+        counts = f"{counts}; {gone}"
+    doubt.about(f"how much of {plan.checked.source.name} was taken: {what}", advice, counts)
 
 
 def _stream(options: Namespace, node: int, port: str, checked: Checked) -> int:

@@ -7,6 +7,7 @@ notes beforehand what is in doubt, and whatever cuts it short is told together w
 from __future__ import annotations
 
 import signal
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -40,21 +41,33 @@ class Doubt:
 
 @contextmanager
 def in_doubt(doubt: Doubt) -> Iterator[Doubt]:
-    """Tell what is in doubt if the block is cut short. Ends that are asked for are as Ctrl-C."""
+    """Tell what is in doubt if the block is cut short. Ends that are asked for are as Ctrl-C.
+
+    What has notes is in no doubt any more: they say what has become of it.
+    """
     try:
         with interrupted_by_any_end():
             yield doubt
-    except KeyboardInterrupt:
-        if not doubt.what:
+    except KeyboardInterrupt as end:
+        known = _known(end, doubt)
+        if doubt.what and not hasattr(end, "__notes__"):
+            raise Failure(doubt.words("interrupted"), INTERRUPTED) from None
+        if not known:
             raise
-        raise Failure(doubt.words("interrupted"), INTERRUPTED) from None
+        raise Failure("; ".join(["interrupted", *known]), INTERRUPTED) from None
     except Failure as failure:
-        is_told = isinstance(failure, UnitRestarted)  # it says itself what became of the request
+        # A restart says itself what became of the request.
+        is_told = isinstance(failure, UnitRestarted) or hasattr(failure, "__notes__")
         if doubt.what and isinstance(failure, CUT_SHORT) and not is_told:
             failure.args = (doubt.words(str(failure)),)
-        elif doubt.done:
-            failure.args = (f"{failure}; {doubt.done}",)
+        else:
+            failure.args = ("; ".join([str(failure), *_known(failure, doubt)]),)
         raise
+
+
+def _known(end: BaseException, doubt: Doubt) -> list[str]:
+    """What is known when something ends a command."""
+    return [*getattr(end, "__notes__", []), *filter(None, [doubt.done])]
 
 
 @contextmanager
@@ -73,6 +86,9 @@ def undisturbed() -> Iterator[None]:
 
 @contextmanager
 def _handled_by(handler: signal.Handlers | object) -> Iterator[None]:
+    if threading.current_thread() is not threading.main_thread():
+        yield  # signals come to the main thread only
+        return
     before = {number: signal.getsignal(number) for number in ENDS}
     # What is ignored is meant to be, as by nohup.
     changed = {number: usual for number, usual in before.items() if usual != signal.SIG_IGN}

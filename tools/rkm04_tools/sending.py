@@ -12,13 +12,15 @@ K, C75 and V that are the whole text go as they are: alone in a message each act
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import takewhile
 from typing import TYPE_CHECKING
 
 from rkm04_tools.check import Checked, check_source
+from rkm04_tools.doubt import undisturbed
 from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.frame import BROADCAST
 from rkm04_tools.host import Command, check, stored
@@ -158,8 +160,10 @@ def send_program(motor: Motor, checked: Checked, tell: Tell = silent) -> Sent:
     require_room(motor, plan)
     if plan.hold is not Hold.STOP:
         return send_texts(motor, plan, tell)
+    _require_holdable(motor, plan)
     tell(0, len(plan.texts))
-    sent = send_texts(motor, plan, tell, _halt(motor, plan))
+    with _whole_or_forgotten(motor):
+        sent = send_texts(motor, plan, tell, _halt(motor))
     motor.resume()
     return sent
 
@@ -171,7 +175,9 @@ def load_program(motor: Motor, checked: Checked) -> Sent:
     """
     plan = plan_program(checked)
     plan = replace(plan, hold=Hold.STOP, texts=pack(["]", *plan.plain]))
-    return send_texts(motor, plan, silent, _halt(motor, plan))
+    _require_holdable(motor, plan)
+    with _whole_or_forgotten(motor):
+        return send_texts(motor, plan, silent, _halt(motor))
 
 
 def _session(motor: Motor) -> int:
@@ -240,8 +246,8 @@ def pack(tokens: Sequence[str]) -> list[str]:
     return texts
 
 
-def _halt(motor: Motor, plan: Plan) -> int:
-    """Reset and stop a motor, so that what is stored then waits for C75; return the session."""
+def _require_holdable(motor: Motor, plan: Plan) -> None:
+    """Refuse, while nothing has been sent, what cannot wait for C75."""
     name = plan.checked.source.name
     if motor.unit.node == BROADCAST:
         raise Failure(
@@ -251,6 +257,31 @@ def _halt(motor: Motor, plan: Plan) -> int:
         )
     if len(plan.commands) + len(BRACKETS) > COMMANDS_MAX and is_locked(motor.unit):
         raise Failure(f"{name}: has no room for [ and ] while T40 is on; send C40 first", NOT_SO)
+
+
+@contextmanager
+def _whole_or_forgotten(motor: Motor) -> Iterator[None]:
+    """Leave no part of a program that K holds: C75, perhaps meant for other motors, would run it.
+
+    What cuts the block short gets a note if that is confirmed. A unit that restarts has forgotten.
+    """
+    try:
+        yield
+    except UnitRestarted:
+        raise
+    except BaseException as error:
+        with undisturbed(), suppress(Failure):
+            motor.reset()
+            which = f"motor {motor.number}" if motor.number != ALL_MOTORS else "all motors"
+            error.add_note(
+                f"what had come of it is forgotten again: the memory of {which} of unit "
+                f"{motor.unit.node} is empty"
+            )
+        raise
+
+
+def _halt(motor: Motor) -> int:
+    """Reset and stop a motor, so that what is stored then waits for C75; return the session."""
     motor.command("\\[")
     session = _session(motor)
     end = time.monotonic() + STAND_SECONDS

@@ -10,7 +10,7 @@ from difflib import unified_diff
 from shutil import rmtree
 from typing import Any
 
-from rkm04_tools.acting import MAY_MOVE
+from rkm04_tools.acting import KEPT, MAY_MOVE
 from rkm04_tools.bar import Bar
 from rkm04_tools.client_base import count_of, port_of, reading_node_of, tell
 from rkm04_tools.doubt import Doubt, in_doubt
@@ -154,10 +154,15 @@ def run_send(options: Namespace) -> int:
         def show(done: int, total: int) -> None:
             what = f"which motors have got their programs of {machine.file}, and run"
             counts = f"{done} of {count_of(total, 'message')} taken"
+            if done and not options.together:
+                counts += "; motors that have all of theirs run it"
             doubt.about(what, MAY_MOVE, counts)
             bar.show(done, total)
 
-        answer = send_all(line.unit(node), texts, options.together, show)
+        unit = line.unit(node)
+        unit.begin()
+        doubt.done = KEPT
+        answer = send_all(unit, texts, options.together, show)
     others = ", ".join(str(number) for number in MOTORS if number not in programs)
     left = "left as they are, without a program in the file"
     if options.together and len(programs) > 1:

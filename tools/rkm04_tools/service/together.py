@@ -106,8 +106,7 @@ def _require_room(motor: Motor, plan: Plan) -> None:
     try:
         require_room(motor, plan)
     except Failure as failure:
-        failure.args = (f"motor {motor.number}: {failure}",)
-        raise
+        raise _told(failure, motor.number, [motor.number], together=True) from None
 
 
 def _require_others_empty(unit: Unit, others: Sequence[int]) -> None:
@@ -140,7 +139,7 @@ def _told(failure: Failure, motor: int, motors: Sequence[int], together: bool) -
     sent = ", ".join(str(each) for each in motors[: list(motors).index(motor)])
     others = "nothing was started" if together else f"already sent to motor {sent}"
     words = f"motor {motor}" + (f" ({others})" if sent else "")
-    failure.args = (f"{words}: {failure}",)
+    failure.args = (f"{words}: {str(failure).removeprefix(f'motor {motor}: ')}",)
     return failure
 
 
