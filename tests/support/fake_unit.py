@@ -72,7 +72,10 @@ class FakeUnit:
     status: bytes | None = None
     """The answer to Get Status, if not that of `states`; empty: a unit that does not know it."""
     states: list[int] = field(default_factory=lambda: [0, 0, 0, 0])
-    """What the motors do, as Get Status tells it; K, C75 and a hold at the beginning change it."""
+    """What the motors do, as Get Status tells it; K, C75 and a hold at the beginning change it.
+
+    V alone changes the table of one that moves.
+    """
     errors: list[int] = field(default_factory=lambda: [0, 0, 0, 0])
     waits: list[int] = field(default_factory=lambda: [0, 0, 0, 0])
     tables: dict[int, bytes] = field(default_factory=dict)
@@ -130,6 +133,9 @@ class FakeUnit:
         if text == b"C75" and state & STOPPED:
             self.states[motor - 1] = state & MOVING | RUNNING
         if text in (b"K", b"C75"):
+            return
+        if text.startswith(b"V") and text[1:].isdigit() and state & MOVING and state & RUNNING:
+            self.tables[motor] = b"  2;[(1;100),(%d;%s)]" % (len(self.done), text[1:])
             return
         if text == b"\\[":
             self.states[motor - 1] = RUNNING | WAITING

@@ -57,7 +57,7 @@ SHARED: dict[str, set[str] | None] = {
 SERVED: dict[str, dict[str, set[str] | None]] = {
     "rkm04": {
         **SHARED,
-        "acting.py": {"change_speed", "moving_not", "_does", "_sped"},
+        "acting.py": {"change_speed", "_still", "_unmoved", "_does", "_send_speed"},
         "line.py": {"_failed", "_look_for", "scan"},
         "line_errors.py": None, "messages.py": None, "report.py": {"state"},
         "sending.py": None, "service/app.py": None, "service/curves.py": None,

@@ -7,13 +7,14 @@ again and again: what moves is seen, what stands is not known for sure. Nobody a
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from rkm04_tools.doubt import Doubt
 from rkm04_tools.failure import Failure
 from rkm04_tools.frame import BROADCAST
-from rkm04_tools.line import Unit
+from rkm04_tools.line import Motor, Unit
 from rkm04_tools.line_errors import UnitRestarted, UnknownMessage
 from rkm04_tools.messages import ALL_MOTORS, MOTORS
 from rkm04_tools.status import MotorStatus
@@ -82,32 +83,36 @@ def reset(unit: Unit, number: int, doubt: Doubt) -> list[Told]:
 
 
 def change_speed(
-    unit: Unit, number: int, steps_per_s: int, doubt: Doubt | None = None
+    unit: Unit, number: int, steps_per_s: int, send: Callable[[Motor, int], Told] | None = None
 ) -> list[Told]:
     """Send V to those motors that move: to others it would be a command of their program."""
-    doubt = doubt or Doubt()
+    send = send or _send_speed
     if unit.node == BROADCAST:
         raise Failure(
             "node 0 means all units, and none can say which of its motors move; name one, 1 to 16"
         )
-    moving = _moving(unit, number)
-    told = []
-    for each in numbers_of(number):
-        if each in moving:
-            doubt.about(f"whether V{steps_per_s} was taken by motor {each}", MAY_MOVE)
-            unit.motor(each).set_speed(steps_per_s)
-            told.append(_sped(unit, each, steps_per_s))
-        else:
-            told.append(Told(each, moving_not(unit, each), False))
-    return told
+    # One look decides, and gives the reason: in the next one the motor may move again.
+    found = states(unit, number)
+    still = _still(found) if found else _unmoved(unit, number)
+    return [
+        Told(each, still[each], False) if each in still else send(unit.motor(each), steps_per_s)
+        for each in numbers_of(number)
+    ]
 
 
-def moving_not(unit: Unit, number: int) -> str:
-    """Why a motor gets no V."""
-    state = states(unit, number)
-    if state is None:
-        return "has not moved while it was watched: nothing was sent"
-    return f"{_does(state[0])}: nothing was sent"
+def _still(found: Sequence[MotorStatus]) -> dict[int, str]:
+    """What those motors do that run no move of their program."""
+    return {
+        each.motor: f"{_does(each)}: nothing was sent"
+        for each in found
+        if not (each.moving and each.running)
+    }
+
+
+def _unmoved(unit: Unit, number: int) -> dict[int, str]:
+    moved = _moved(unit, number)
+    words = "has not moved while it was watched: nothing was sent"
+    return {each: words for each in numbers_of(number) if each not in moved}
 
 
 def states(unit: Unit, number: int) -> list[MotorStatus] | None:
@@ -181,21 +186,15 @@ def _resumed(before: MotorStatus, after: MotorStatus) -> Told:
     return Told(after.motor, f"goes on: {after.text}", True)
 
 
-def _sped(unit: Unit, number: int, steps_per_s: int) -> Told:
+def _send_speed(motor: Motor, steps_per_s: int) -> Told:
     """Look whether the move was still there: else V has become a command of the program."""
-    state = states_since(unit, number)
+    motor.set_speed(steps_per_s)
+    number = motor.number
+    state = states_since(motor.unit, number)
     if state and not state[0].moving:
         text = f"has come to a stand meanwhile: V{steps_per_s} may be in its memory now"
         return Told(number, text, False)
     return Told(number, f"speed {steps_per_s} steps/s", True)
-
-
-def _moving(unit: Unit, number: int) -> set[int]:
-    """Those that run a move of their program."""
-    found = states(unit, number)
-    if found is None:
-        return _moved(unit, number)
-    return {each.motor for each in found if each.moving and each.running}
 
 
 def _moved(unit: Unit, number: int, seconds: float = LOOK_SECONDS) -> set[int]:

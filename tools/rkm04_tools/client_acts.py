@@ -26,6 +26,7 @@ from rkm04_tools.frame import BROADCAST
 from rkm04_tools.host import opcode_rows
 from rkm04_tools.line import Motor, Unit, open_line
 from rkm04_tools.sending import COMMANDS_MAX, Hold, Plan, Sent, plan_program, send_program
+from rkm04_tools.speeding import send_speed
 from rkm04_tools.streaming import PART_COMMANDS_MAX, stream_program
 
 Act = Callable[[Unit, int, Doubt], list[Told]]
@@ -48,13 +49,15 @@ def run_reset(options: Namespace) -> int:
 
 
 def run_speed(options: Namespace) -> int:
-    """Change the speed of moves; status 1 if none is in progress."""
+    """Change the speed of moves; status 1 if none has it then."""
     (row,) = (row for row in opcode_rows() if row.name == "SPEED")
     if not row.min <= options.speed <= row.max:
         raise Failure(f"speed {options.speed}: write steps/s, {row.min} to {row.max}")
 
     def act(unit: Unit, number: int, doubt: Doubt) -> list[Told]:
-        return acting.change_speed(unit, number, options.speed, doubt)
+        return acting.change_speed(
+            unit, number, options.speed, lambda motor, speed: send_speed(motor, speed, doubt)
+        )
 
     return _act(options, act, "", enough=any)
 
