@@ -102,15 +102,17 @@ def test_stop_as_json_tells_what_is_confirmed(tool, fake, unit):
     assert answer == {"node": NODE, "motor": 2, "confirmed": True, "motors": [state]}
 
 
-@pytest.mark.parametrize("command", ["stop", "resume", "reset"])
-def test_a_broadcast_is_loudly_not_confirmed(tool, fake, unit, command):
-    result = tool(command, "--node", "0", "--motor", "0")
+@pytest.mark.parametrize("command", ["stop", "resume", "reset", "store", "send"])
+def test_a_broadcast_is_loudly_not_confirmed(tool, fake, unit, write, command):
+    file = [write("J9")] if command == "send" else []
+    result = tool(command, *file, "--node", "0", "--motor", "0")
 
     assert result.status == 0
     assert result.out.count("\n") == 1
-    assert result.out.startswith("all units, all motors: ")
-    assert "NOT CONFIRMED: no unit answers a broadcast" in result.out
-    answer = tool(command, "--node", "0", "--motor", "0", "--json").json
+    assert "all units, all motors" in result.out
+    assert result.out.endswith(f"; {acting.BROADCAST_NOTE}\n")
+    assert "empty" not in result.out
+    answer = tool(command, *file, "--node", "0", "--motor", "0", "--json").json
     assert (answer["confirmed"], answer["motors"]) == (False, [])
 
 

@@ -62,7 +62,11 @@ PROGRESS = "motor  steps  command\n    1    247        3\n"
         (["table", "--motor", "2"], NO_TABLE),
         (["progress", "--motor", "1"], PROGRESS),
         (["store", "--motor", "1"], "unit 3, motor 1: 4 commands stored\n"),
-        (["store", "--node", "0"], "all units, motor 1: told to store; none answers\n"),
+        (
+            ["store", "--node", "0"],
+            "all units, motor 1: told to store; NOT CONFIRMED: no unit answers a broadcast; look "
+            "at each motor, or ask each unit\n",
+        ),
     ],
 )
 def test_what_is_printed(call, arguments, text):
@@ -79,7 +83,8 @@ def test_what_is_printed(call, arguments, text):
         (["table", "--motor", "2"], {"node": 3, "motors": [{"motor": 2, "points": []}]}),
         (["progress", "--motor", "2"],
          {"node": 3, "motors": [{"motor": 2, "steps": 247, "command": 3}]}),
-        (["store", "--motor", "1"], {"node": 3, "motors": [{"motor": 1, "commands": 4}]}),
+        (["store", "--motor", "1"],
+             {"node": 3, "confirmed": True, "motors": [{"motor": 1, "commands": 4}]}),
     ],
 )  # fmt: skip
 def test_what_is_printed_as_json(call, arguments, answer):

@@ -8,6 +8,7 @@ from difflib import unified_diff
 from typing import Any
 
 from rkm04_tools import archive
+from rkm04_tools.acting import BROADCAST_NOTE
 from rkm04_tools.bar import Bar
 from rkm04_tools.client_acts import run_reset, run_resume, run_send, run_speed, run_stop
 from rkm04_tools.client_base import (
@@ -125,8 +126,9 @@ def run_store(options: Namespace) -> int:
                 )
     counts = [{"motor": each.number, "commands": len(c)} for each, c in before.items()]
     rows = [f"{name_of(each)}: {count_of(len(c), 'command')} stored" for each, c in before.items()]
-    text = "\n".join(rows) or f"{name_of(motor)}: told to store; none answers"
-    return tell(options, {"node": node, "motors": counts}, text)
+    text = "\n".join(rows) or f"{name_of(motor)}: told to store; {BROADCAST_NOTE}"
+    answer = {"node": node, "confirmed": bool(rows), "motors": counts}
+    return tell(options, answer, text)
 
 
 def run_scan(options: Namespace) -> int:

@@ -45,7 +45,7 @@ def run_resume(options: Namespace) -> int:
 
 def run_reset(options: Namespace) -> int:
     """Reset motors."""
-    return _act(options, acting.reset, "\\ was sent, the program memory is empty", enough=all)
+    return _act(options, acting.reset, "\\ was sent", enough=all)
 
 
 def run_speed(options: Namespace) -> int:
@@ -162,13 +162,16 @@ def _tell_sent(options: Namespace, motor: Motor, sent: Sent) -> int:
         )
     states = acting.states_since(motor.unit, motor.number)
     counts = f"{count_of(sent.commands, 'command')} in {count_of(sent.messages, 'message')}"
-    lines = [f"{options.file}: {counts} sent to {name_of(motor)}"]
+    is_answered = motor.unit.node != BROADCAST
+    note = "" if is_answered else f"; {acting.BROADCAST_NOTE}"
+    lines = [f"{options.file}: {counts} sent to {name_of(motor)}{note}"]
     for state in states or []:
         waits = ": what was sent waits for rkm04 resume" if state.stopped else ""
         lines.append(f"motor {state.motor}: {state.text}{waits}")
     answer = {
         "file": options.file,
         **who(motor),
+        "confirmed": is_answered,
         "commands": sent.commands,
         "messages": sent.messages,
         "overflow": sent.overflow,
