@@ -81,14 +81,18 @@ class FakeUnit:
     tables: dict[int, bytes] = field(default_factory=dict)
     last: tuple[int, bytes, bytes] = (0, b"", b"")
     in_session: bool = False
+    frames: int = 0
+    """What it has counted since its start."""
 
     def restart(self) -> None:
         """Forget the line, as a start does."""
         self.last = (0, b"", b"")
         self.in_session = False
+        self.frames = 0
 
     def take(self, number: int, message: bytes) -> bytes:
         """Answer a request, or a repeat of the last one; empty: refused."""
+        self.frames += 1
         self.in_session = self.in_session or (number != 0 and message[0] == 1)
         if number and not self.in_session:
             return b""
@@ -104,7 +108,8 @@ class FakeUnit:
             return self.answers[message]
         kind, motors = message[0], message[1:2]
         if kind == GET_STATUS and self.status != b"":
-            told = Vector("", motors=self.states, errors=self.errors, waits=self.waits)
+            told = Vector("", motors=self.states, errors=self.errors, waits=self.waits,
+                          line_counts=[self.frames] + [0] * 11)  # fmt: skip
             return self.status or told.whole
         if kind == 1:
             return bytes([1, len(VERSION)]) + VERSION

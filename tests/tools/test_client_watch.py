@@ -25,7 +25,7 @@ def test_watch_prints_a_line_each_time(call, unit):
     text = call("watch", "--motor", "1", "--interval", "0.05", "--count", "2")
 
     assert text.splitlines()[0] == (
-        "0.0 s  1: 5000 +0 steps/s, step 247 of 5000, command 3  BI none  BO none"
+        "0.0 s  1: 5000 - steps/s, step 247 of 5000, command 3  BI none  BO none"
     )
     assert text.count("\n") == 2
 
@@ -85,6 +85,90 @@ def test_watch_goes_on_when_a_unit_is_away_for_a_while(call, fake):
     lines = text.splitlines()
     assert "unit 3 does not answer" in lines[1]
     assert "1: 5000" in lines[2]
+    assert "RESTARTED" not in text
+
+
+RESTARTED = (
+    "unit 3 HAS RESTARTED (power-on): positions count anew, and stored programs may run by "
+    "themselves"
+)
+
+
+def restarts(unit: FakeUnit, monkeypatch, when, then=lambda: None) -> None:
+    """The unit restarts at the second question that is meant."""
+    asked: list[bytes] = []
+
+    def take(unit: FakeUnit, number: int, message: bytes) -> bytes:
+        asked.append(message)
+        if asked.count(when) == 2 and message == when:
+            unit.restart()
+            unit.positions[:] = [0] * 4
+            then()
+        return original(unit, number, message)
+
+    original = FakeUnit.take
+    monkeypatch.setattr(FakeUnit, "take", take)
+
+
+@pytest.mark.parametrize("when", [b"\xc8", b"\x072"])
+def test_watch_says_that_a_unit_has_restarted_and_takes_no_speed_across_it(call, unit, monkeypatch,
+                                                                           when):  # fmt: skip
+    """One that was away for less than a look, between two looks or in the midst of one."""
+    restarts(unit, monkeypatch, when)
+
+    lines = call("watch", "--interval", "0.05", "--count", "3").splitlines()
+
+    assert len(lines) == 4
+    assert lines[1].split("  ", 1)[1] == RESTARTED
+    assert "1: 0 - steps/s" in lines[2] or when != b"\xc8"
+    assert "- steps/s" in lines[2]
+    assert "1: 0 +0 steps/s" in lines[3] or when != b"\xc8"
+
+
+def test_so_it_does_of_one_that_was_silent_meanwhile(call, fake, unit, monkeypatch):
+    restarts(unit, monkeypatch, b"\xc8", lambda: fake.faults.extend([fake_unit.lost] * 4))
+
+    text = call("watch", "--json", "--interval", "0.05", "--count", "4")
+
+    looks = [json.loads(line) for line in text.splitlines()]
+    assert "does not answer" in looks[1]["error"]
+    assert [look.get("restarted") for look in looks] == [False, None, True, False]
+    assert [look["motors"][0]["speed"] for look in (looks[0], looks[2])] == [None, None]
+    assert looks[3]["motors"][0]["speed"] == 0
+
+
+def test_of_a_unit_that_tells_no_counts_a_restart_is_not_known(tool, fake, unit):
+    unit.status = b""
+    fake.faults += [bytes] * 6 + [fake_unit.lost] * 4
+
+    result = tool("watch", "--motor", "1", "--interval", "0.05", "--count", "3")
+
+    assert "unit 3 was away, and whether it has restarted is NOT KNOWN\n" in result.out
+    assert "1: 5000 - steps/s" in result.out.splitlines()[-1]
+
+
+def test_a_restart_stays_above_what_is_redrawn(call, unit, monkeypatch):
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    restarts(unit, monkeypatch, b"\xc8")
+
+    text = call("watch", "--motor", "2", "--interval", "0.05", "--count", "3")
+
+    _, second, third = text.split("\x1b[3A\r\x1b[J")
+    assert RESTARTED in second.splitlines()[0]
+    assert len(third.splitlines()) == 3
+
+
+def test_an_interval_that_cannot_be_kept_is_told_once(tool, fake):
+    fake.delay_seconds = 0.02
+
+    result = tool("watch", "--motor", "1", "--interval", "0.05", "--count", "4")
+
+    assert result.err.count("\n") == 1
+    assert re.fullmatch(
+        r"rkm04: a look takes 0\.\d+ s, more than --interval 0\.05: looks come every 0\.\d+ s, as "
+        r"long as they take so long\n",
+        result.err,
+    )
 
 
 def test_watch_is_redrawn_on_a_terminal(call, fake, monkeypatch, capsys):
@@ -93,8 +177,8 @@ def test_watch_is_redrawn_on_a_terminal(call, fake, monkeypatch, capsys):
     text = call("watch", "--motor", "2", "--interval", "0.05", "--count", "2")
 
     first, again = text.split("\x1b[3A\r\x1b[J")
-    assert first == again
-    assert first.splitlines()[1].split() == ["2", "-5", "0", "247", "-", "3"]
+    assert first.splitlines()[1].split() == ["2", "-5", "-", "247", "-", "3"]
+    assert again.splitlines()[1].split() == ["2", "-5", "0", "247", "-", "3"]
     assert first.splitlines()[2] == "BI none  BO none"
 
 

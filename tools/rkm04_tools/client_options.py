@@ -107,7 +107,7 @@ def _add_own(name: str, command: argparse.ArgumentParser) -> None:
     elif name == "watch":
         command.add_argument(
             "--interval", metavar="SECONDS", type=float, default=POLL_SECONDS_DEFAULT,
-            help="time from one look to the next (default: 1)",
+            help="time from one look to the next (default: 1); what the line cannot keep is told",
         )  # fmt: skip
         command.add_argument(
             "--count", metavar="N", type=int, help="end after N looks (default: at Ctrl-C)"

@@ -118,7 +118,7 @@ def run_watch(options: Namespace) -> int:
     """Look until Ctrl-C or as often as asked for; a unit that is away is waited for."""
     require_looks(options)
     with unit_of(options) as unit:
-        return watch(options, lambda: _look(unit))
+        return watch(options, lambda: _look(unit), "positioning")
 
 
 def _look(unit: Unit) -> Shown:
