@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import time
 from pathlib import Path
 from typing import Any
 
@@ -296,6 +297,32 @@ def test_a_machine_that_starts_together_changes_no_program_of_other_motors(tool,
     assert "motor 4 holds another program" in result.complaint
     assert tool("diff", full, "--motor", "4", *unit).status == 0
     assert not any(m["failed"] for m in tool("status", "--json", *unit).json["motors"])
+
+
+def until_at_rest(tool, *unit: str) -> None:
+    """What has run may be overwritten."""
+    end = time.monotonic() + 20
+    while any(each["running"] for each in tool("status", "--json", *unit).json["motors"]):
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+@pytest.mark.parametrize("together", [[], ["--together"]])
+def test_a_machine_that_overwrites_what_a_motor_had_is_told(tool, put, write, serve, together):
+    served = serve()
+    unit = ("--port", served.place)
+    tool("send", write("\\" + "T01 C01" * 350, "full.rks"), *unit)
+    until_at_rest(tool, *unit)
+    motors = [{"program": "F100 R"}, *[{"program": ""}] * 3]
+
+    result = tool("machine", "send", put(content(motors=motors)), *together, *unit)
+
+    assert result.status == 0
+    assert result.err.count("\n") == 1
+    assert "warning: the program memory was full (motor 1), the oldest commands were" in result.err
+    until_at_rest(tool, *unit)
+    again = tool("machine", "send", put(content(motors=motors)), *together, *unit, "--json")
+    assert (again.json["overflow"], again.json["full"]) == (True, [1])
 
 
 def test_of_a_machine_with_one_wrong_program_none_is_sent(tool, put, serve):

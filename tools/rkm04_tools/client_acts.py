@@ -12,6 +12,7 @@ from rkm04_tools.acting import Told
 from rkm04_tools.bar import Bar
 from rkm04_tools.check import Checked
 from rkm04_tools.client_base import (
+    OVERWRITTEN,
     checked_file,
     count_of,
     name_of,
@@ -25,7 +26,14 @@ from rkm04_tools.failure import DONE, INTERRUPTED, NOT_SO, Failure
 from rkm04_tools.frame import BROADCAST
 from rkm04_tools.host import opcode_rows
 from rkm04_tools.line import Motor, Unit, open_line
-from rkm04_tools.sending import COMMANDS_MAX, Hold, Plan, Sent, plan_program, send_program
+from rkm04_tools.sending import (
+    COMMANDS_MAX,
+    Hold,
+    Plan,
+    Sent,
+    plan_program,
+    send_program,
+)
 from rkm04_tools.speeding import send_speed
 from rkm04_tools.streaming import PART_COMMANDS_MAX, stream_program
 
@@ -157,8 +165,7 @@ def _tell_sent(options: Namespace, motor: Motor, sent: Sent) -> int:
     if sent.overflow:
         _warn(
             options,
-            "warning: the program memory was full, the oldest commands were overwritten; "
-            "jumps and loops do not find them any more; begin a program with \\ to empty it",
+            f"warning: the program memory was full, {OVERWRITTEN}",
         )
     states = acting.states_since(motor.unit, motor.number)
     counts = f"{count_of(sent.commands, 'command')} in {count_of(sent.messages, 'message')}"

@@ -15,6 +15,11 @@ from rkm04_tools.line import Motor
 from rkm04_tools.messages import ALL_MOTORS
 from rkm04_tools.source import read_source
 
+OVERWRITTEN = (
+    "the oldest commands were overwritten; jumps and loops do not find them any more; begin a "
+    "program with \\ to empty it"
+)
+"""What has become of a memory that was full."""
 PORT_VARIABLE, NODE_VARIABLE = "RKM04_PORT", "RKM04_NODE"
 
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from rkm04_tools.acting import KEPT, MAY_MOVE
 from rkm04_tools.bar import Bar
-from rkm04_tools.client_base import count_of, port_of, reading_node_of, tell
+from rkm04_tools.client_base import OVERWRITTEN, count_of, port_of, reading_node_of, tell
 from rkm04_tools.doubt import Doubt, in_doubt
 from rkm04_tools.failure import DONE, NOT_SO, Failure, writing_failed
 from rkm04_tools.line import Motor as UnitMotor
@@ -163,6 +163,9 @@ def run_send(options: Namespace) -> int:
         unit.begin()
         doubt.done = KEPT
         answer = send_all(unit, texts, options.together, show)
+    if full := ", ".join(map(str, answer.values["full"])):
+        warning = f"warning: the program memory was full (motor {full}), {OVERWRITTEN}"
+        print(f"rkm04: {machine.file}: {warning}", file=sys.stderr)
     others = ", ".join(str(number) for number in MOTORS if number not in programs)
     left = "left as they are, without a program in the file"
     if options.together and len(programs) > 1:

@@ -47,25 +47,29 @@ def send_all(unit: Unit, texts: Mapping[int, str], together: bool, tell: Tell) -
         if len(plans) > 1:
             _require_others_empty(unit, [motor for motor in MOTORS if motor not in plans])
     total = sum(len(plan.texts) for plan in plans.values())
-    done, overflow = 0, False
+    done = 0
+    full: list[int] = []
     for number, plan in plans.items():
 
         def tell_part(part: int, _: int, before: int = done) -> None:
             tell(before + part, total)
 
         try:
-            overflow = _send(unit.motor(number), plan, together, tell_part) or overflow
+            if _send(unit.motor(number), plan, together, tell_part):
+                full.append(number)
         except Failure as failure:
             raise _told(failure, number, list(plans), together) from None
         done += len(plan.texts)
     tell(done, total)
-    if together:
-        _start(unit, list(plans))
+    if together and _start(unit, list(plans)) and not full:
+        full = list(plans)
     counts = {str(motor): len(plan.commands) for motor, plan in plans.items()}
     words = ", ".join(f"motor {motor}: commands {count}" for motor, count in counts.items())
     words += "; started together" if together else "; each runs since it arrived"
     notes = [f"motor {motor}: {note}" for motor, plan in plans.items() for note in plan.notes]
-    values = {"sent": counts, "together": together, "overflow": overflow, "notes": notes}
+    values = {
+        "sent": counts, "together": together, "overflow": bool(full), "full": full, "notes": notes
+    }  # fmt: skip
     return Answer("; ".join([words, *notes]), values)
 
 
@@ -143,8 +147,11 @@ def _told(failure: Failure, motor: int, motors: Sequence[int], together: bool) -
     return failure
 
 
-def _start(unit: Unit, motors: Sequence[int]) -> None:
-    """Let all motors start, when none of them slows down any more because of `\\`."""
+def _start(unit: Unit, motors: Sequence[int]) -> bool:
+    """Let all motors start, when none of them slows down any more because of `\\`.
+
+    True: the memory of one of them has overflowed.
+    """
     end = time.monotonic() + STAND_SECONDS
     for number in motors:
         while unit.motor(number).table():
@@ -155,4 +162,4 @@ def _start(unit: Unit, motors: Sequence[int]) -> None:
                     NOT_SO,
                 )
             time.sleep(POLL_SECONDS)
-    unit.motor(ALL_MOTORS if len(motors) > 1 else motors[0]).command(RELEASE)
+    return unit.motor(ALL_MOTORS if len(motors) > 1 else motors[0]).command(RELEASE)
