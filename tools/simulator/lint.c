@@ -79,10 +79,28 @@ static void find_loops(const struct flow *flow, struct problems *problems)
     free(opened);
 }
 
-static bool needs_speed(unsigned opcode)
+struct sections {
+    bool are_run; /* by the next R: it runs a compound move */
+    bool are_new; /* none has run them yet */
+};
+
+static void follow_sections(struct sections *sections, unsigned opcode)
 {
-    return opcode == PROGRAM_MOVE || opcode == PROGRAM_APPEND_SECTION || opcode == PROGRAM_GO_TO ||
-           opcode == PROGRAM_GO_HOME || opcode == PROGRAM_RUN_FORWARD || opcode == PROGRAM_RUN_BACKWARD;
+    if (opcode == PROGRAM_APPEND_SECTION) {
+        sections->are_run = true;
+        sections->are_new = true;
+    } else if (opcode == PROGRAM_MOVE) {
+        sections->are_new = false;
+    } else if (opcode == PROGRAM_STEPS_FORWARD || opcode == PROGRAM_STEPS_BACKWARD) {
+        sections->are_run = sections->are_new;
+    }
+}
+
+/* Of a single move: of a compound move, V says nothing but how fast its sections are at the most. */
+static bool needs_speed(unsigned opcode, const struct sections *sections)
+{
+    return (opcode == PROGRAM_MOVE && !sections->are_run) || opcode == PROGRAM_GO_TO || opcode == PROGRAM_GO_HOME ||
+           opcode == PROGRAM_RUN_FORWARD || opcode == PROGRAM_RUN_BACKWARD;
 }
 
 static void add_speed(struct problems *problems, const struct listing_command *slow,
@@ -101,18 +119,20 @@ static bool is_below(const struct listing_command *slow, const struct listing_co
     return slow != NULL && start != NULL && slow->instruction.value < start->instruction.value;
 }
 
-/* A maximum speed below the start/stop speed when a move, or the end, comes. */
+/* A maximum speed below the start/stop speed when a single move, or the end, comes. */
 static void find_speeds(const struct flow *flow, struct problems *problems)
 {
     const struct listing_command *slow = NULL;
     const struct listing_command *start = NULL;
+    struct sections sections = {.are_run = false};
     bool is_told = false;
     for (uint32_t i = 0; i <= flow->count; i++) {
         unsigned opcode = i < flow->count ? flow_opcode(flow, i) : PROGRAM_MOVE;
+        follow_sections(&sections, opcode);
         if (opcode == PROGRAM_SPEED || opcode == PROGRAM_START_SPEED) {
             *(opcode == PROGRAM_SPEED ? &slow : &start) = &flow->commands[i];
             is_told = false;
-        } else if (needs_speed(opcode) && !is_told && is_below(slow, start)) {
+        } else if (needs_speed(opcode, &sections) && !is_told && is_below(slow, start)) {
             add_speed(problems, slow, start);
             is_told = true;
         }
