@@ -148,6 +148,17 @@ def test_two_channels_of_a_session_or_a_table_with_one_name_are_refused(tool, tm
         assert "two of its channels are named STEP1; rename one" in result.complaint
 
 
+def test_so_it_is_where_no_other_wire_has_a_pulse(compared):
+    """The simulator's own waves have all four motors, of which the others may stand."""
+    stood = [(0.5, "STEP2", 0), (0.5, "DIR2", 0)]
+    wide = [("STEP1", "x $end\n$var wire 4 ~ STEP1"), ("DIR1", "DIR9")]
+
+    result = compared(renamed=wide, found=[*FIRST, *stood])
+
+    assert result.status == 2
+    assert "has no pulse in STEP2; STEP1: more than one bit, and so not used; check" in result.err
+
+
 @pytest.mark.parametrize("kind", ["wire 8", "reg 2"])
 def test_a_variable_of_more_bits_is_no_wire_and_is_told(compared, kind):
     wide = [("STEP3", f"x $end\n$var {kind} ~ STEP3 [7:0]")]

@@ -115,12 +115,13 @@ def _read_capture(path: Path, file: IO[bytes], channels: str | None, given_hz: f
         )
         for motor, each in wirings.items()
     }
+    wide = [] if channels is not None else too_wide(reader.names, _roles(wirings))
     if not any(len(each.step.rises) for each in wires.values()):
+        told = f"{', '.join(wide)}: more than one bit, and so not used; " if wide else ""
         raise Failure(
             f"{path}: has no pulse in {', '.join(each.step.name for each in wirings.values())}; "
-            "check the probes, their ground and the trigger"
+            f"{told}check the probes, their ground and the trigger"
         )
-    wide = [] if channels is not None else too_wide(reader.names, _roles(wirings))
     return _Captured(path, reader.kind, recording, wires, mapping_of(wirings), wide)
 
 
