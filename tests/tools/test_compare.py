@@ -159,6 +159,22 @@ def test_pulses_beyond_the_capture_are_told_apart(compared):
     assert "motor 1: missing" in whole.out
 
 
+def test_a_part_that_fits_at_two_places_is_not_known_to_be_the_same(compared):
+    train = pulses([Move(60, 500, 500, 2000, 0.01)] * 6)
+    found = edges(1, train, ANALYSER, Distortion())
+    rises = [seconds for seconds, name, level in found if name == "STEP1" and level]
+    begin, end = rises[120] - 1e-4, rises[239] + 1e-4
+    part = [edge for edge in found if begin < edge[0] < end]
+
+    result = compared(part, "--part", motors={1: train}, end=end - 0.01)
+    told = compared(part, "--part", "--json", motors={1: train}, end=end - 0.01).json
+
+    assert result.status == 1
+    assert "the capture fits as well at another place of the simulation" in result.out
+    assert result.out.splitlines()[-1].startswith("not known to be the same: every pulse is within")
+    assert (told["same"], told["fits_elsewhere"]) == (False, True)
+
+
 def test_without_a_rate_only_an_offset_is_fitted(compared):
     same = Analyser(0.02, 0)
     apart = compared(edges(1, TRAIN, ANALYSER, Distortion()), "--no-rate", "--json")

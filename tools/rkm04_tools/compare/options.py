@@ -19,7 +19,8 @@ a sample can be told.
 Channels are found by their names (STEP1, DIR_2, m3_step, X STEP); --channels says it otherwise. A !
 before a name is for a wire that an inverter follows. DIR is high for backward.
 
-The same (status 0) is: every pulse there and no other, each within the limit, DIR right at each.
+The same (status 0) is: every pulse there and no other, each within the limit, DIR right at each,
+and with --part at one place of the simulation only: what repeats may be of another one.
 STEP and DIR of each motor that moves in STEPS must have been captured. With --channels, what it
 does not name is left out on purpose; the result tells that, and of which motors it speaks.
 tools/rkm04_tools/compare/README.md tells how to capture and what the figures mean.\

@@ -76,10 +76,20 @@ class Result:
 
     @property
     def is_same(self) -> bool:
-        """Whether the capture is what was simulated."""
+        """Whether the capture is what was simulated, and nothing else that was."""
+        return self.differs_nowhere and not self.fits_elsewhere
+
+    @property
+    def differs_nowhere(self) -> bool:
+        """Whether it is, if it was captured where it was aligned."""
         return (
             self.is_steady and not self.scope.absent and all(motor.is_same for motor in self.motors)
         )
+
+    @property
+    def fits_elsewhere(self) -> bool:
+        """Whether another place of the simulation fits as well."""
+        return self.alignment is not None and self.alignment.elsewhere
 
     @property
     def told_jump(self) -> Jump | None:
@@ -226,7 +236,7 @@ def _details(result: Result, motor: Motor) -> Iterator[str]:
 
 def _notes(result: Result) -> Iterator[str]:
     yield from _not_captured(result.scope)
-    if result.alignment and result.alignment.elsewhere:
+    if result.fits_elsewhere:
         yield (
             "the capture fits as well at another place of the simulation, as where moves repeat: "
             "record from the first pulse on to be sure"
@@ -300,6 +310,11 @@ def _verdict(result: Result) -> str:
         return (
             f"the same: {pulses} is within {limit}{left_out}; what is below {finest} cannot be seen"
         )
+    if result.differs_nowhere:
+        return (
+            f"not known to be the same: {pulses} is within {limit}{left_out} here, and as well at "
+            "another place"
+        )
     return f"not the same: see above; a pulse may be off by {limit}{left_out}"
 
 
@@ -369,7 +384,7 @@ def as_json(result: Result) -> dict[str, Any]:
         "rate_change_ppm_per_second": result.bend * 1e6,
         "shift": None if result.shift is None else asdict(result.shift),
         "jump": None if result.told_jump is None else asdict(result.told_jump),
-        "fits_elsewhere": bool(alignment and alignment.elsewhere),
+        "fits_elsewhere": result.fits_elsewhere,
         "not_captured": list(result.scope.not_captured),
         "dir_not_captured": list(result.scope.unseen_dir),
         "left_out_on_purpose": bool(result.scope.left_out),
