@@ -121,13 +121,6 @@ def test_the_unit_hears_while_h_waits(host: Host) -> None:
     assert host.ask("!0J") in ("0", "8")
 
 
-def test_two_hosts_hear_every_answer(serve: Serve, meet: Meet) -> None:
-    served = serve()
-    one, other = meet(served), meet(served)
-    assert one.ask("!0ER05") == "0,FF"
-    assert other.answer() == "0,FF"
-
-
 @pytest.mark.parametrize("options", [["--unpaced"], ["--speed", "0"], ["--baud", "921600"]])
 def test_a_packet_is_taken_at_any_pace(serve: Serve, meet: Meet, options: list[str]) -> None:
     host = meet(serve(*options))
@@ -327,3 +320,128 @@ def test_what_is_for_another_address_has_no_answer(host: Host) -> None:
     host.send("!3?")
     assert host.answer(SILENCE_SECONDS) is None
     assert host.ask("!0@") == "0,0"
+
+
+# ---- several clients ----
+
+
+def sized(commands: int) -> list[str]:
+    """A packet of so many vectors, as lines."""
+    return ["!0*S", *["!0C100,100,100,100"] * commands, f"!0*E{commands}"]
+
+
+def test_each_client_hears_the_answers_to_what_it_has_sent(serve: Serve, meet: Meet) -> None:
+    served = serve()
+    one, other = meet(served), meet(served)
+
+    for turn in range(20):
+        one.send("!0SR4")
+        other.send("!0SR6")
+        one.send(f"!0ER{turn:02X}")
+        assert one.answer() == "0,00"
+        assert other.answer() == "0,00"
+        assert one.answer() == ("0,00" if turn == 1 else "0,FF")
+
+    assert one.answer(SILENCE_SECONDS) is None
+    assert other.answer(SILENCE_SECONDS) is None
+
+
+def test_the_answer_to_w_is_not_that_to_the_h_of_another_client(serve: Serve, meet: Meet) -> None:
+    served = serve()
+    homing, halting = meet(served), meet(served)
+    homing.ask("!0A1")
+    homing.send("!0WX1000000,2000,10,10")
+    time.sleep(SILENCE_SECONDS)
+    homing.send("!0@")
+    halting.send("!0H")
+
+    assert halting.answer() == "8"
+    assert halting.answer(SILENCE_SECONDS) is None
+    assert homing.answer() == "8"
+    assert homing.answer() == "8,2"
+
+
+def test_a_reset_answers_only_who_has_asked_for_it(serve: Serve, meet: Meet) -> None:
+    served = serve()
+    homing, resetting = meet(served), meet(served)
+    homing.send("!0WX1000000,200,10,10")
+    homing.send("!0PF")
+    time.sleep(SILENCE_SECONDS)
+
+    assert resetting.ask("!0J") == "0"
+    assert homing.answer(SILENCE_SECONDS) is None
+    assert homing.ask("!0PF") == "0,0,0,0"
+
+
+def test_a_halt_does_not_come_to_stand_within_a_packet(serve: Serve, meet: Meet) -> None:
+    served = serve()
+    sending, halting = meet(served), meet(served)
+    begin, *vectors, end = sized(100)
+    os.write(sending._fd, "\r".join([begin, *vectors[:50], vectors[50][:7]]).encode())
+    time.sleep(SILENCE_SECONDS)
+
+    assert halting.ask("!0H") == "8"
+    sending.send("\r".join([vectors[50][7:], *vectors[51:], end]))
+    assert sending.answer() == "8,100"
+    assert sending.answer(SILENCE_SECONDS) is None
+
+
+def test_what_is_not_whole_does_not_hold_up_another_client(serve: Serve, meet: Meet) -> None:
+    served = serve()
+    half, halting = meet(served), meet(served)
+    os.write(half._fd, b"!0SR")
+    time.sleep(SILENCE_SECONDS)
+
+    assert halting.ask("!0H") == "8"
+    assert half.ask("6") == "8,90"
+
+
+def test_a_packet_whose_end_was_lost_is_over_after_a_second(serve: Serve, meet: Meet) -> None:
+    host = meet(serve())
+    host.send("\r".join(sized(3)[:-1]))
+    time.sleep(1.1)
+
+    assert host.ask("!0PF") == "0,0,0,0"
+
+
+def test_the_last_answer_of_another_client_is_not_told_again(serve: Serve, meet: Meet) -> None:
+    served = serve()
+    one, other = meet(served), meet(served)
+    assert one.ask("!0SR4") == "0,00"
+    assert one.ask("!0>") == "0,00"
+    assert other.ask("!0H") == "8"
+
+    one.send("!0>")
+
+    assert one.answer(SILENCE_SECONDS) is None
+    assert one.ask("!0SR4") == "8,00"
+    assert one.ask("!0>") == "8,00"
+
+
+def test_answers_find_their_client_again_after_damage(serve: Serve, meet: Meet) -> None:
+    served = serve()
+    one, other = meet(served), meet(served)
+    assert one.ask("!0%+") == "0,5C"
+    one.send("!0H")  # without a checksum: all is thrown away for a while
+    other.send("!0?,BC")
+    assert one.answer() == "2,5E"
+    assert other.answer(SILENCE_SECONDS) is None
+
+    assert one.ask("!0PF,13") == "0,0,0,0,70"
+    assert other.ask("!0?,BC") == "0,IP134/200 v1 22.11.2026,4D"
+
+
+def test_a_new_client_does_not_hear_what_one_before_it_has_asked(serve: Serve, meet: Meet) -> None:
+    served = serve()
+    gone = meet(served)
+    gone.ask("!0A1")
+    gone.ask("!0L1000000")
+    time.sleep(SILENCE_SECONDS)
+    gone.send("!0H")
+    gone.close()
+    new = Host(served.place)
+    try:
+        assert new.ask("!0SR1") == "8,00"
+        assert new.answer(SILENCE_SECONDS) is None
+    finally:
+        new.close()

@@ -28,6 +28,8 @@ enum {
     CHUNK_BYTES = 1024,
 };
 
+static_assert((unsigned)SERVE_ROOM_MIN >= (unsigned)SERVE_REQUEST_BYTES_MAX + (unsigned)CHUNK_BYTES,
+              "what is held of a request and all that is read at a time fit");
 static_assert((unsigned)SLOTS <= (unsigned)SOCKET_SLOTS_MAX, "all are waited for at once");
 
 /* While motors run the units are looked at this often, not at every pulse. */
@@ -44,6 +46,7 @@ struct serve {
     const struct serve_options *options;
     struct serve_units units;
     struct serve_line line;
+    struct serve_turns turns;
     struct serve_port line_port;
     struct serve_port control_port;
     struct serve_talk talk;
@@ -152,13 +155,32 @@ static void pass_on(struct serve *serve)
     serve_line_flush(&serve->line);
 }
 
+static void put_in_turn(struct serve *serve, unsigned client, const uint8_t *bytes, size_t count)
+{
+    uint64_t now_ns = units_real_ns();
+    if (!serve_units_owe(&serve->units)) {
+        serve_turns_forget(&serve->turns);
+    }
+    for (size_t i = 0; i < count; i++) {
+        uint32_t length = serve_turns_take(&serve->turns, client, bytes[i], now_ns);
+        serve_line_put(&serve->line, serve->units.now, serve->turns.held[client].bytes, length);
+    }
+}
+
+static bool has_room(struct serve *serve)
+{
+    return serve_line_room(&serve->line, serve->units.now) >= (uint32_t)SERVE_ROOM_MIN;
+}
+
 static void hear_line(struct serve *serve, unsigned client)
 {
     uint8_t bytes[CHUNK_BYTES];
-    uint32_t room = serve_line_room(&serve->line, serve->units.now);
-    room = room < sizeof bytes ? room : sizeof bytes;
-    size_t count = room > 0 ? serve_port_read(&serve->line_port, client, bytes, room) : 0;
-    serve_line_put(&serve->line, serve->units.now, bytes, (uint32_t)count);
+    size_t count = has_room(serve) ? serve_port_read(&serve->line_port, client, bytes, sizeof bytes) : 0;
+    if (serve->line.turns != NULL) {
+        put_in_turn(serve, client, bytes, count);
+    } else {
+        serve_line_put(&serve->line, serve->units.now, bytes, (uint32_t)count);
+    }
     serve_units_hear(&serve->units, &serve->line);
     serve->touched = serve->touched || count > 0;
 }
@@ -201,7 +223,10 @@ static void hear_all(struct serve *serve)
         }
     }
     if (line->ready) {
-        (void)serve_port_accept(&serve->line_port);
+        int client = serve_port_accept(&serve->line_port);
+        if (client >= 0 && serve->line.turns != NULL) {
+            serve_turns_begin(&serve->turns, (unsigned)client);
+        }
     }
     if (control->ready) {
         int client = serve_port_accept(&serve->control_port);
@@ -243,7 +268,7 @@ static bool wait_for_something(struct serve *serve)
 {
     uint64_t rest_ns = 0;
     bool limited = find_rest(serve, &rest_ns);
-    fill_slots(&serve->slots[SLOT_LINE], &serve->line_port, serve_line_room(&serve->line, serve->units.now) > 0);
+    fill_slots(&serve->slots[SLOT_LINE], &serve->line_port, has_room(serve));
     fill_slots(&serve->slots[SLOT_CONTROL], &serve->control_port, true);
     serve_units_hear(&serve->units, &serve->line);
     socket_wait(serve->slots, SLOTS, limited ? &rest_ns : NULL);
@@ -270,7 +295,10 @@ static enum exit_status begin(struct serve *serve)
     if (!socket_start()) {
         return EXIT_REFUSED;
     }
-    serve_line_init(&serve->line, &serve->line_port, serve->kind->byte_ticks, serve->options);
+    bool in_turn = serve->kind->asks != NULL && serve->options->pty == NULL;
+    serve_turns_init(&serve->turns, serve->kind);
+    serve_line_init(&serve->line, &serve->line_port, in_turn ? &serve->turns : NULL, serve->kind->byte_ticks,
+                    serve->options);
     serve_talk_init(&serve->talk, &serve->units, &serve->line, &serve->control_port);
     serve->slots[SLOT_SIGNAL] = (struct socket_slot){.fd = serve_signal_catch()};
     serve->slots[SLOT_USER] = (struct socket_slot){.fd = socket_user()};

@@ -8,7 +8,7 @@ enum {
     UNPACED_TICKS = 1
 };
 
-void serve_line_init(struct serve_line *line, struct serve_port *port, uint32_t byte_ticks,
+void serve_line_init(struct serve_line *line, struct serve_port *port, struct serve_turns *turns, uint32_t byte_ticks,
                      const struct serve_options *options)
 {
     uint32_t noise = (uint32_t)options->noise;
@@ -17,7 +17,9 @@ void serve_line_init(struct serve_line *line, struct serve_port *port, uint32_t 
     line->byte_ticks = options->unpaced ? UNPACED_TICKS : byte_ticks;
     line->last_tick = 0;
     line->said_count = 0;
+    line->said_to = -1;
     line->port = port;
+    line->turns = turns;
     serve_noise_init(&line->to_units, noise, loss, options->seed);
     serve_noise_init(&line->to_clients, noise, loss, ~options->seed);
 }
@@ -46,10 +48,13 @@ void serve_line_put(struct serve_line *line, uint64_t now, const uint8_t *bytes,
     }
 }
 
-void serve_line_say(void *context, uint64_t tick, uint8_t value)
+void serve_line_say(struct serve_line *line, uint8_t value, bool resets)
 {
-    struct serve_line *line = context;
-    (void)tick;
+    int to = line->turns != NULL ? serve_turns_hear(line->turns, value, resets) : line->said_to;
+    if (to != line->said_to) {
+        serve_line_flush(line);
+        line->said_to = to;
+    }
     if (!serve_noise_pass(&line->to_clients, &value)) {
         return;
     }
@@ -61,8 +66,12 @@ void serve_line_say(void *context, uint64_t tick, uint8_t value)
 
 void serve_line_flush(struct serve_line *line)
 {
-    if (line->said_count > 0) {
+    if (line->said_count > 0 && line->turns == NULL) {
         serve_port_write_all(line->port, line->said, line->said_count);
+    } else if (line->said_count > 0 && line->said_to >= 0) {
+        serve_port_write(line->port, (unsigned)line->said_to, line->said, line->said_count);
+    } else {
+        /* there is nothing, or nobody whom it concerns */
     }
     line->said_count = 0;
 }

@@ -1,6 +1,7 @@
 /*
  * The line between clients and units: what clients send goes to every unit at the same tick, what units send to every
- * client. Units do not hear each other. A bad line loses and changes bytes on both ways; all who listen miss the same.
+ * client, or to the one that has asked (serve_turns.h). Units do not hear each other. A bad line loses and changes
+ * bytes on both ways; all who listen miss the same.
  */
 #ifndef SERVE_LINE_H
 #define SERVE_LINE_H
@@ -12,9 +13,11 @@
 #include "serve_noise.h"
 #include "serve_options.h"
 #include "serve_port.h"
+#include "serve_turns.h"
 
 enum {
-    SERVE_HEARD_MAX = 4096, /* bytes from clients that are not yet at the units; more wait where they come from */
+    SERVE_HEARD_MAX = 16384,                 /* bytes from clients that are not yet at the units */
+    SERVE_ROOM_MIN = SERVE_HEARD_MAX - 4096, /* with less room more wait where they come from */
     SERVE_SAID_MAX = 16384,
 };
 
@@ -25,13 +28,15 @@ struct serve_line {
     uint64_t last_tick;           /* of the last byte that was put on the line */
     uint8_t said[SERVE_SAID_MAX]; /* by units, not yet given to clients */
     uint32_t said_count;
+    int said_to;               /* the client that is to have it; -1: none */
+    struct serve_turns *turns; /* null: all clients have all */
     struct serve_port *port;
     struct serve_noise to_units;
     struct serve_noise to_clients;
 };
 
 /* `byte_ticks`: what a byte takes, unless the options say that it takes next to nothing; 0: not known yet. */
-void serve_line_init(struct serve_line *line, struct serve_port *port, uint32_t byte_ticks,
+void serve_line_init(struct serve_line *line, struct serve_port *port, struct serve_turns *turns, uint32_t byte_ticks,
                      const struct serve_options *options);
 
 /* Forgets the bytes that all units have heard: those before `now`. Returns the room for more. */
@@ -41,8 +46,8 @@ uint32_t serve_line_room(struct serve_line *line, uint64_t now);
  * given `heard` as their script. */
 void serve_line_put(struct serve_line *line, uint64_t now, const uint8_t *bytes, uint32_t count);
 
-/* Takes a byte of a unit; the listener's function, with the line as its context. */
-void serve_line_say(void *context, uint64_t tick, uint8_t value);
+/* Takes a byte of a unit, which `resets` or does not. */
+void serve_line_say(struct serve_line *line, uint8_t value, bool resets);
 
 /* Gives clients what units have said. */
 void serve_line_flush(struct serve_line *line);

@@ -51,7 +51,8 @@ static void hear_step(void *context, uint64_t tick, unsigned motor, bool backwar
 static void hear_line(void *context, uint64_t tick, uint8_t value)
 {
     struct serve_unit *unit = context;
-    serve_line_say(unit->line, tick, value);
+    (void)tick;
+    serve_line_say(unit->line, value, unit->kind->asks != NULL && unit->kind->answers_reset(unit->unit));
 }
 
 void serve_unit_attach(struct serve_unit *unit, struct serve_line *line)

@@ -97,6 +97,17 @@ bool serve_units_have_work(const struct serve_units *units)
     return false;
 }
 
+bool serve_units_owe(const struct serve_units *units)
+{
+    for (unsigned i = 0; i < units->count; i++) {
+        const struct serve_unit *unit = units->list[i];
+        if (unit->machine.line.next_tick != TICK_NEVER || unit->kind->owes(unit->unit)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void serve_units_hear(struct serve_units *units, const struct serve_line *line)
 {
     for (unsigned i = 0; i < units->count; i++) {

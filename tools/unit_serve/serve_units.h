@@ -33,6 +33,9 @@ uint64_t serve_units_next_tick(const struct serve_units *units);
 
 bool serve_units_have_work(const struct serve_units *units);
 
+/* Whether something is on the line, or is still to be answered; of a kind that tells it. */
+bool serve_units_owe(const struct serve_units *units);
+
 /* Tells them that the line has heard more. */
 void serve_units_hear(struct serve_units *units, const struct serve_line *line);
 

@@ -15,6 +15,8 @@ gve134 serve --flash unit.flash
 
 Others then connect, from a second terminal:
   gve134 status --port socket://127.0.0.1:5000
+By TCP several can; each hears the answers to what it has sent. A request goes to the unit when it
+is whole, and is forgotten where it is not, a second after its last byte.
 
 Lines on standard input, and on the control port, act while it runs:
   3=0      input 3 (RefZ) is closed to ground; 3=1: it is open, as all are at the start
