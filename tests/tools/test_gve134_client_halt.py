@@ -1,4 +1,5 @@
-"""What is answered when the axes stand, and the halt that always gets through; virtual time."""
+"""What is answered when the axes stand, a line that is dead for long, and the halt that always gets
+through; virtual time."""
 
 from __future__ import annotations
 
@@ -10,6 +11,7 @@ from gve134_ports import Ends, VirtualPort, answer_of
 from rkm04_tools.gve134.answers import Answer, encoded
 from rkm04_tools.gve134.link import Link
 from rkm04_tools.gve134.link_errors import (
+    NoAnswer,
     NotConfirmed,
     Restarted,
 )
@@ -87,6 +89,41 @@ def test_a_reference_run_without_an_end_is_not_known_about(link: Link, unit: Fak
 
     with pytest.raises(NotConfirmed, match="NOT KNOWN whether the axes move"):
         link.ask_long("WX-100,50,10,50", 60)
+
+
+# ---- a dead line ----
+
+
+def dead_for(seconds: float, unit: FakeGve, port: Ends) -> None:
+    """The next answer is lost, and so long all that is sent after it."""
+    end = port.now + seconds
+    unit.faults.append(lost)
+    port.requests.append(lambda data: data)
+    port.requests.extend([lambda data: b"" if port.now < end else data] * 100)
+
+
+@pytest.mark.parametrize("seconds", [2.5, 3.5, 5.0])
+@pytest.mark.parametrize("commands", [["C1,0,0,0"], ["C1,0,0,0", "C2,0,0,0"]])
+def test_what_was_executed_before_a_line_was_dead_for_long_is_not_gone_on_with(
+    link: Link, unit: FakeGve, port: Ends, seconds: float, commands: list[str]
+) -> None:
+    ask = link.send_packet if commands[1:] else lambda one: link.ask(one[0])
+    dead_for(seconds, unit, port)
+
+    with pytest.raises(NoAnswer):
+        ask(commands)
+
+    assert len(unit.taken) == len(commands)
+    assert link.ask("P4").code == 0
+
+
+def test_a_line_that_was_dead_for_a_moment_is_gone_on_with(
+    link: Link, unit: FakeGve, port: Ends
+) -> None:
+    dead_for(0.9, unit, port)
+
+    assert link.ask("C1,0,0,0").code == 0
+    assert unit.taken == [(1, 0, 0, 0)]
 
 
 # ---- halting ----

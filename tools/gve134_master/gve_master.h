@@ -27,7 +27,8 @@
  * second. H has a way of its own: it is repeated, which does no harm, with and without a checksum.
  *
  * To a unit that was silent for 2 s no command is sent again: a cable that is put in again moves nothing. Such a
- * request ends as one without an answer, and its command was not executed.
+ * request ends as one without an answer, even where it turns out that its command was executed: whoever has asked would
+ * go on. W and J are silent for longer, and end as they did.
  *
  * It does not wait: its owner hands in what has come, looks in time, then writes what stands in `wire.out`. All that
  * has come is to be handed in before each look, as what has come before a command goes out is no answer to it. Time is
@@ -99,7 +100,7 @@ struct gve_master {
     bool ready;
     bool restarted; /* the unit was found to have started anew when it was connected to again */
     bool long_halt; /* the answer to H takes longer than a stop does as a rule */
-    bool late;      /* the unit was silent for so long that nobody expects the command to be executed any more */
+    bool late;      /* the unit was silent for so long that nobody expects anything of the command any more */
     bool bare;      /* the request was refused in a way in which only a unit does that has restarted */
     bool has_last;
     bool is_reset;                              /* J has gone out */

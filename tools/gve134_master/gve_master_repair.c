@@ -60,6 +60,17 @@ static void judge_part(struct gve_master *master, uint64_t now_ns)
     }
 }
 
+/* Its answer is known. Where the line was dead for long, that is news of then: whoever asked is not to go on by it. */
+static void finish_last(struct gve_master *master)
+{
+    bool is_long = master->order.kind == GVE_MASTER_LONG || master->order.kind == GVE_MASTER_RESET;
+    if (master->late && !is_long) {
+        gve_master_finish_unanswered(master, &master->wire.heard);
+    } else {
+        gve_master_finish_answered(master, &master->last);
+    }
+}
+
 /* It was counted, and `last` is its answer. */
 static void judge_last(struct gve_master *master, uint64_t now_ns)
 {
@@ -69,7 +80,7 @@ static void judge_last(struct gve_master *master, uint64_t now_ns)
     if (is_part) {
         judge_part(master, now_ns);
     } else if (master->last.code != GVE_DAMAGED) {
-        gve_master_finish_answered(master, &master->last);
+        finish_last(master);
     } else if (is_packet && master->last.length > 0) {
         gve_master_try_again(master, now_ns); /* it was not taken after all */
     } else {
