@@ -229,6 +229,21 @@ def test_a_halt_comes_through_beside_a_job_and_ends_it(
     assert gve("delete").status == 0
 
 
+def test_a_jog_that_another_one_halts_leaves_nothing_in_the_queue(
+    gve: Tool, start_gve: Start, served: ServedGve
+) -> None:
+    process = start_gve("jog", "X100000", "--speed", "200")
+    served.until(lambda state: state["positions"][0] > 10)
+
+    halt = gve("halt")
+    _, told = process.communicate(timeout=PATIENCE_S)
+
+    assert (halt.status, process.returncode) == (0, 1)
+    assert "INTERRUPTED by H, its rest is deleted; the axes stand at" in told
+    assert gve("go").status == 1
+    assert gve("status", "--json").json["state"] == "at rest"
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_each_line_of_a_console_has_one_answer_or_is_not_sent(
     gve: Tool, served: ServedGve, monkeypatch: pytest.MonkeyPatch, seed: int

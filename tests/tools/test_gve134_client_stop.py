@@ -13,7 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from fake_gve134 import FakeGve
+from fake_gve134 import FakeGve, lost
 from gve134_ports import FakeGveLine
 from rkm04_tools.stopper import TWICE_SECONDS
 
@@ -277,9 +277,45 @@ def test_an_interrupt_in_a_jog_is_told_with_place_and_spindle(
     status, told = end(process)
 
     assert status == 1
-    assert "INTERRUPTED by RefX; the axes stand at X 0  Y 0  Z 0  A 0; stopped, the rest" in told
-    assert "confirmed by the unit" in told
+    assert "INTERRUPTED by RefX, its rest is deleted; the axes stand at X 0  Y 0  Z 0  A 0" in told
+    assert "at rest; confirmed by the unit" in told
     assert SPINDLE in told
+    assert not unit.queue
+
+
+@pytest.mark.parametrize("halts", [False, True])
+def test_a_jog_whose_rest_cannot_be_deleted_says_that_it_waits(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve, halts: bool
+) -> None:
+    unit.vector_s, unit.codes["D"] = 1000.0, 7
+    process = start_gve("jog", "X100000")
+    gve_line.until(lambda unit: unit.moves)
+    if not halts:
+        with gve_line.lock:
+            unit.interrupt(1)
+
+    status, told = end(process, *([signal.SIGINT] if halts else []))
+
+    assert status == (3 if halts else 1)
+    assert "; ITS REST MAY WAIT, and gve134 go would make it: gve134 delete" in told
+    assert unit.queue
+
+
+def test_a_jog_that_does_not_hear_of_its_unit_for_long_is_halted_and_its_rest_deleted(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve
+) -> None:
+    unit.vector_s = 1000.0
+    process = start_gve("jog", "X100000")
+    gve_line.until(lambda unit: unit.moves)
+    with gve_line.lock:
+        unit.faults.extend([lost] * 5)
+
+    status, told = end(process)
+
+    assert status == 3
+    assert "it is NOT KNOWN whether the axes move; halting ..." in told
+    assert "at rest; confirmed by the unit" in told
+    assert not unit.queue
 
 
 class Typist:

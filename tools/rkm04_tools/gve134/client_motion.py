@@ -16,6 +16,7 @@ from rkm04_tools.gve134.link_errors import Refused
 from rkm04_tools.gve134.sending import causes_of
 from rkm04_tools.gve134.state import AXES, INTA, RUN, Flags, Positions, positions_text
 from rkm04_tools.gve134.stopping import (
+    REST_MAY_WAIT,
     SPINDLE_AFTER_RESTART,
     SPINDLE_NOT_KNOWN,
     guarded_motion,
@@ -195,10 +196,21 @@ def _jog(options: Namespace, unit: Unit, jog: Jog) -> int:
         unit.order("D")
     elif flags.has(INTA):
         causes = ", ".join(causes_of(unit, flags)) or "what the unit does not tell"
-        raise Failure(f"INTERRUPTED by {causes}", NOT_SO)
+        raise Failure(f"INTERRUPTED by {causes}{_rest_deleted(unit, flags)}", NOT_SO)
     positions = unit.positions()
     text = f"the axes stand at {positions_text(positions)}"
     return tell(options, _state(unit.flags(), positions), text)
+
+
+def _rest_deleted(unit: Unit, flags: Flags) -> str:
+    """Delete what waits of a jog: whoever has stopped it does not, and G would make it."""
+    if not flags.has(RUN):
+        return ""
+    try:
+        unit.order("D")
+    except Refused as refused:
+        return f"; {REST_MAY_WAIT} ({refused})"
+    return ", its rest is deleted"
 
 
 def _input_has_come() -> bool:

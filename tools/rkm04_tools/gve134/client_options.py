@@ -147,7 +147,8 @@ COMMANDS = (
         (
             "--hold moves until Enter is pressed, or input ends, and at most so far: that is the "
             "bound even if the line breaks. --speed sets V, which stays for vectors that come "
-            "later. What is left of a jog that was stopped is deleted.",
+            "later. What is left of a jog that was stopped, by whatever it was, is deleted; where "
+            "that cannot be, it is said that it waits.",
             STOPS,
         ),
     ),

@@ -21,6 +21,7 @@ from rkm04_tools.stopper import ENDED_BEFORE, TWICE_SECONDS, Stopper, shout
 SPINDLE_NOT_KNOWN = (
     "whether the spindle turns is NOT KNOWN, the unit cannot be asked (gve134 spindle 0 stops it)"
 )
+REST_MAY_WAIT = "ITS REST MAY WAIT, and gve134 go would make it: gve134 delete"
 SPINDLE_AFTER_RESTART = "the restart has switched the spindle off"
 
 
@@ -65,7 +66,7 @@ def guarded_motion(unit: Unit, work: Callable[[], int], then: str = "") -> int:
             raise Failure(f"{error}; {SPINDLE_AFTER_RESTART}", error.status) from None
         except LineError as error:
             print(f"gve134: {error}", file=sys.stderr)
-            halt_at_signal(unit, stopper, "it is NOT KNOWN whether the axes move; ")
+            halt_at_signal(unit, stopper, "it is NOT KNOWN whether the axes move; ", then)
             return NO_CONNECTION
 
 
@@ -91,9 +92,12 @@ def halt_at_signal(
 ) -> int:
     """Halt the axes, and tell where they stand and what was done.
 
+    `then` is a command that ends what would go on else.
+
     The exit status: INTERRUPTED only where the unit has confirmed that they stand.
     """
     print(f"\ngve134: {text}halting ...", file=sys.stderr, flush=True)
+    waits = f"; {REST_MAY_WAIT}" if then else ""
     try:
         with stopper.at_once(TWICE_SECONDS):
             halted = halt_loudly(unit)
@@ -102,10 +106,10 @@ def halt_at_signal(
                 halted = replace(halted, flags=unit.flags())
     except KeyboardInterrupt:
         shout(ENDED_BEFORE)
-        print(f"gve134: {spindle()}", file=sys.stderr)
+        print(f"gve134: {spindle()}{waits}", file=sys.stderr)
         return NO_CONNECTION
     except Failure as failure:
-        print(f"gve134: {failure}; {spindle()}", file=sys.stderr)
+        print(f"gve134: {failure}; {spindle()}{waits}", file=sys.stderr)
         return NO_CONNECTION
     turns = SPINDLE_AFTER_RESTART if halted.restarted else spindle()
     print(f"gve134: {halted_text(halted)}{after(halted)}; {turns}", file=sys.stderr)
