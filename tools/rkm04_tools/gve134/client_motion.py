@@ -30,6 +30,7 @@ HOME_EXTRA_SECONDS = 10.0
 SLOWEST_RAMP = 1000
 """Pulses/s², the least that A can be."""
 WAY = re.compile(r"([XYZA])([-+]?)([0-9]{1,10})", re.IGNORECASE)
+SPEED = re.compile(r"[0-9]+")
 OVERRIDES = {"up": "XU", "down": "XD", "last": "XA"}
 
 
@@ -161,6 +162,8 @@ def run_jog(options: Namespace) -> int:
     jog = _jog_of(options.ways)
     require_good(jog.command, "jog")
     if options.speed is not None:
+        if not SPEED.fullmatch(options.speed):  # K, N and L would make another command of V
+            raise Failure(f"jog --speed {options.speed}: write pulses/s, 10 to 200000")
         require_good(f"V{options.speed}", "jog --speed")
     with unit_of(options) as unit:
         flags, begin = unit.flags(), unit.positions()
