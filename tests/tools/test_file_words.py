@@ -41,6 +41,7 @@ OF_FUNCTIONS: dict[str, set[str] | None] = {
     "rkm04_tools/machine/words.py": None,
     "rkm04_tools/machine/machine.py": {
         "parse_machine", "_parsed", "_plain", "_once", "_refuse", "_require_version", "_crossed",
+        "_crossed_axis",
     },
     "rkm04_tools/positioning/settings.py": {"read_values", "_once", "_values_of"},
     "rkm04_tools/source.py": {"why_no_text"},
@@ -136,6 +137,7 @@ def of_programs() -> Iterator[str]:
     played.append(play("G0 A1\nM3\nS5\nG38.2 Z-1 F50\nG28", mill(bare)))
     fine = changed(1e6, "motors", 0, "steps_per_mm")
     played.append(play("G0 X9999", mill(fine)))
+    played.append(play("G0 X9", mill(changed(1e-9, "motors", 0, "steps_per_mm"))))
     played.append(play("G28 A0\nG0 A90\nG0 A-90", mill(turning)))
     for each in played:
         yield from (message for _, _, message in each.errors)
@@ -177,6 +179,10 @@ def of_machines() -> Iterator[str]:
         changed(1.5, "motors", 0, "limits", "position_min_steps"),
         changed(1_000_000, "motors", 0, "limits", "position_min_steps"),
         changed(0, "gve134", "axes", "x", "homing", "way_steps"),
+        changed(1000, "motors", 0, "limits", "speed_max_steps_per_s"),
+        changed(20_000, "gve134", "axes", "x", "homing", "speed_steps_per_s"),
+        changed(-1, "gve134", "axes", "x", "homing", "position_steps"),
+        changed(200_000, "gve134", "axes", "x", "homing", "position_steps"),
         changed({str(each): 1 for each in range(30)}, "input_names"),
         changed([{"a": None} for _ in range(30)], "motors"),
     ]  # fmt: skip

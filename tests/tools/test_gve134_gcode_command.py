@@ -211,6 +211,27 @@ def changed(key: str, value: object, *path: str) -> dict[str, Any]:
         (changed("speed_steps_per_s", 200_001, "gve134", "axes", "y"), "200000 is the most"),
         (changed("accel_steps_per_s2", 999, "gve134", "axes", "y"), "1000 is the least"),
         (changed("way_steps", 0, "gve134", "axes", "z", "homing"), "way_steps 0 leads to no"),
+        (
+            changed("speed_max_steps_per_s", 1000, "motors", "0", "limits"),
+            "gve134, axes, x: speed_steps_per_s 16000 is above speed_max_steps_per_s 1000 of "
+            "motor 1, limits",
+        ),
+        (
+            changed("speed_steps_per_s", 12_001, "gve134", "axes", "z", "homing"),
+            "z, homing: speed_steps_per_s 12001 is above speed_steps_per_s 12000 of axis z",
+        ),
+        (
+            changed("back_speed_steps_per_s", 12_001, "gve134", "axes", "z", "homing"),
+            "z, homing: back_speed_steps_per_s 12001 is above speed_steps_per_s 12000 of axis z",
+        ),
+        (
+            changed("position_steps", 200_000, "gve134", "axes", "x", "homing"),
+            "x, homing: position_steps 200000 is above position_max_steps 96000 of motor 1, limits",
+        ),
+        (
+            changed("position_min_steps", 1, "motors", "0", "limits"),
+            "x, homing: position_steps 0 is below position_min_steps 1 of motor 1, limits",
+        ),
         (changed("opens", 1, "gve134", "probe"), "opens: must be true or false, found 1"),
         (changed("interrupt", 3, "gve134", "probe"), "interrupt: 3 is too small; 14 is the least"),
     ],
@@ -224,6 +245,40 @@ def test_a_machine_file_that_will_not_do_is_refused_in_plain_words(
     assert (status, out) == (1, "")
     assert err.count("\n") == 1
     assert complaint in err
+
+
+def test_an_axis_and_its_reference_run_may_be_as_fast_as_they_are_allowed(
+    gcode: Gcode, tmp_path: Path
+) -> None:
+    told = changed("speed_steps_per_s", 12_000, "gve134", "axes", "z", "homing")
+    told["motors"][2]["limits"]["speed_max_steps_per_s"] = 12_000
+    machine = tmp_path / "m.rkm"
+    machine.write_text(json.dumps(told), encoding="utf-8")
+
+    assert gcode(SQUARE, machine=machine)[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("program", "scale", "is_told"),
+    [
+        ("G0 X1\nG1 X20 F600", 1e-9, True),
+        ("G2 X0.0001 I0.00005 F9", 320, True),
+        ("G0 X0.0001", 320, True),
+        ("G0 X0.0001\nG0 X1", 320, False),
+        ("G0 X0", 320, False),
+        ("G0 X1\nG0 Y1", 1e-9, False),
+    ],
+)
+def test_a_program_of_which_no_move_has_a_pulse_is_told(
+    gcode: Gcode, tmp_path: Path, program: str, scale: float, is_told: bool
+) -> None:
+    machine = tmp_path / "m.rkm"
+    machine.write_text(json.dumps(changed("steps_per_mm", scale, "motors", "0")), encoding="utf-8")
+
+    status, out, _ = gcode(program, machine=machine)
+
+    assert status == 0
+    assert ("1:1: warning: all moves of this program are shorter than a pulse" in out) is is_told
 
 
 def test_the_machine_of_the_examples_is_a_good_machine_file(tool: Any) -> None:

@@ -28,6 +28,8 @@ FORMAT, VERSION = "rkm04-machine", 1
 FILE_BYTES_MAX = 2_000_000
 """Four programs, notes and inputs of the greatest length; a larger file is no machine."""
 PROBLEMS_MAX = 20
+GVE134_AXES = "xyza"
+"""The axes of motors 1 to 4."""
 SCHEMA = ROOT / "tools" / "service_page" / "src" / "machine.schema.json"
 
 
@@ -218,6 +220,40 @@ def _crossed(content: dict[str, Any]) -> list[str]:
                 f"position_max_steps {high}"
             )
     for letter, axis in content.get("gve134", {}).get("axes", {}).items():
-        if axis.get("homing", {}).get("way_steps") == 0:
-            found.append(f"gve134, axes, {letter}, homing: way_steps 0 leads to no switch")
+        number = GVE134_AXES.index(letter) + 1
+        found += _crossed_axis(letter, axis, _motor(number, content["motors"][number - 1]))
+    return found
+
+
+def _crossed_axis(letter: str, axis: dict[str, Any], motor: Motor) -> list[str]:
+    """What an axis of a GVE134 unit says that its motor, or another part of it, does not allow."""
+    found = []
+    where, limits = f"gve134, axes, {letter}", f"of motor {motor.number}, limits"
+    speed, most = axis["speed_steps_per_s"], motor.speed_max_steps_per_s
+    if most is not None and speed > most:
+        found.append(
+            f"{where}: speed_steps_per_s {speed} is above speed_max_steps_per_s {most} {limits}"
+        )
+    homing = axis.get("homing")
+    if homing is None:
+        return found
+    if homing["way_steps"] == 0:
+        found.append(f"{where}, homing: way_steps 0 leads to no switch")
+    for name in ("speed_steps_per_s", "back_speed_steps_per_s"):
+        if homing[name] > speed:
+            found.append(
+                f"{where}, homing: {name} {homing[name]} is above speed_steps_per_s {speed} "
+                f"of axis {letter}"
+            )
+    position = homing.get("position_steps", 0)
+    low, high = motor.position_min_steps, motor.position_max_steps
+    if low is not None and position < low:
+        found.append(
+            f"{where}, homing: position_steps {position} is below position_min_steps {low} {limits}"
+        )
+    if high is not None and position > high:
+        found.append(
+            f"{where}, homing: position_steps {position} is above position_max_steps {high} "
+            f"{limits}"
+        )
     return found

@@ -214,6 +214,12 @@ const ACTS: Sentences = [
         "program končí bez M2 nebo M30: vřeteno zůstane zapnuté",
     ],
     ["there is no G-code in this file", "v souboru není žádný G-kód"],
+    [
+        "all moves of this program are shorter than a pulse, so nothing moves; look at steps_per_mm and steps_per_degree of the "
+            + "machine file",
+        "všechny pohyby programu jsou kratší než jeden puls, takže se nic nepohne; podívejte se na steps_per_mm a "
+            + "steps_per_degree v souboru stroje",
+    ],
     ["what follows the end of the program is left out", "co je za koncem programu, se vynechá"],
     [
         "vectors go slower than F, at an axis' limit; there are $1, the first one here",
@@ -307,6 +313,10 @@ const MACHINES: Sentences = [
     ["has both $1 and $2; keep one", "má $1 i $2; ponechte jedno"],
     ["position_min_steps $1 is above position_max_steps $2", "position_min_steps $1 je nad position_max_steps $2"],
     ["way_steps 0 leads to no switch", "way_steps 0 nevede k žádnému spínači"],
+    ["$1 is above speed_max_steps_per_s $2 of motor $3, limits", "$1 je nad speed_max_steps_per_s $2 motoru $3, limits"],
+    ["$1 is above speed_steps_per_s $2 of axis $3", "$1 je nad speed_steps_per_s $2 osy $3"],
+    ["$1 is below position_min_steps $2 of motor $3, limits", "$1 je pod position_min_steps $2 motoru $3, limits"],
+    ["$1 is above position_max_steps $2 of motor $3, limits", "$1 je nad position_max_steps $2 motoru $3, limits"],
 ];
 
 /** A file of settings of a positioning unit. */

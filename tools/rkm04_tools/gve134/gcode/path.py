@@ -52,6 +52,8 @@ class Path:
     """mm, by kind; of moves of A alone, degrees."""
     turned: float = 0.0
     slowed_arcs: int = 0
+    without_pulse: int = 0
+    """Moves that are shorter than a pulse."""
     _scales: list[tuple[int, int, int]] = field(init=False)
     """Pulses of a part, as a fraction, and half of its denominator, which is even."""
     _per_unit: list[float] = field(init=False)
@@ -70,10 +72,13 @@ class Path:
 
     def line_to(self, target: list[int], pace: Pace, kind: str) -> None:
         """Go straight to a position."""
+        before = self.parts
         steps = self._go(target)
         if any(steps):
             rate, extent = self._rate(steps, pace, kind)
             self.writer.join(steps, extent, rate, kind is RAPID)
+        elif target != before:
+            self.without_pulse += 1
 
     def probe_to(self, target: list[int], pace: Pace) -> None:
         """Go straight to a position, where the sensor may end the way."""

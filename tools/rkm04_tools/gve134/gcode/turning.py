@@ -72,6 +72,7 @@ class Turning:
         self._slowed = self._slowed_arcs = 0
         self._first_slowed: Problem | None = None
         self._first_slowed_arc: Problem | None = None
+        self._first_without_pulse: Problem | None = None
 
     def take(self, text: str) -> None:
         """Turn the next line."""
@@ -109,6 +110,8 @@ class Turning:
             if first is not None:
                 message = f"vectors {words}; there are {count}, the first one here"
                 turned.warnings.append(Problem(first.line, first.column, message, first.text))
+        if self._first_without_pulse and not turned.vectors:
+            turned.warnings.append(self._first_without_pulse)
         turned.warnings.sort(key=lambda each: each.line)
         return turned
 
@@ -133,6 +136,12 @@ class Turning:
             self._warn("what follows the end of the program is left out")
 
     def _mind_slow(self) -> None:
+        if self.path.without_pulse and self._first_without_pulse is None:
+            self._first_without_pulse = self._problem(
+                _first_column(self._text),
+                "all moves of this program are shorter than a pulse, so nothing moves; look at "
+                "steps_per_mm and steps_per_degree of the machine file",
+            )
         if self.writer.slowed and self._first_slowed is None:
             self._first_slowed = self._problem(_first_column(self._text), "")
         if self.path.slowed_arcs and self._first_slowed_arc is None:
