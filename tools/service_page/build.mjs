@@ -15,12 +15,21 @@ const out = process.env.RKM04_SERVICE_OUT ?? "../../build/service";
 /** What a schema says to people. */
 const withoutWords = (name, value) => (name === "description" && typeof value === "string" ? undefined : value);
 
+/** Of the schema itself the code asks which properties there are, and nothing else. */
+function onlyNames(schema) {
+    const names = Object.keys(JSON.parse(schema).properties);
+    return JSON.stringify({ properties: Object.fromEntries(names.map((name) => [name, 0])) });
+}
+
 /** The schema of machine files as code, without what nobody reads: the page may not make code of a text itself. */
 async function machineRules() {
     const ajv = new Ajv({ allErrors: true, messages: false, code: { source: true, esm: true } });
     const schema = JSON.parse(await readFile("src/machine.schema.json", "utf8"), withoutWords);
     const code = standaloneCode(ajv, ajv.compile(schema));
-    return { contents: code.replace(/schemaPath:"[^"]*",/g, ""), resolveDir: process.cwd() };
+    const contents = code
+        .replace(/schemaPath:"[^"]*",|comparison: "[<>]=?", /g, "")
+        .replace(/(?<== )\{"\$schema".*?\}(?=;)/, onlyNames);
+    return { contents, resolveDir: process.cwd() };
 }
 
 const rules = {
