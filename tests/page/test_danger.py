@@ -89,11 +89,11 @@ def test_a_line_that_is_given_up_while_the_axes_of_a_gve134_move_is_told(gve: Gv
     gve.page.keyboard.press("Enter")
     gve.beyond(100)
     gve.at("connect").click()
-    expect(gve.at("loud")).to_contain_text("THIS PAGE CANNOT STOP ANYTHING")
-    expect(gve.at("loud")).to_contain_text("WHETHER THE AXES MOVE IS NOT KNOWN")
+    expect(gve.at("left-units")).to_contain_text("THIS PAGE CANNOT STOP virtual unit")
+    expect(gve.at("left-units")).to_contain_text("WHETHER IT MOVES IS NOT KNOWN")
     gve.at("connect").click()
     gve.ready()
-    expect(gve.at("loud")).to_be_hidden()
+    expect(gve.at("left-units")).to_be_hidden()
 
 
 def test_the_rest_of_a_motion_by_hand_goes_on_only_after_the_danger_was_confirmed(

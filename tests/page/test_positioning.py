@@ -373,10 +373,10 @@ def test_a_line_that_is_given_up_in_motion_is_told(line_page: PosPage) -> None:
     page.move("1000")
     page.beyond(1)
     page.at("connect").click()
-    expect(page.at("loud")).to_contain_text("NOT CONNECTED: THIS PAGE CANNOT STOP ANYTHING")
+    expect(page.at("left-units")).to_contain_text("NOT CONNECTED: THIS PAGE CANNOT STOP")
     page.at("connect").click()
     page.ready()
-    expect(page.at("loud")).to_be_hidden()
+    expect(page.at("left-units")).to_be_hidden()
 
 
 def test_a_unit_that_is_absent_at_the_start_is_told_and_found(

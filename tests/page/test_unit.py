@@ -126,22 +126,22 @@ def test_disconnecting_and_connecting_again_moves_nothing(own_page):
 
 
 def test_who_disconnects_a_motor_that_moves_is_told_that_nothing_stops_it_any_more(own_page):
-    connect, banner = own_page.page.locator("#connect"), own_page.page.locator("#banner")
+    connect, left = own_page.page.locator("#connect"), own_page.page.locator("#left-units")
     connect.click()
     expect(connect).to_have_text("Connect")
-    expect(banner).to_be_hidden()
+    expect(left).to_be_hidden()
     connect.click()
     own_page.ready()
     own_page.send("\\ C100 S100 V200 A20000 G+")
     expect(own_page.page.locator(".card").first).to_have_attribute("data-moving", "true")
     connect.click()
-    expect(banner).to_contain_text("NOT CONNECTED: THIS PAGE CANNOT STOP ANYTHING")
+    expect(left).to_contain_text("NOT CONNECTED: THIS PAGE CANNOT STOP virtual unit")
     own_page.page.locator("#language").select_option("cs")
-    expect(banner).to_contain_text("NEPŘIPOJENO: TATO STRÁNKA NEMŮŽE NIC ZASTAVIT")
+    expect(left).to_contain_text("NEPŘIPOJENO: TATO STRÁNKA NEMŮŽE ZASTAVIT virtuální jednotka")
     own_page.page.locator("#language").select_option("en")
     connect.click()
     own_page.ready()
-    expect(banner).to_be_hidden()
+    expect(left).to_be_hidden()
 
 
 def test_a_port_that_is_not_there_is_named_with_what_to_do(own_page):

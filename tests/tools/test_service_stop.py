@@ -6,7 +6,8 @@ import pytest
 import statuses
 from fake_unit import FakeLine, FakeUnit
 from rkm04_tools.service import stopping
-from rkm04_tools.service.orders import Disconnect, Node
+from rkm04_tools.service.fields import Asked
+from rkm04_tools.service.orders import Disconnect, Forget, Node
 from rkm04_tools.status import parse_status
 from service_desk import Desk
 
@@ -110,6 +111,17 @@ def test_a_silent_unit_is_named_and_holds_no_other_one_up(desk, line, other):
     line.units[5] = other
     assert desk.stop()["error"] is None
     assert desk.worker.state.stop is None
+
+
+def test_a_stop_waits_no_more_for_what_the_user_has_dealt_with(desk):
+    gone = Node("socket://127.0.0.1:1", 4)
+    assert desk.stop([gone])["error"]["kind"] == "NotConfirmed"
+    assert desk.stop()["error"]["kind"] == "NotConfirmed"
+
+    desk.worker.give(Forget((gone,)), Asked())
+
+    desk.state(lambda state: state["stop"] == ())
+    assert desk.stop()["error"] is None
 
 
 def test_the_nodes_are_told_before_they_are_asked(desk, line):

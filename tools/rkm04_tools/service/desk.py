@@ -10,7 +10,7 @@ from typing import Any
 from rkm04_tools.service import virtual
 from rkm04_tools.service.browsers import Aside, IsLate, Tell
 from rkm04_tools.service.fields import Asked
-from rkm04_tools.service.orders import Connect, Hold, ListPorts, SetInput, Stop, read_order
+from rkm04_tools.service.orders import Connect, Forget, Hold, ListPorts, SetInput, Stop, read_order
 from rkm04_tools.service.ports import ports
 from rkm04_tools.service.trouble import BadRequest, Late
 from rkm04_tools.service.virtual import VirtualLine
@@ -54,7 +54,7 @@ class UnitDesk:
             if late:
                 raise Late
             return partial(self._set_input, order)
-        elif late:
+        elif late and not isinstance(order, Forget):
             self._worker.refuse(order, asked, Late())
         else:
             self._worker.give(order, asked)

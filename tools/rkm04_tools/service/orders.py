@@ -92,6 +92,13 @@ class Stop:
 
 
 @dataclass(frozen=True)
+class Forget:
+    """The user has dealt with `nodes`: no stop waits for them any more."""
+
+    nodes: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
 class SetInput:
     """Change an input of the virtual unit."""
 
@@ -112,7 +119,8 @@ class ListPorts:
 
 
 Work: TypeAlias = Connect | Disconnect | Request | Act
-Order: TypeAlias = Connect | Disconnect | Request | Act | Stop | SetInput | Hold | ListPorts
+Queued: TypeAlias = Work | Forget
+Order: TypeAlias = Queued | Stop | SetInput | Hold | ListPorts
 
 
 def read_order(text: str) -> tuple[Order, Asked]:
@@ -150,6 +158,8 @@ def _order(told: Mapping[str, Any]) -> Order:
         return Hold(flag_of(told, "held"))
     if kind == "stop":
         return Stop(_nodes(told.get("nodes")))
+    if kind == "forget":
+        return Forget(_nodes(told.get("nodes")))
     for name, order in (("disconnect", Disconnect()), ("ports", ListPorts())):
         if kind == name:
             return order
@@ -184,7 +194,7 @@ def _texts(told: Mapping[str, Any]) -> tuple[tuple[int, str], ...]:
 
 
 def _nodes(told: Any) -> tuple[Node, ...]:
-    """The nodes of a stop. A stop is never refused, so what is no node is left out."""
+    """The nodes of a message that is never refused, as a stop: what is no node is left out."""
     rows = [row for row in told if isinstance(row, dict)] if isinstance(told, list) else []
     nodes = [Node(str(row.get("port")), row.get("node", 0)) for row in rows[: len(NODES)]]
     return tuple(each for each in nodes if each.node in NODES)

@@ -12,7 +12,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from threading import Condition, Thread
-from typing import Any, TypeVar
+from typing import Any, TypeGuard, TypeVar
 
 from rkm04_tools.failure import Failure
 from rkm04_tools.line import Line, Unit
@@ -28,7 +28,9 @@ from rkm04_tools.service.orders import (
     Act,
     Connect,
     Disconnect,
+    Forget,
     Node,
+    Queued,
     Request,
     Work,
     motor_of,
@@ -104,7 +106,7 @@ class Worker:
         self._wire: Wire | None = None
         self._heard: dict[Node, float] = {}
         self._wakes = Condition()
-        self._waiting: deque[tuple[Work, Asked, float]] = deque()
+        self._waiting: deque[tuple[Queued, Asked, float]] = deque()
         self._stops: deque[tuple[Asked, Sequence[Node]]] = deque()
         self._closing = False
         self._look_due = 0.0
@@ -126,7 +128,7 @@ class Worker:
         """Begin to work."""
         self._thread.start()
 
-    def give(self, order: Work, asked: Asked) -> None:
+    def give(self, order: Queued, asked: Asked) -> None:
         """Put an order after those that wait."""
         with self._wakes:
             if len(self._waiting) >= ORDERS_MAX:
@@ -204,10 +206,16 @@ class Worker:
         look = max(0.0, self._look_due - time.monotonic())
         return look if held is None else min(look, held)
 
-    def _do(self, order: Work, asked: Asked, since: float) -> None:
-        if time.monotonic() - since > TURN_SECONDS:
+    def _do(self, order: Queued, asked: Asked, since: float) -> None:
+        if isinstance(order, Forget):
+            stop = self._state.stop
+            self._change(stop=stop and tuple(node for node in stop if node not in order.nodes))
+        elif time.monotonic() - since > TURN_SECONDS:
             self.refuse(order, asked, Late())
-            return
+        else:
+            self._do_now(order, asked)
+
+    def _do_now(self, order: Work, asked: Asked) -> None:
         if isinstance(order, Connect | Disconnect) and self.holds.rest_seconds() is not None:
             self.holds.forget()  # nobody could stop what it runs any more
             self._do_stop([(Asked(), ())])
@@ -430,5 +438,5 @@ def _tried(work: Callable[[], Got]) -> Got | Failure:
         return Fault(what)
 
 
-def _is_for_unit(order: Work) -> bool:
+def _is_for_unit(order: Queued) -> TypeGuard[Request | Act]:
     return isinstance(order, Request | Act)

@@ -25,8 +25,6 @@ export class Connection {
     readonly #banner = byId("banner", HTMLElement);
     #ports: Port[] = [];
     #state: UnitState | null = null;
-    /** Whether a motor moved, or was to, when the unit was seen last. */
-    #moved = false;
 
     constructor(link: Link, presence: Presence) {
         this.#link = link;
@@ -44,9 +42,6 @@ export class Connection {
         });
         link.on("ports", ({ ports }) => this.#setPorts(ports));
         link.on("state", (state) => this.#setState(state));
-        link.on("live", ({ motors }) => {
-            this.#moved = motors.some(({ moving, running, speed }) => (moving ?? Boolean(speed)) || running === true);
-        });
         link.isOpen.onChange(() => this.#linkChanged());
         presence.isFresh.onChange(() => this.#showState());
         presence.seconds.onChange(() => this.#showState());
@@ -96,9 +91,6 @@ export class Connection {
     #setState(state: UnitState): void {
         const isNews = state.port !== this.#state?.port || state.node !== this.#state.node;
         this.#state = state;
-        if (isNews && state.port !== null) {
-            this.#moved = false; // another unit is not known yet
-        }
         if (isNews && state.connected && state.port !== null) {
             this.#choosePort(state.port);
             this.#node.value = String(state.node || ALL_MOTORS + 1);
@@ -173,9 +165,6 @@ export class Connection {
             const isExpected = engine === null || (engine.hasUnit && this.#link.client !== null);
             const words = this.#state?.virtual === false ? "alone.lineLost" : "alone.lost";
             return isExpected ? t(engine === null ? "state.lost" : words) : "";
-        }
-        if (this.#state?.connected === false && !this.#state.away && this.#state.error === null && this.#moved) {
-            return t("state.left");
         }
         const trouble = this.#state?.error ? troubleText(this.#state.error) : "";
         return this.#state?.away ? `${trouble}. ${t("state.comesBack")}` : trouble;

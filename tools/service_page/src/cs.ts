@@ -2,6 +2,7 @@ import { commissionCs } from "./commission_cs";
 import { firmwareCs } from "./firmware_cs";
 import { pagesCs } from "./common/pages";
 import { helpCs } from "./help_cs";
+import { leftCs } from "./left_words";
 import { machineCs } from "./common/machine_words";
 import { machinePanelCs } from "./machine_panel_cs";
 import { serialCs } from "./common/serial_words";
@@ -13,6 +14,7 @@ export const cs: Dictionary = {
     ...helpCs,
     ...firmwareCs,
     ...pagesCs,
+    ...leftCs,
     ...serialCs,
     ...machineCs,
     ...machinePanelCs,
@@ -47,9 +49,6 @@ export const cs: Dictionary = {
 
     "state.connected": "{port}, DNode {node}",
     "state.disconnected": "nepřipojeno",
-    "state.left":
-        "NEPŘIPOJENO: TATO STRÁNKA NEMŮŽE NIC ZASTAVIT. Motor se naposledy pohyboval nebo běžel jeho program: "
-        + "připojte se znovu, nebo použijte nouzové zastavení.",
     "state.away": "{port} zmizel",
     "state.seen": "naposledy před {seconds} s",
     "state.neverSeen": "nikdy neodpověděla",
@@ -98,6 +97,7 @@ export const cs: Dictionary = {
     "message.speed": "Rychlost",
     "message.connect": "Spojení",
     "message.disconnect": "Spojení",
+    "message.forget": "Vyřízeno",
     "message.error": "Chyba",
     "message.input": "Vstup",
     "about.version": "dotaz na verzi SW",

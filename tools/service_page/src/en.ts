@@ -2,6 +2,7 @@ import { commissionEn } from "./commission_en";
 import { firmwareEn } from "./firmware_en";
 import { pagesEn } from "./common/pages";
 import { helpEn } from "./help_en";
+import { leftEn } from "./left_words";
 import { machineEn } from "./common/machine_words";
 import { machinePanelEn } from "./machine_panel_en";
 import { serialEn } from "./common/serial_words";
@@ -12,6 +13,7 @@ export const en = {
     ...helpEn,
     ...firmwareEn,
     ...pagesEn,
+    ...leftEn,
     ...serialEn,
     ...machineEn,
     ...machinePanelEn,
@@ -45,9 +47,6 @@ export const en = {
 
     "state.connected": "{port}, node {node}",
     "state.disconnected": "not connected",
-    "state.left":
-        "NOT CONNECTED: THIS PAGE CANNOT STOP ANYTHING. A motor moved when it was seen last, or its program ran: "
-        + "connect again to see, or use the emergency stop.",
     "state.away": "{port} was lost",
     "state.seen": "last seen {seconds} s ago",
     "state.neverSeen": "has never answered",
@@ -96,6 +95,7 @@ export const en = {
     "message.speed": "Speed",
     "message.connect": "Connection",
     "message.disconnect": "Connection",
+    "message.forget": "Dealt with",
     "message.error": "Error",
     "message.input": "Input",
     "about.version": "version of the unit's software",

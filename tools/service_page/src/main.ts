@@ -13,6 +13,7 @@ import { Holding } from "./holding";
 import { numberText, setUpLanguage, t } from "./i18n";
 import { parseInputs } from "./inputs_text";
 import { setLimits, speedLimit, tooFast, type TooFast } from "./limits";
+import { Left } from "./left";
 import { Link } from "./link";
 import { LiveView } from "./live";
 import { Log } from "./log";
@@ -21,11 +22,11 @@ import { Plan } from "./plan";
 import { Presence } from "./presence";
 import { PrintView } from "./print";
 import { Programs } from "./programs";
-import { ALL_MOTORS } from "./protocol";
+import { ALL_MOTORS, type Live } from "./protocol";
 import { ScaleSwitch } from "./scale";
 import { Scan } from "./scan";
 import { ServiceLine } from "./service_line";
-import { Stop } from "./stop";
+import { asNodes, Stop } from "./stop";
 import { StoreAll } from "./store_all";
 
 /*
@@ -66,7 +67,26 @@ new Scan(link, commands);
 const presence = new Presence(link.isOpen);
 link.on("state", (state) => presence.setState(state));
 link.on("live", ({ node }) => presence.look(node));
-const stop = new Stop(link);
+const left: Left<Live> = new Left<Live>(link, t, {
+    name: "left",
+    moves: ({ motors }) => motors.some(({ moving, running, speed }) => (moving ?? Boolean(speed)) || running === true),
+    nameOf: ({ port, node = 0 }) => t("stop.nodeOf", { node, port }),
+    reachesPort: true,
+    dealt: (units) => {
+        const nodes = asNodes(units);
+        const isTold = link.send({ type: "forget", nodes });
+        if (isTold) {
+            stop.forget(nodes);
+        }
+        return isTold;
+    },
+});
+link.onSent((message) => {
+    if (message.type === "resume" || (message.type === "request" && message.message.startsWith("send"))) {
+        left.mark();
+    }
+});
+const stop: Stop = new Stop(link, left);
 new Connection(link, presence);
 const live = new LiveView(link, presence);
 const holding = new Holding(link);

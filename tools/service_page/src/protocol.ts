@@ -27,6 +27,8 @@ export type ToService =
     | { type: "ports" }
     | ({ type: "request"; id: number; message: MessageName; motor: number } & RequestParts)
     | { type: "stop"; id: number; nodes: Node[] }
+    /** The user has dealt with them: no stop waits for them any more. */
+    | { type: "forget"; nodes: Node[] }
     | { type: "resume" | "reset"; id: number }
     | { type: "speed"; id: number; motor: number; value: number }
     /** A button that makes a motor run is held; who falls silent meanwhile has all motors stopped. */

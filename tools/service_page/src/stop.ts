@@ -1,5 +1,6 @@
 import { byId } from "./dom";
 import { language, t } from "./i18n";
+import type { Left, Place } from "./left";
 import type { Link } from "./link";
 import type { Answer, Node, UnitState } from "./protocol";
 import { listenForStop } from "./stop_press";
@@ -7,14 +8,18 @@ import { listenForStop } from "./stop_press";
 const DONE_MS = 4000;
 
 const VIRTUAL = "virtual";
+/** Units of this page have addresses. */
+export const asNodes = (units: Place[]): Node[] => units.map(({ port, node = 0 }) => ({ port, node }));
 const keyOf = ({ port, node }: Node): string => `${node} ${port}`;
 
 /**
  * STOP: the button, the Escape key, and the line that says who has not confirmed. It is believed only when every
- * unit has confirmed that was seen since the page was opened, also by a service that has been started anew since.
+ * unit has confirmed that was seen since the page was opened, also by a service that has been started anew since, and
+ * every one that was left while it moved.
  */
 export class Stop {
     readonly #link: Link;
+    readonly #left: Left;
     readonly #button = byId("stop", HTMLButtonElement);
     readonly #alarm = byId("alarm", HTMLElement);
     readonly #known = new Map<string, Node>();
@@ -27,13 +32,15 @@ export class Stop {
     #confirmed: Node[] = [];
     #forget = 0;
 
-    constructor(link: Link) {
+    constructor(link: Link, left: Left) {
         this.#link = link;
+        this.#left = left;
         link.on("state", (state) => this.#setState(state));
         link.on("answer", (answer) => this.#hear(answer));
         link.isOpen.onChange(() => this.#linkChanged());
         listenForStop(this.#button, () => this.press());
         language.onChange(() => this.#show());
+        left.onChange(() => this.#show());
     }
 
     /** Calls back at every stop from this page. */
@@ -43,7 +50,8 @@ export class Stop {
 
     /** Stops all motors: at once, whatever else is under way. */
     press(): void {
-        const before = (this.#state?.stop ?? []).map((node) => [keyOf(node), node] as const);
+        const named = [...(this.#state?.stop ?? []), ...asNodes(this.#left.units)];
+        const before = named.map((node) => [keyOf(node), node] as const);
         this.#open = new Map([...(this.#open ?? []), ...before, ...this.#known]);
         this.#confirmed = [];
         this.#isOver = false;
@@ -52,6 +60,15 @@ export class Stop {
         this.#isOver = !this.#link.send({ type: "stop", id: this.#link.nextId(), nodes });
         this.#show();
         this.#onPress.forEach((callback) => callback());
+    }
+
+    /** The user has dealt with these; whether the others have confirmed only the next stop tells. */
+    forget(nodes: Node[]): void {
+        for (const node of nodes) {
+            this.#known.delete(keyOf(node));
+            this.#open?.delete(keyOf(node));
+        }
+        this.#show();
     }
 
     #setState(state: UnitState): void {
@@ -71,6 +88,7 @@ export class Stop {
         }
         const confirmed = values?.confirmed ?? [];
         confirmed.forEach((node) => this.#open?.delete(keyOf(node)));
+        this.#left.forget(confirmed);
         if (from === this.#link.client) {
             this.#isOver = true;
             this.#open = null; // the service knows from now on, also of the nodes that this page has named
@@ -114,7 +132,8 @@ export class Stop {
         const isOpen = this.#open !== null || (this.#state?.stop ?? null) !== null;
         this.#alarm.dataset.lost = String(this.#state?.lost === true);
         const isUnderWay = isOpen && (!this.#isOver || this.#state?.busy === "stop");
-        const kind = isUnderWay ? "asked" : isOpen ? "failed" : this.#confirmed.length > 0 ? "done" : "none";
+        const isDone = this.#confirmed.length > 0 && this.#left.names === "";
+        const kind = isUnderWay ? "asked" : isOpen ? "failed" : isDone ? "done" : "none";
         const words = kind === "none" ? "" : kind === "done" ? this.#doneText() : this.#openText();
         this.#alarm.dataset.kind = kind;
         this.#alarm.hidden = kind === "none";

@@ -11,7 +11,7 @@ function attempted<Got>(work: () => Got): Got | null {
 }
 
 /**
- * Keeps a draft: for this tab of the browser, and for tabs that are opened later. Storage that is full or
+ * Keeps a draft, or what must not be forgotten: for this tab of the browser, and for tabs that are opened later. Storage that is full or
  * forbidden is no reason to stop working.
  */
 export function keep(name: string, value: unknown): void {

@@ -118,6 +118,8 @@ export class UnitDesk {
         } else if (asked.type === "hold") {
             const isMeant = this.#place !== null && !this.#beats.isLate(asked.beat, now_ms);
             this.#grip.set(asked.held && isMeant, now_ms);
+        } else if (asked.type === "forget") {
+            this.#state.forget(asked.nodes);
         } else if (asked.type === "input") {
             this.#setInput(asked, now_ms);
         } else if (asked.type !== "ports") {

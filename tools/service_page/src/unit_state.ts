@@ -5,6 +5,11 @@ const keyOf = ({ port, node }: Node): string => `${node} ${port}`;
 /** Each node once, in the order in which they are named first. */
 export const merged = (...nodes: Node[]): Node[] => [...new Map(nodes.map((node) => [keyOf(node), node])).values()];
 
+const without = (all: Node[], these: Node[]): Node[] => {
+    const keys = these.map(keyOf);
+    return all.filter((each) => !keys.includes(keyOf(each)));
+};
+
 /** What the page is told of the connection, and of the units that have answered; every change is told at once. */
 export class DeskState {
     readonly #tell: (told: FromService) => void;
@@ -70,10 +75,16 @@ export class DeskState {
 
     /** What a node does is known again. */
     see(node: Node): void {
-        const left = this.#lost.filter((each) => keyOf(each) !== keyOf(node));
+        const left = without(this.#lost, [node]);
         if (left.length < this.#lost.length) {
             this.#lost = left;
             this.tell();
         }
+    }
+
+    /** The user has dealt with these: no stop waits for them. */
+    forget(nodes: Node[]): void {
+        this.#lost = without(this.#lost, nodes);
+        this.change({ stop: this.#now.stop && without(this.#now.stop, nodes) });
     }
 }

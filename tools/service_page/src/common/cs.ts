@@ -1,15 +1,15 @@
+import { leftCs } from "../left_words";
 import { pagesCs } from "./pages";
 import type { en } from "./en";
 
 export const cs: Record<keyof typeof en, string> = {
     ...pagesCs,
+    ...leftCs,
     "page.language": "Jazyk",
     "loud.seen": "Beru na vědomí",
     "loud.silent": "JEDNOTKA NEODPOVÍDÁ",
     "loud.moving": "Naposledy se pohybovala: NENÍ ZNÁMO, ZDA SE OSY POHYBUJÍ.",
     "loud.restarted": "JEDNOTKA BYLA RESTARTOVÁNA",
-    "loud.left": "NEPŘIPOJENO: TATO STRÁNKA NEMŮŽE NIC ZASTAVIT",
-    "loud.leftMore": "Připojte se znovu.",
     "loud.lost": "PORT NENÍ K DISPOZICI",
     "connection.title": "Spojení",
     "connection.port": "Port",

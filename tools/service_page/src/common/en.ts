@@ -1,15 +1,15 @@
+import { leftEn } from "../left_words";
 import { pagesEn } from "./pages";
 
 /** Words that the pages of several units share. */
 export const en = {
     ...pagesEn,
+    ...leftEn,
     "page.language": "Language",
     "loud.seen": "Noted",
     "loud.silent": "THE UNIT DOES NOT ANSWER",
     "loud.moving": "It moved when it was last seen: WHETHER THE AXES MOVE IS NOT KNOWN.",
     "loud.restarted": "THE UNIT HAS RESTARTED",
-    "loud.left": "NOT CONNECTED: THIS PAGE CANNOT STOP ANYTHING",
-    "loud.leftMore": "Connect again to see.",
     "loud.lost": "THE PORT IS NOT THERE",
     "connection.title": "Connection",
     "connection.port": "Port",

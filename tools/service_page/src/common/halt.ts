@@ -1,5 +1,6 @@
 import { byId } from "../dom";
 import { language } from "../language";
+import type { Left } from "../left";
 import { listenForStop } from "../stop_press";
 import type { Answer, Known } from "./known";
 import { told } from "./told";
@@ -9,20 +10,23 @@ const DONE_MS = 4000;
 
 /**
  * The stop: its button, the Escape key, and the line that says that it is not confirmed. That stays until one is
- * confirmed, also when port or service are lost.
+ * confirmed, also when port or service are lost. None is, as long as a unit that moved is out of reach.
  */
 export class Halt {
     readonly #unit: Known;
     readonly #t: CommonWords;
+    readonly #left: Left;
     readonly #alarm = byId("alarm", HTMLElement);
     /** Whether a halt of this page has no good answer yet; "asked": it may still come. */
     #own: "asked" | "failed" | null = null;
     #done = "";
     #forget = 0;
 
-    constructor(unit: Known, t: CommonWords) {
+    constructor(unit: Known, t: CommonWords, left: Left) {
         this.#unit = unit;
         this.#t = t;
+        this.#left = left;
+        left.onChange(() => this.#show());
         listenForStop(byId("stop", HTMLButtonElement), () => this.#press());
         unit.link.on("answer", (answer: Answer) => this.#hear(answer));
         unit.link.isOpen.onChange((isOpen) => {
@@ -53,7 +57,7 @@ export class Halt {
         if (message !== "halt") {
             return;
         }
-        if (error === null) {
+        if (error === null && this.#left.names === "") {
             this.#own = null;
             this.#done = text;
             window.clearTimeout(this.#forget);
@@ -61,7 +65,7 @@ export class Halt {
                 this.#done = "";
                 this.#show();
             }, DONE_MS);
-        } else if (from === this.#unit.link.client) {
+        } else if (error === null || from === this.#unit.link.client) {
             this.#own = "failed";
         }
         this.#show();
@@ -69,8 +73,10 @@ export class Halt {
 
     #show(): void {
         const open = this.#own === "asked" || this.#last === "asked" ? "asked" : this.#own ?? this.#last;
-        const kind = open ?? (this.#done === "" ? "none" : "done");
-        const words = kind === "none" ? "" : this.#t(`halt.${kind}`, { words: told(this.#done) });
+        const left = this.#left.names;
+        const kind = open ?? (this.#done === "" || left !== "" ? "none" : "done");
+        const names = kind === "failed" && left !== "" ? ` (${left})` : "";
+        const words = kind === "none" ? "" : this.#t(`halt.${kind}`, { words: told(this.#done) }) + names;
         this.#alarm.dataset.kind = kind;
         this.#alarm.hidden = kind === "none";
         if (this.#alarm.textContent !== words) {

@@ -38,7 +38,7 @@ export interface CommonLink {
     send(message: { type: string }): boolean;
     onRefused(handler: (message: { type: string }) => void): void;
     /** Each of these kinds has its type here: Answer, CommonState, or one of CommonFromService. */
-    on(kind: "answer" | "error" | "ports" | "state", handler: (message: any) => void): void;
+    on(kind: "answer" | "error" | "live" | "ports" | "state", handler: (message: any) => void): void;
 }
 
 /** What the parts that all pages have see of a unit. */

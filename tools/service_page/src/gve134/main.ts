@@ -5,6 +5,7 @@ import { Loud } from "../common/loud";
 import { bringWords } from "../common/told";
 import { Danger } from "../danger";
 import { byId } from "../dom";
+import { Left } from "../left";
 import { Link } from "../link";
 import { Presence } from "../presence";
 import { ServiceLine } from "../service_line";
@@ -15,12 +16,14 @@ import { isKey, setUpLanguage, t } from "./i18n";
 import { JobPanel } from "./job";
 import { MachineEditor } from "./machine";
 import { PathView } from "./path";
-import type { FromService, ToService } from "./protocol";
+import type { FromService, Live, ToService } from "./protocol";
 import { Switches } from "./switches";
-import { doingOf, Unit } from "./unit";
+import { isInMotion, Unit } from "./unit";
 
 /** Commands that set axes in motion by hand, as the console takes them. */
 const MOVES = /^\s*(!0)?\s*[LCG]/i;
+/** Requests after which the axes may move. */
+const SETS_OFF: ToService["type"][] = ["go", "resume", "start", "home", "jog", "typed"];
 
 /*
  * Puts the parts together; each sees the unit, and none of them another. Nothing on this page acts on a unit except
@@ -36,20 +39,20 @@ link.on("live", () => presence.look());
 const unit = new Unit(link, presence);
 const danger = new Danger("danger-confirm");
 unit.state.watch((state) => danger.setPlace(state));
-new Halt(unit, t);
+const left = new Left<Live>(link, t, { name: "left_gve134", moves: ({ flags }) => isInMotion(flags) });
+link.on("state", ({ reference }) => reference && left.mark()); // it tells nothing meanwhile
+link.onSent(({ type }) => SETS_OFF.includes(type) && left.mark());
+new Halt(unit, t, left);
 new Connection(unit, t, {
     quiet: () => (unit.doing === "reference" ? t("state.reference") : null),
     keeps: () => unit.state.value?.job?.phase === "sending",
     form: alone?.form,
 });
 new Loud(unit, t, {
-    didMove: () => unit.last.value !== null && ["moves", "brakes"].includes(doingOf(unit.last.value.flags)),
+    didMove: () => unit.last.value !== null && isInMotion(unit.last.value.flags),
     isTold: () => unit.doing !== "unknown",
     restarted: () => t("loud.restartedMore"),
     more: () => {
-        if (unit.wasLeftMoving) {
-            return `${t("loud.left")}\n${t("loud.moving")} ${t("loud.leftMore")}`;
-        }
         if (unit.doing === "fault") {
             return `${t("loud.fault")}\n${t("loud.faultMore")}`;
         }

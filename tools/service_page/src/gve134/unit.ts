@@ -10,29 +10,9 @@ export type Doing = "unknown" | "reference" | "crystal" | "fault" | "rest" | "mo
 
 /** What the page knows of the unit. */
 export class Unit extends SeenUnit<UnitLink, UnitState, Live> {
-    #moved = false;
-    #left = false;
-    #place: string | null = null;
-
     constructor(link: UnitLink, presence: Presence) {
         super(link, presence);
-        link.on("live", (live) => {
-            this.#moved = ["moves", "brakes"].includes(doingOf(live.flags));
-            this.last.set(live);
-        });
-        this.state.onChange((state) => {
-            const place = state?.port ?? this.#place;
-            if (state?.restarted || place !== this.#place) {
-                this.#moved = false; // what has restarted stands, and another unit is not known yet
-            }
-            this.#place = place;
-            this.#left = state !== null && !state.connected && !state.away && state.error === null && this.#moved;
-        });
-    }
-
-    /** Whether the line was given up while the axes moved. */
-    get wasLeftMoving(): boolean {
-        return this.#left;
+        link.on("live", (live) => this.last.set(live));
     }
 
     get doing(): Doing {
@@ -48,6 +28,9 @@ export class Unit extends SeenUnit<UnitLink, UnitState, Live> {
         return this.link.send({ type, id: this.link.nextId() });
     }
 }
+
+/** Whether the axes move. */
+export const isInMotion = (flags: number): boolean => ["moves", "brakes"].includes(doingOf(flags));
 
 export function doingOf(flags: number): Doing {
     const has = (bit: number): boolean => (flags & bit) !== 0;

@@ -5,6 +5,7 @@ import { Loud } from "../common/loud";
 import { bringWords } from "../common/told";
 import { Danger } from "../danger";
 import { byId } from "../dom";
+import { Left } from "../left";
 import { Link } from "../link";
 import { Presence } from "../presence";
 import { ServiceLine } from "../service_line";
@@ -31,7 +32,9 @@ link.on("live", () => presence.look(unit.state.value?.node));
 const unit = new Unit(link, presence);
 const danger = new Danger("danger-confirm");
 unit.state.watch((state) => danger.setPlace(state));
-new Halt(unit, t);
+const left = new Left(link, t, { name: "left_positioning", moves: () => unit.didMove });
+link.on("state", ({ doubt }) => doubt && left.mark());
+new Halt(unit, t, left);
 new Connection(unit, t, { form: alone?.form });
 new Loud(unit, t, {
     didMove: () => unit.didMove,
@@ -53,9 +56,6 @@ if (alone === null || alone.begin(unit)) {
 /** What must not be overlooked of a unit that answers, or that nobody asks any more. */
 function alsoLoud(): string {
     const { now } = unit;
-    if (unit.wasLeftMoving) {
-        return `${t("loud.left")}\n${t("loud.moving")} ${t("loud.leftMore")}`;
-    }
     const condition = now?.unit.condition ?? 0;
     if (condition & CONDITION.crystal) {
         return t("loud.crystal");

@@ -15,7 +15,6 @@ export const isUnderWay = ({ status }: AxisLive): boolean => (status & STATUS.PR
 export class Unit extends SeenUnit<UnitLink, UnitState, Live> {
     readonly settings = new Cell<Settings>({ values: null, file: null });
     #moved = false;
-    #left = false;
     #place = "";
 
     constructor(link: UnitLink, presence: Presence) {
@@ -31,18 +30,12 @@ export class Unit extends SeenUnit<UnitLink, UnitState, Live> {
                 this.#moved = false; // what has restarted stands, and another unit is not known yet
             }
             this.#place = place;
-            this.#left = state !== null && !state.connected && !state.away && this.didMove;
         });
     }
 
     /** Whether it moved when it was last seen, or was told to move and has not answered. */
     get didMove(): boolean {
         return this.#moved || this.state.value?.doubt === true;
-    }
-
-    /** Whether the line was given up while it moved. */
-    get wasLeftMoving(): boolean {
-        return this.#left;
     }
 
     axis(number: number): AxisLive | null {
