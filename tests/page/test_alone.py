@@ -214,6 +214,20 @@ def test_a_program_is_sent_runs_and_is_stored(alone):
         expect(alone.locator("#log .log-item").first).to_contain_text(words)
 
 
+def test_a_speed_that_cannot_be_changed_is_not_told_as_changed(alone):
+    for program, words in (
+        ("\\ C100 S100 )1", "motor 1 keeps its speed: it is in a limit run"),
+        ("\\ C100 S100 V500 G+", "speed 900 steps/s, until the move ends: motor 1"),
+    ):
+        write(alone, program)
+        alone.locator("#send").click()
+        expect(alone.locator("#log .log-item").first).to_contain_text("sent and accepted")
+        expect(alone.locator("#state-1")).to_contain_text("moves")
+        alone.locator("#speed").fill("900")
+        alone.locator("#speed-form button").click()
+        expect(alone.locator("#log .log-item").first).to_contain_text(words)
+
+
 def test_all_programs_start_together_and_escape_stops_them_until_resume(alone):
     for motor in (1, 2):
         alone.locator(f"#tab-{motor}").click()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from playwright.sync_api import expect
-from service_page import TABLET, shown
+from service_page import TABLET, ServicePage, shown
 
 RUN = "\\ C100 S100 V2000 A20000 G+"
 
@@ -102,6 +102,27 @@ def test_the_speed_of_a_move_is_changed_while_it_runs(page):
     page.page.locator("#speed").fill("9000")
     page.page.locator("#speed-form button").click()
     page.expect_beyond(9000)
+
+
+def expect_kept(page: ServicePage) -> None:
+    page.page.locator("#speed").fill("900")
+    page.page.locator("#speed-form button").click()
+    expect(page.answers.first).to_have_attribute("data-message", "speed")
+    expect(page.answers.first).to_contain_text("motor 1 keeps its speed: it is in a limit run")
+    page.page.locator("#message").select_option("table")
+    page.send()
+    expect(page.answers.first).not_to_contain_text("900")
+
+
+def test_a_speed_that_cannot_be_changed_is_not_told_as_changed(page):
+    page.send("\\ C100 S100 )1")
+    expect(page.state(1)).to_contain_text("moves")
+    expect_kept(page)
+    page.page.locator("#live-inputs .lamp").nth(2).click()
+    page.send("\\ C100 S2000 V8000 A500 N3 G+ F1 R")
+    page.expect_beyond(1000)
+    page.page.locator("#live-inputs .lamp").nth(2).click()
+    expect_kept(page)
 
 
 def test_reset_asks_before_it_acts(page):

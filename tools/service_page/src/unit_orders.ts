@@ -88,22 +88,35 @@ export class UnitOrders {
         return { text: text === RESET ? "reset, the program memory is empty" : "told to go on", values: {} };
     }
 
-    /** Changes the speed of those motors that move: to others V would be a command to be stored. */
+    /**
+     * Changes the speed of those motors that move: to others V would be a command to be stored. In a limit run, and while
+     * the motor stops, V does nothing; a speed that was changed shows in the break points of the move.
+     */
     async speed(motor: number, value: number): Promise<Got> {
         const { motors } = await this.#status();
         const moving = numbersOf(motor).filter((each) => motors[each - 1]?.moving && motors[each - 1]?.running);
-        const words = numbersOf(motor).map((each) =>
-            moving.includes(each)
-                ? `motor ${each} speed ${value} steps/s`
-                : `motor ${each} runs no move: nothing was sent`,
-        );
-        if (moving.length === 0) {
+        const changed: number[] = [];
+        for (const each of moving) {
+            const before = await this.#points(each);
+            await this.#command(each, `V${value}`);
+            changed.push(...((await this.#points(each)) === before ? [] : [each]));
+        }
+        const words = numbersOf(motor).map((each) => {
+            if (!moving.includes(each)) {
+                return `motor ${each} runs no move: nothing was sent`;
+            }
+            const kept = `motor ${each} keeps its speed: it is in a limit run, or stops`;
+            return changed.includes(each) ? `motor ${each} speed ${value} steps/s` : kept;
+        });
+        if (changed.length === 0) {
             throw new Refusal(words.join(", "), "a speed is for moves in progress");
         }
-        for (const each of moving) {
-            await this.#command(each, `V${value}`);
-        }
-        return { text: words.join(", "), values: { speed: value, motors: moving } };
+        return { text: words.join(", "), values: { speed: value, motors: changed } };
+    }
+
+    /** Where the speed of a move changes, to be compared. */
+    async #points(motor: number): Promise<string> {
+        return messages.hex(await this.#talk.ask(messages.request(messages.GET_TABLE, motor)));
     }
 
     async version(wait?: Wait): Promise<Got & { values: { version: string; date: string } }> {

@@ -12,6 +12,10 @@ export const ALONE: Sentences = [
     ["node #1 of $2", "DNode #1 na $2"],
     ["node #1", "DNode #1"],
     ["motor #1 runs no move: nothing was sent", "motor #1 nejede: nic nebylo odesláno"],
+    [
+        "motor #1 keeps its speed: it is in a limit run, or stops",
+        "motor #1 svou rychlost nezměnil: jede na spínač, nebo zastavuje",
+    ],
     ["a speed is for moves in progress", "rychlost lze změnit jen za pohybu"],
     ["the unit refuses the value after $1 (flag #2)", "jednotka odmítá hodnotu za $1 (příznak #2)"],
     ["the unit refuses the command $1 (flag #2)", "jednotka odmítá příkaz $1 (příznak #2)"],
