@@ -11,8 +11,8 @@ function attempted<Got>(work: () => Got): Got | null {
 }
 
 /**
- * Keeps a draft, or what must not be forgotten: for this tab of the browser, and for tabs that are opened later. Storage that is full or
- * forbidden is no reason to stop working.
+ * Keeps a draft, or what must not be forgotten: for this tab of the browser, and for tabs that are opened later. Storage
+ * that is full or forbidden is no reason to stop working.
  */
 export function keep(name: string, value: unknown): void {
     const text = JSON.stringify(value);
