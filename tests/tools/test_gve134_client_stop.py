@@ -11,10 +11,12 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from fake_gve134 import FakeGve, lost
 from gve134_ports import FakeGveLine
+from rkm04_tools.gve134.client import RUNS
 from rkm04_tools.stopper import TWICE_SECONDS
 
 Start = Callable[..., "subprocess.Popen[str]"]
@@ -316,6 +318,22 @@ def test_a_jog_that_does_not_hear_of_its_unit_for_long_is_halted_and_its_rest_de
     assert "it is NOT KNOWN whether the axes move; halting ..." in told
     assert "at rest; confirmed by the unit" in told
     assert not unit.queue
+
+
+@pytest.mark.parametrize("words", ["home X 5 10 1 10", "jog X5", "send no.gve"])
+def test_an_end_before_anything_moves_is_not_taken_for_a_halt(
+    gve: Any, monkeypatch: pytest.MonkeyPatch, words: str
+) -> None:
+    name, *rest = words.split()
+
+    def end(options: object) -> int:
+        raise KeyboardInterrupt
+
+    monkeypatch.setitem(RUNS, name, end)
+    result = gve(name, *rest)
+
+    assert result.status == 130
+    assert result.err == f"gve134: {name} was ended while it moved nothing: no halt was sent\n"
 
 
 class Typist:

@@ -18,7 +18,7 @@ const char gve_serve_usage[] =
     "--speed X         times real time, 0.001 to 1000; 0: as fast as possible (1)\n"
     "--baud N          the rate of the line (115200)\n" SERVE_HELP_OF_ALL "\n"
     "Lines on standard input: 3=0 closes input 3 to ground, 3=1 opens it, ? prints the state. Each is\n"
-    "answered by a line of JSON. All inputs are open at the start.\n"
+    "answered by a line of JSON, but an empty one by nothing. All inputs are open at the start.\n"
     "\n"
     "example: gve134-host serve --flash unit.flash\n";
 

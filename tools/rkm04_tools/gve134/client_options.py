@@ -6,6 +6,7 @@ That module is loaded only when one of them runs: the others need no ports.
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
@@ -27,6 +28,8 @@ STOPS = (
     "unit that does not answer, ends with STOP NOT CONFIRMED: use the emergency stop then. Exit "
     "status 130: stopped and confirmed; 3: not confirmed."
 )
+MOVES = ("send", "home", "jog")
+"""A signal while one of them moves axes halts them; one before that is told to be another end."""
 PLACES = (
     "Places of the memory with a meaning: 01 function of the relay; 05 polarity of STEP (bits 0-3) "
     "and DIR (bits 4-7) of X, Y, Z, A; 0C axis that A is coupled with (01, 02, 03; else none); "
@@ -300,7 +303,13 @@ def _add_of_memory(name: str, command: argparse.ArgumentParser) -> None:
 
 def _runner(name: str) -> Callable[[argparse.Namespace], int]:
     def run(options: argparse.Namespace) -> int:
-        status: int = import_module("rkm04_tools.gve134.client").RUNS[name](options)
+        try:
+            status: int = import_module("rkm04_tools.gve134.client").RUNS[name](options)
+        except KeyboardInterrupt:
+            if name in MOVES:
+                text = f"{name} was ended while it moved nothing: no halt was sent"
+                print(f"gve134: {text}", file=sys.stderr)
+            raise
         return status
 
     return run

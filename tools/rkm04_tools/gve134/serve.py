@@ -21,7 +21,8 @@ is whole, and is forgotten where it is not, a second after its last byte.
 Lines on standard input, and on the control port, act while it runs:
   3=0      input 3 (RefZ) is closed to ground; 3=1: it is open, as all are at the start
   ?        prints the state of the unit as a line of JSON
-Each is answered by a line of JSON: {"ok": true}, {"error": "..."} or the state.
+Each is answered by a line of JSON: {"ok": true}, {"error": "..."} or the state; an
+empty one by nothing.
 Inputs are 1 to 4 (the reference switches), 7 and 8 (button and plate of the tool sensor). Ctrl-C
 ends it. Without --flash the EEPROM ends with it."""
 
