@@ -15,6 +15,7 @@ from serial_bridge import SerialBridge
 from serial_page import NODE, PORT, connect, send
 from served import GVE_COMMAND, POSITIONING_COMMAND, Served
 from service_page import ServicePage
+from tab import DESK
 
 RUNS = statuses.Vector("", motors=[3, 0, 0, 0]).whole
 STANDS = statuses.Vector("").whole
@@ -50,6 +51,9 @@ def test_neither_loading_the_page_nor_another_unit_forgets_it(lines_page, line, 
     expect(left).to_contain_text(f"{CANNOT} {unit_name}")
     lines_page.page.reload()
     expect(left).to_contain_text(f"{CANNOT} {unit_name}")
+    lines_page.page.set_viewport_size({"width": 320, "height": 568})
+    assert lines_page.page.evaluate("document.documentElement.scrollWidth") <= 320
+    lines_page.page.set_viewport_size({"width": DESK[0], "height": DESK[1]})
     connect_virtual(lines_page)
     expect(left).to_contain_text(f"{CANNOT} {unit_name}")
     lines_page.page.keyboard.press("Escape")
