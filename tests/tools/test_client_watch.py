@@ -22,7 +22,7 @@ def unit():
 
 
 def test_watch_prints_a_line_each_time(call, unit):
-    text = call("watch", "--motor", "1", "--interval", "0.05", "--count", "2")
+    text = call("watch", "--motor", "1", "--interval", "0.4", "--count", "2")
 
     assert text.splitlines()[0] == (
         "0.0 s  1: 5000 - steps/s, step 247 of 5000, command 3  BI none  BO none"
@@ -42,7 +42,7 @@ def test_watch_tells_the_speed(call, unit, monkeypatch):
     original = FakeUnit.execute
     monkeypatch.setattr(FakeUnit, "execute", move)
 
-    lines = call("watch", "--json", "--interval", "0.1", "--count", "3").splitlines()
+    lines = call("watch", "--json", "--interval", "0.4", "--count", "3").splitlines()
 
     motor = json.loads(lines[2])["motors"][0]
     assert motor["position"] == 8000
@@ -80,7 +80,7 @@ def test_watch_tells_backward_moves_inputs_and_outputs_apart(call, unit, monkeyp
 def test_watch_goes_on_when_a_unit_is_away_for_a_while(call, fake):
     fake.faults += [bytes] * 6 + [fake_unit.lost] * 4
 
-    text = call("watch", "--motor", "1", "--interval", "0.05", "--count", "3")
+    text = call("watch", "--motor", "1", "--interval", "0.4", "--count", "3")
 
     lines = text.splitlines()
     assert "unit 3 does not answer" in lines[1]
@@ -116,7 +116,7 @@ def test_watch_says_that_a_unit_has_restarted_and_takes_no_speed_across_it(call,
     """One that was away for less than a look, between two looks or in the midst of one."""
     restarts(unit, monkeypatch, when)
 
-    lines = call("watch", "--interval", "0.05", "--count", "3").splitlines()
+    lines = call("watch", "--interval", "0.4", "--count", "3").splitlines()
 
     assert len(lines) == 4
     assert lines[1].split("  ", 1)[1] == RESTARTED
@@ -128,7 +128,7 @@ def test_watch_says_that_a_unit_has_restarted_and_takes_no_speed_across_it(call,
 def test_so_it_does_of_one_that_was_silent_meanwhile(call, fake, unit, monkeypatch):
     restarts(unit, monkeypatch, b"\xc8", lambda: fake.faults.extend([fake_unit.lost] * 4))
 
-    text = call("watch", "--json", "--interval", "0.05", "--count", "4")
+    text = call("watch", "--json", "--interval", "0.4", "--count", "4")
 
     looks = [json.loads(line) for line in text.splitlines()]
     assert "does not answer" in looks[1]["error"]
@@ -141,7 +141,7 @@ def test_of_a_unit_that_tells_no_counts_a_restart_is_not_known(tool, fake, unit)
     unit.status = b""
     fake.faults += [bytes] * 6 + [fake_unit.lost] * 4
 
-    result = tool("watch", "--motor", "1", "--interval", "0.05", "--count", "3")
+    result = tool("watch", "--motor", "1", "--interval", "0.4", "--count", "3")
 
     assert "unit 3 was away, and whether it has restarted is NOT KNOWN\n" in result.out
     assert "1: 5000 - steps/s" in result.out.splitlines()[-1]
@@ -151,7 +151,7 @@ def test_a_restart_stays_above_what_is_redrawn(call, unit, monkeypatch):
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
     restarts(unit, monkeypatch, b"\xc8")
 
-    text = call("watch", "--motor", "2", "--interval", "0.05", "--count", "3")
+    text = call("watch", "--motor", "2", "--interval", "0.4", "--count", "3")
 
     _, second, third = text.split("\x1b[3A\r\x1b[J")
     assert RESTARTED in second.splitlines()[0]
@@ -174,7 +174,7 @@ def test_an_interval_that_cannot_be_kept_is_told_once(tool, fake):
 def test_watch_is_redrawn_on_a_terminal(call, fake, monkeypatch, capsys):
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
 
-    text = call("watch", "--motor", "2", "--interval", "0.05", "--count", "2")
+    text = call("watch", "--motor", "2", "--interval", "0.4", "--count", "2")
 
     first, again = text.split("\x1b[3A\r\x1b[J")
     assert first.splitlines()[1].split() == ["2", "-5", "-", "247", "-", "3"]
@@ -183,7 +183,7 @@ def test_watch_is_redrawn_on_a_terminal(call, fake, monkeypatch, capsys):
 
 
 def test_ctrl_c_ends_watch_in_order(start, fake):
-    process = start("watch", "--interval", "0.05")
+    process = start("watch", "--interval", "0.4")
     assert process.stdout is not None
     process.stdout.readline()
 
@@ -194,7 +194,7 @@ def test_ctrl_c_ends_watch_in_order(start, fake):
 
 
 def test_a_reader_that_goes_away_ends_watch_without_a_traceback(start, fake):
-    process = start("watch", "--interval", "0.01", "--motor", "1")
+    process = start("watch", "--interval", "0.4", "--motor", "1")
     assert process.stdout is not None
     assert process.stderr is not None
     process.stdout.readline()

@@ -167,7 +167,7 @@ def test_input_that_ends_lets_go_of_a_held_jog(
 def test_a_signal_ends_a_watch_in_order(
     start_gve: Start, gve_line: FakeGveLine, unit: FakeGve
 ) -> None:
-    process = start_gve("watch", "--interval", "0.05")
+    process = start_gve("watch", "--interval", "0.4")
     gve_line.until(lambda unit: unit.done.count("P4") > 2)
 
     assert end(process, signal.SIGINT) == (0, "")
