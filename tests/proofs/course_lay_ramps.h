@@ -5,6 +5,7 @@
 #ifndef COURSE_LAY_RAMPS_H
 #define COURSE_LAY_RAMPS_H
 
+#include "course_kept.h"
 #include "course_legs.h"
 #include "course_speeds.h"
 
@@ -23,6 +24,9 @@
     ensures value(at->place) == \old(value(at->place)) + change_of(\old(at->twice_speed2), to);
     ensures \old(value(at->time)) <= value(at->time) && at->time.high <= \old(at->time.high) + 0x38000000000001;
     ensures course->legs == (\old(at->twice_speed2) == to ? \old(course->legs) : \old(course->legs) + 1);
+    ensures course_kept{Pre,Post}(course);
+    ensures 1 <= \old(course->legs) ==> first_kept{Pre,Post}(course);
+    ensures 2 <= \old(course->legs) ==> second_kept{Pre,Post}(course);
     ensures \old(at->twice_speed2) == to ==> value(at->time) == \old(value(at->time));
     ensures \old(at->twice_speed2) != to || \old(ramps_ready(course)) ==> ramps_ready(course);
     ensures \old(at->twice_speed2) != to ==> ramp_leg(&course->leg[\old(course->legs)], accel) &&
