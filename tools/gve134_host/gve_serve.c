@@ -72,18 +72,28 @@ static bool is_of_packet(const struct head *head, char which)
     return begin[0] == '*' && begin[1] == (uint8_t)which;
 }
 
+static bool is_for_unit(const struct head *head)
+{
+    unsigned address = (unsigned)head->text[1] - '0';
+    return head->text[0] == '!' && (address == (unsigned)GVE134_INTERPOLATOR || address == (unsigned)GVE134_SPINDLE);
+}
+
+/* Of an open packet all but what ends it. */
+static bool is_inside(const struct head *head, bool goes_on)
+{
+    return is_of_packet(head, 'S') || (goes_on && !is_of_packet(head, 'E') && !is_named(head, 'H'));
+}
+
 static enum serve_asks asks(const uint8_t *line, uint32_t length, bool goes_on)
 {
     const struct head head = head_of(line, length);
-    unsigned address = (unsigned)head.text[1] - '0';
-    bool is_heard = address == (unsigned)GVE134_INTERPOLATOR || address == (unsigned)GVE134_SPINDLE;
-    if (head.text[0] != '!' || !is_heard) {
+    if (!is_for_unit(&head)) {
         return goes_on ? SERVE_ASKS_MORE : SERVE_ASKS_NOTHING;
     }
     if (is_named(&head, 'J')) {
         return SERVE_ASKS_RESET;
     }
-    if (is_of_packet(&head, 'S') || (goes_on && !is_of_packet(&head, 'E') && !is_named(&head, 'H'))) {
+    if (is_inside(&head, goes_on)) {
         return SERVE_ASKS_MORE;
     }
     if (is_named(&head, '>')) {

@@ -39,7 +39,9 @@ void serve_turns_begin(struct serve_turns *turns, unsigned client)
     held->has_asked = false;
     for (uint32_t i = 0; i < turns->count; i++) {
         struct serve_turn *turn = turn_at(turns, i);
-        turn->client = turn->client == (int)client ? (int8_t)NOBODY : turn->client;
+        if (turn->client == (int)client) {
+            turn->client = NOBODY;
+        }
     }
     turns->to = turns->to == (int)client ? NOBODY : turns->to;
     turns->last = turns->last == (int)client ? NOBODY : turns->last;
