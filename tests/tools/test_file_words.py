@@ -181,8 +181,6 @@ def of_machines() -> Iterator[str]:
         changed(0, "gve134", "axes", "x", "homing", "way_steps"),
         changed(1000, "motors", 0, "limits", "speed_max_steps_per_s"),
         changed(20_000, "gve134", "axes", "x", "homing", "speed_steps_per_s"),
-        changed(-1, "gve134", "axes", "x", "homing", "position_steps"),
-        changed(200_000, "gve134", "axes", "x", "homing", "position_steps"),
         changed({str(each): 1 for each in range(30)}, "input_names"),
         changed([{"a": None} for _ in range(30)], "motors"),
     ]  # fmt: skip

@@ -245,15 +245,4 @@ def _crossed_axis(letter: str, axis: dict[str, Any], motor: Motor) -> list[str]:
                 f"{where}, homing: {name} {homing[name]} is above speed_steps_per_s {speed} "
                 f"of axis {letter}"
             )
-    position = homing.get("position_steps", 0)
-    low, high = motor.position_min_steps, motor.position_max_steps
-    if low is not None and position < low:
-        found.append(
-            f"{where}, homing: position_steps {position} is below position_min_steps {low} {limits}"
-        )
-    if high is not None and position > high:
-        found.append(
-            f"{where}, homing: position_steps {position} is above position_max_steps {high} "
-            f"{limits}"
-        )
     return found

@@ -315,8 +315,6 @@ const MACHINES: Sentences = [
     ["way_steps 0 leads to no switch", "way_steps 0 nevede k žádnému spínači"],
     ["$1 is above speed_max_steps_per_s $2 of motor $3, limits", "$1 je nad speed_max_steps_per_s $2 motoru $3, limits"],
     ["$1 is above speed_steps_per_s $2 of axis $3", "$1 je nad speed_steps_per_s $2 osy $3"],
-    ["$1 is below position_min_steps $2 of motor $3, limits", "$1 je pod position_min_steps $2 motoru $3, limits"],
-    ["$1 is above position_max_steps $2 of motor $3, limits", "$1 je nad position_max_steps $2 motoru $3, limits"],
 ];
 
 /** A file of settings of a positioning unit. */
