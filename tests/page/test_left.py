@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,7 @@ from pos_page import PosService, pos_shown
 from serial_bridge import SerialBridge
 from serial_page import NODE, PORT, connect, send
 from served import GVE_COMMAND, POSITIONING_COMMAND, Served
-from service_page import ServicePage
+from service_page import Service, ServicePage
 from tab import DESK
 
 RUNS = statuses.Vector("", motors=[3, 0, 0, 0]).whole
@@ -22,6 +23,14 @@ STANDS = statuses.Vector("").whole
 OTHER = 5
 CANNOT = "NOT CONNECTED: THIS PAGE CANNOT STOP"
 NOT_CONFIRMED = "NOT CONFIRMED: use the emergency stop"
+
+
+@pytest.fixture(scope="module")
+def lines_service() -> Iterator[Service]:
+    """One that has seen no other units of the line: a stop waits for all that it has seen."""
+    service = Service()
+    yield service
+    service.end()
 
 
 @pytest.fixture

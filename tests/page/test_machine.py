@@ -35,7 +35,7 @@ def test_a_machine_is_saved_as_it_was_opened(page):
 
 
 def test_the_part_for_a_gve134_unit_is_saved_as_it_was_opened(page):
-    axis = {"speed_steps_per_s": 5000, "accel_steps_per_s2": 20_000, "jump_steps_per_s": 200}
+    axis = {"speed_steps_per_s": 1000, "accel_steps_per_s2": 20_000, "jump_steps_per_s": 200}
     told = content(gve134={"axes": {"x": axis}, "probe": {"interrupt": 15, "opens": True}})
     open_machine(page, told)
     assert save(page)[1] == told
