@@ -10,6 +10,7 @@ from typing import Any
 
 import fake_unit
 import pytest
+from client_acts import GOES, NODE, PROGRAMS, acts, lines
 from fake_unit import ENDED, FAILED, MOVING, RUNNING, STOPPED, WAITING, FakeUnit
 from rkm04_tools import acting
 from rkm04_tools.line import open_line
@@ -17,14 +18,12 @@ from rkm04_tools.sending import Plan, check_program
 from rkm04_tools.streaming import Feeder, stream_program
 from statuses import Vector
 
-NODE = 3
-GOES = RUNNING | MOVING
 K, C75 = b"K", b"C75"
 
 
 @pytest.fixture
 def unit():
-    return FakeUnit(NODE, programs={1: b"S100V1000F5000R", 2: b"", 3: b"C100", 4: b""})
+    return FakeUnit(NODE, programs=dict(PROGRAMS))
 
 
 @pytest.fixture
@@ -35,16 +34,6 @@ def fake(fake, monkeypatch):
     monkeypatch.setattr(acting, "QUIET_SECONDS", 0.06)
     monkeypatch.setattr(acting, "POLL_SECONDS", 0.01)
     return fake
-
-
-def acts(unit: FakeUnit) -> list[tuple[int, bytes]]:
-    """Motor and text of the Set Command messages."""
-    return [(int(done[1:2]), done[2:]) for done in unit.done if done[0] == 2]
-
-
-def lines(result) -> list[str]:
-    assert result.err == ""
-    return [line.removeprefix(f"unit {NODE}: ") for line in result.out.splitlines()]
 
 
 def test_stop_tells_of_each_motor_what_it_does(tool, fake, unit):

@@ -5,17 +5,15 @@ from __future__ import annotations
 import time
 
 import pytest
+from client_acts import GOES, NODE, PROGRAMS, acts, lines
 from fake_unit import MOVING, RUNNING, STOPPED, WAITING, FakeUnit
 from rkm04_tools import acting, speeding
 from rkm04_tools.messages import BreakPoint
 
-NODE = 3
-GOES = RUNNING | MOVING
-
 
 @pytest.fixture
 def unit():
-    return FakeUnit(NODE, programs={1: b"S100V1000F5000R", 2: b"", 3: b"C100", 4: b""})
+    return FakeUnit(NODE, programs=dict(PROGRAMS))
 
 
 @pytest.fixture
@@ -24,16 +22,6 @@ def fake(fake, monkeypatch):
     monkeypatch.setattr(acting, "LOOK_SECONDS", 0.1)
     monkeypatch.setattr(acting, "POLL_SECONDS", 0.01)
     return fake
-
-
-def acts(unit: FakeUnit) -> list[tuple[int, bytes]]:
-    """Motor and text of the Set Command messages."""
-    return [(int(done[1:2]), done[2:]) for done in unit.done if done[0] == 2]
-
-
-def lines(result) -> list[str]:
-    assert result.err == ""
-    return [line.removeprefix(f"unit {NODE}: ") for line in result.out.splitlines()]
 
 
 def test_speed_goes_to_those_motors_that_move(tool, fake, unit):

@@ -57,7 +57,8 @@ SHARED: dict[str, set[str] | None] = {
 SERVED: dict[str, dict[str, set[str] | None]] = {
     "rkm04": {
         **SHARED,
-        "acting.py": {"change_speed", "_still", "_unmoved", "_does", "_send_speed"},
+        "acting.py": {"change_speed", "_still", "_unmoved", "_does"},
+        "speeding.py": {"send_speed_briefly"},
         "line.py": {"_failed", "_look_for", "scan"},
         "line_errors.py": None, "messages.py": None, "report.py": {"state"},
         "sending.py": None, "service/app.py": None, "service/curves.py": None,
@@ -179,6 +180,7 @@ ASSEMBLED_BY_SERVICES: dict[str, list[str]] = {
         "motor 1 (already sent to motor 2, 3): the unit does not know Get Status (message 200); it "
         "has other software",
         "motor 1 (nothing was started): no port is open; connect first",
+        "motor 1 keeps its speed: it is in a limit run, or stops; a speed is for moves in progress",
         "motor 1 stands, stopped by K: nothing was sent",
         "motor 1 stands, waiting for input 3 to become 1: nothing was sent, motor 2 brakes: "
         "nothing "
@@ -226,6 +228,7 @@ PIECES = {
         "holds another program, and ] to all motors would be added to it",
         "has come to a stand meanwhile: V7 may be in its memory now",
         "has not moved while it was watched: nothing was sent",
+        "keeps its speed: it is in a limit run, or stops",
     },
     "gve134": {
         ", positions at that moment 7", "7; 7 were executed, 7 were sent",

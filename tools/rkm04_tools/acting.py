@@ -83,10 +83,9 @@ def reset(unit: Unit, number: int, doubt: Doubt) -> list[Told]:
 
 
 def change_speed(
-    unit: Unit, number: int, steps_per_s: int, send: Callable[[Motor, int], Told] | None = None
+    unit: Unit, number: int, steps_per_s: int, send: Callable[[Motor, int], Told]
 ) -> list[Told]:
-    """Send V to those motors that move: to others it would be a command of their program."""
-    send = send or _send_speed
+    """`send` V to those motors that move: to others it would be a command of their program."""
     if unit.node == BROADCAST:
         raise Failure(
             "node 0 means all units, and none can say which of its motors move; name one, 1 to 16"
@@ -184,17 +183,6 @@ def _resumed(before: MotorStatus, after: MotorStatus) -> Told:
     if after.stopped:
         return Told(after.motor, "goes on when it stands", after.moving)
     return Told(after.motor, f"goes on: {after.text}", True)
-
-
-def _send_speed(motor: Motor, steps_per_s: int) -> Told:
-    """Look whether the move was still there: else V has become a command of the program."""
-    motor.set_speed(steps_per_s)
-    number = motor.number
-    state = states_since(motor.unit, number)
-    if state and not state[0].moving:
-        text = f"has come to a stand meanwhile: V{steps_per_s} may be in its memory now"
-        return Told(number, text, False)
-    return Told(number, f"speed {steps_per_s} steps/s", True)
 
 
 def _moved(unit: Unit, number: int, seconds: float = LOOK_SECONDS) -> set[int]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rkm04_tools.acting import MAY_MOVE, Told, states
+from rkm04_tools.acting import MAY_MOVE, Told, states, states_since
 from rkm04_tools.doubt import Doubt
 from rkm04_tools.line import Motor
 from rkm04_tools.line_errors import UnitRestarted
@@ -45,6 +45,22 @@ def send_speed(motor: Motor, steps_per_s: int, doubt: Doubt) -> Told:
         return Told(number, f"V{steps_per_s} has changed nothing of its move: {why}", False)
     why = "the way is too short, or another move has begun since; rkm04 table tells its speeds"
     return Told(number, f"does not come to {steps_per_s} steps/s: {why}", False)
+
+
+def send_speed_briefly(motor: Motor, steps_per_s: int) -> Told:
+    """Send it without a look at the memory, and tell in the words that the page has, too.
+
+    Of an original unit nothing is known.
+    """
+    number, before = motor.number, motor.table()
+    motor.set_speed(steps_per_s)
+    state, after = states_since(motor.unit, number), motor.table()
+    if state and not state[0].moving:
+        text = f"has come to a stand meanwhile: V{steps_per_s} may be in its memory now"
+        return Told(number, text, False)
+    if state and after == before and not _has(after, before, steps_per_s):
+        return Told(number, "keeps its speed: it is in a limit run, or stops", False)
+    return Told(number, f"speed {steps_per_s} steps/s", True)
 
 
 def _has(after: Sequence[BreakPoint], before: Sequence[BreakPoint], speed: int) -> bool:

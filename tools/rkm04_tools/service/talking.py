@@ -9,13 +9,14 @@ from rkm04_tools.check import check_source
 from rkm04_tools.frame import BROADCAST
 from rkm04_tools.line import USUAL, Motor, Unit, Wait
 from rkm04_tools.line_errors import UnitRefused
-from rkm04_tools.messages import ALL_MOTORS, MOTORS, VERSION, BreakPoint
+from rkm04_tools.messages import ALL_MOTORS, MOTORS, VERSION
 from rkm04_tools.sending import Tell, check_program, held_commands, plan_program, send_program
 from rkm04_tools.service.answers import Answer, ProgramWrong
 from rkm04_tools.service.checking import NAME, first_error
 from rkm04_tools.service.orders import MESSAGES, SCAN, SEND_ALL, Act, Request
 from rkm04_tools.service.together import send_all
 from rkm04_tools.source import Source
+from rkm04_tools.speeding import send_speed_briefly
 
 
 def ask(unit: Unit, request: Request, tell: Tell) -> Answer:
@@ -52,32 +53,13 @@ def act(unit: Unit, order: Act) -> Answer:
 
 
 def _speed(unit: Unit, order: Act) -> Answer:
-    """Change the speed of those motors that move: to others V would be a command to be stored.
-
-    In a limit run, and while the motor stops, V does nothing; a speed that was changed shows in
-    the break points of the move.
-    """
-    before = _points(unit, order.motor)
-    told = acting.change_speed(unit, order.motor, order.value)
-    after = _points(unit, order.motor)
-    kept = [motor for motor, points in before.items() if after.get(motor) == points]
-    changed = [each.motor for each in told if each.done and each.motor not in kept]
-    words = ", ".join(
-        f"motor {each.motor} keeps its speed: it is in a limit run, or stops"
-        if each.done and each.motor in kept
-        else f"motor {each.motor} {each.text}"
-        for each in told
-    )
+    """Change the speed of those motors that move."""
+    told = acting.change_speed(unit, order.motor, order.value, send_speed_briefly)
+    words = ", ".join(f"motor {each.motor} {each.text}" for each in told)
+    changed = [each.motor for each in told if each.done]
     if not changed:
         raise UnitRefused(f"{words}; a speed is for moves in progress")
     return Answer(words, {"speed": order.value, "motors": changed})
-
-
-def _points(unit: Unit, number: int) -> dict[int, tuple[BreakPoint, ...]]:
-    """The break points of each motor; none of an original unit, whose V need not show in them."""
-    if acting.states(unit, number) is None:
-        return {}
-    return {each: unit.motor(each).table() for each in acting.numbers_of(number)}
 
 
 def version(unit: Unit, wait: Wait = USUAL) -> Answer:
