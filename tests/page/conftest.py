@@ -15,7 +15,7 @@ from tab import PATIENCE_SECONDS, opened_tab, visited
 CHROMIUM = Path("/usr/bin/chromium-headless-shell")
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def browser() -> Iterator[Browser]:
     """Not for the session: its event loop would be in the way of the tests after these."""
     if not CHROMIUM.exists():

@@ -32,7 +32,7 @@ Plant = Callable[[pytest.MonkeyPatch], None]
 SEEDS = range(30)
 UNSURE_MAX = 0
 WRONG_SEEDS = 300
-RARE = {"limits do not count": 9, "remainders are dropped": 14, "homing is not told": 72}
+RARE = {"limits do not count": 99, "remainders are dropped": 14, "homing is not told": 72}
 """Slips that show in few sessions, and one in which they do."""
 TRIED = Session(
     (

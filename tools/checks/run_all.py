@@ -39,6 +39,7 @@ UNITY_SUMMARY = re.compile(r"^(\d+) Tests (\d+) Failures (\d+) Ignored", re.MULT
 UNITY_SKIP = re.compile(r"^(?:.*/)?(.+:\d+:.+:IGNORE.*)$", re.MULTILINE)
 PYTHON = [sys.executable, "-P", "-m"]
 CONFIG = "tools/pyproject.toml"
+PYTEST = [*PYTHON, "pytest", "-q", "-c", CONFIG, "--rootdir", str(ROOT)]
 ENVIRONMENT = {
     **os.environ,
     "RKM04_BUILD": str(BUILD / "host"),
@@ -141,8 +142,7 @@ def pytest(*options: str) -> Count:
     results = BUILD / "pytest.xml"
     results.unlink(missing_ok=True)
     command = [
-        *PYTHON, "pytest", "-q", "-c", CONFIG, "--rootdir", str(ROOT), "--junitxml", str(results),
-        "--hypothesis-profile", "ci", *options, "tests",
+        *PYTEST, "--junitxml", str(results), "--hypothesis-profile", "ci", *options, "tests",
     ]  # fmt: skip
     status = subprocess.run(
         command, cwd=ROOT, env={**ENVIRONMENT, **CHANCE}, stdin=subprocess.DEVNULL
@@ -166,6 +166,8 @@ def python_tests() -> Count:
     the other, when the machine is less busy; pytest names them both times. What they draw at random
     is the same again, so what they find by that is found again.
     """
+    # Each process compiles all tests for itself where nobody has: 8 s of a processor.
+    succeeds(*PYTEST, "--collect-only", "-q", "tests")
     processes = str((os.cpu_count() or 1) + 2)
     count = pytest("--numprocesses", processes, "--dist", "loadfile")
     if not 0 < count.failed <= TRIED_AGAIN:
@@ -209,8 +211,8 @@ def sweeps() -> Count:
         "power_cut|store_sweep|line_splits|pos_motion",
     ]
     random = [
-        *PYTHON, "pytest", "-q", "-rP", "-c", CONFIG, "--rootdir", str(ROOT),
-        "--numprocesses", "logical", "tests/property", "tests/proofs", "tests/vboard", "tests/wasm",
+        *PYTEST, "-rP", "--numprocesses", "logical",
+        "tests/property", "tests/proofs", "tests/vboard", "tests/wasm",
     ]  # fmt: skip
     count = Count()
     for command in (stored, random):

@@ -70,6 +70,7 @@ HALF_DUPLEX = "line_half"
 """Files that only RKM04 is built with; others go with either unit."""
 ARM_TARGET = ("--target=arm-none-eabi", "-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=soft")
 NEWLIB = "/usr/include/newlib"
+FILES_A_PROCESS = 10
 SHALLOW = ("-Xclang", "-analyzer-config", "-Xclang", "mode=shallow")
 
 FINDING = re.compile(
@@ -108,7 +109,7 @@ def tool(name: str) -> str:
     return str(Path(sys.executable).with_name(name))
 
 
-def tidy(files: list[str], arguments: list[str]) -> str:
+def tidy(files: list[str], arguments: tuple[str, ...]) -> str:
     """What clang-tidy says of some files."""
     done = subprocess.run(
         [tool("clang-tidy"), "--quiet", *files, "--", "-std=c11", *arguments],
@@ -134,14 +135,22 @@ def arm_includes(file: str) -> list[str]:
 
 
 def analyse(files: Iterable[str], deep: bool) -> Iterator[str]:
-    """Run clang-tidy on C files, two at a time."""
+    """Run clang-tidy on C files, several a process, as its start takes longer than a file."""
     mode = () if deep else SHALLOW
-    arm, host = set(sources(*ARM)), [*mode, *includes(FOLDERS)]
-    target = [*mode, *ARM_TARGET, "-isystem", NEWLIB]
-    jobs = [([file], [*target, *arm_includes(file)] if file in arm else host) for file in files]
+    arm, host = set(sources(*ARM)), (*mode, *includes(FOLDERS))
+    alike: dict[tuple[str, ...], list[str]] = {}
+    for file in files:
+        own = (*mode, *ARM_TARGET, "-isystem", NEWLIB, *arm_includes(file))
+        alike.setdefault(own if file in arm else host, []).append(file)
+    jobs = [(part, own) for own, all_of in alike.items() for part in batched(all_of)]
     with ThreadPoolExecutor(min(2, os.cpu_count() or 1)) as pool:
         for text in pool.map(lambda job: tidy(*job), jobs):
             yield from findings(text)
+
+
+def batched(files: list[str]) -> Iterator[list[str]]:
+    for start in range(0, len(files), FILES_A_PROCESS):
+        yield files[start : start + FILES_A_PROCESS]
 
 
 def complexities(files: Iterable[str]) -> Iterator[str]:
