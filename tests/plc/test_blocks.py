@@ -156,6 +156,47 @@ def test_power_off_is_possible_while_stop_holds_the_axis(plc) -> None:
     assert plc.unit.axes[0].executed[-1] == RESET
 
 
+@pytest.mark.parametrize("name", ["MC_Halt", "MC_Stop", "MC_Reset"])
+def test_no_block_but_power_gives_power(name, make_plc) -> None:
+    plc = make_plc()
+    power = plc.add("MC_Power")
+    plc.run(10)
+    finish(plc, plc.start("MC_MoveRelative", Distance=1.0, **GO))
+    block = plc.start(name)
+    finish(plc, block)
+    assert (block["Done"], plc.unit.axes[0].has("ERR")) == (True, False)
+    block["Execute"] = False
+    plc.run(10)
+    assert not power["Status"]
+    move = plc.start("MC_MoveRelative", Distance=1.0, **GO)
+    finish(plc, move)
+    assert move["ErrorID"] == 3
+    assert plc.unit.axes[0].way_made == 0
+
+
+def test_power_that_falls_with_a_stop_stays_off(plc) -> None:
+    power = plc.called[0]
+    moving(plc)
+    power["Enable"] = False
+    finish(plc, plc.start("MC_Stop"))
+    plc.run(50)
+    assert (power["Status"], power["Busy"]) == (False, False)
+    assert not plc.unit.axes[0].has("JEDE")
+
+
+def test_power_that_rises_while_stop_holds_the_axis_comes_when_it_is_let_go(make_plc) -> None:
+    plc = make_plc()
+    power = plc.add("MC_Power")
+    plc.run(10)
+    stop = plc.start("MC_Stop")
+    power["Enable"] = True
+    plc.run(50)
+    assert (power["Busy"], power["Error"], power["Status"]) == (True, False, False)
+    stop["Execute"] = False
+    plc.until(lambda: power["Status"])
+    assert plc.unit.axes[0].executed == [RESET, INIT]
+
+
 def test_power_gives_its_instructions_at_the_edges_only(plc) -> None:
     power = plc.called[0]
     plc.run(50)

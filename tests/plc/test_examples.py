@@ -161,7 +161,10 @@ def test_the_first_move_of_the_unit_s_page_moves(make_plc) -> None:
 def test_the_program_of_the_document_moves_an_axis(make_plc) -> None:
     program = f"PROGRAM DOCUMENTED {DECLARATIONS} {documented(DOCUMENT)} END_PROGRAM"
     plc = make_plc()
-    main = begin_documented(plc, program, "DOCUMENTED", Released=True)
+    main = begin_documented(plc, program, "DOCUMENTED")
+    assert plc.axes[0]["Online"]
+    assert plc.unit.axes[0].executed == []
+    main["Released"] = True
     plc.until(lambda: main["Motion"]["Done"])
     assert plc.unit.axes[0].position == 12500
     main["Button"] = False

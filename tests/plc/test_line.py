@@ -143,6 +143,18 @@ def test_a_line_that_is_cut_ends_a_move_with_an_error_and_takes_its_instruction_
     assert plc.unit.axes[0].way_made == 0
 
 
+def test_an_instruction_is_taken_back_even_if_its_block_has_lost_the_axis(plc) -> None:
+    plc.run(5)
+    plc.cut = True
+    move = plc.start("MC_MoveRelative", Distance=100.0, **GO)
+    halt = plc.start("MC_Halt")
+    plc.until(lambda: not halt["Busy"])
+    assert (move["CommandAborted"], halt["ErrorID"]) == (True, NOT_ONLINE)
+    plc.cut = False
+    plc.run(100)
+    assert plc.unit.axes[0].executed == [INIT]
+
+
 def test_an_axis_under_way_is_held_when_the_line_is_back(plc) -> None:
     move = plc.start("MC_MoveRelative", Distance=1000.0, **GO)
     plc.until(lambda: plc.unit.axes[0].has("JEDE"))

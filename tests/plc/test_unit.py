@@ -174,7 +174,10 @@ def test_a_unit_that_restarts_under_way_moves_nothing_until_power_is_given_again
     plc.until(lambda: not move["Busy"])
     plc.run(100)
     assert (move["Error"], move["ErrorID"]) == (True, 3)
-    assert plc.unit.pulses == stood
+    finish(plc, "MC_Reset")
+    refused = plc.start("MC_MoveRelative", Distance=1.0, **GO)
+    plc.until(lambda: not refused["Busy"])
+    assert (refused["ErrorID"], plc.unit.pulses) == (3, stood)
     power = plc.called[0]
     assert not power["Status"]
     power["Enable"] = False
