@@ -16,6 +16,7 @@ from page_looks import AXE, CUT, OUTSIDE, OVER, SIZES, VIOLATIONS
 from playwright.sync_api import Browser, WebSocket, expect
 from pos_page import PosPage
 from rkm04_tools.positioning.settings import read_values
+from rkm04_tools.positioning.unit import open_unit
 from serial_bridge import SerialBridge
 from served import POSITIONING_COMMAND, Served
 from service_page import NOT_KNOWN
@@ -317,6 +318,22 @@ def test_it_speaks_to_a_unit_on_a_serial_port(line_page: AlonePage, line: Line) 
     page.page.keyboard.press("Escape")
     expect(page.at("alarm")).to_have_attribute("data-kind", "done")
     page.doing("READY")
+
+
+def test_a_stop_goes_out_to_a_unit_that_was_never_heard(open_page: Open, line: Line) -> None:
+    with open_unit(line.units[0].place, NODE) as other:
+        axis = other.axis(1)
+        axis.init()
+        axis.mode(1000, 500)
+        axis.control(600)
+        line.bridge.silent = True
+        page = open_page(line.bridge.script).ready()
+        page.at("connect").click()
+        connect(page)
+        expect(page.at("loud")).to_contain_text("THE UNIT DOES NOT ANSWER")
+        page.page.keyboard.press("Escape")
+        expect(page.at("alarm")).to_contain_text(NOT_CONFIRMED)
+        assert not axis.read().moves
 
 
 def test_a_user_may_take_their_time_to_choose_a_port(open_page: Open, line: Line) -> None:

@@ -14,13 +14,14 @@ LOOK_SECONDS = 0.01
 
 
 class Relay:
-    """Passes bytes between a client and a unit; what is muted is lost.
+    """Passes bytes between a client and a unit; what is muted is lost. `dumb`: answers alone are.
 
     `heard` counts what has come from clients since it was set to 0.
     """
 
     def __init__(self, place: str) -> None:
         self.muted = False
+        self.dumb = False
         self.heard = 0
         self._lock = threading.Lock()
         self._unit = connect(place)
@@ -76,7 +77,7 @@ class Relay:
                 self._from_client(ready)
             else:
                 data = ready.recv(4096)
-                if self._client and not self.muted:
+                if self._client and not (self.muted or self.dumb):
                     self._client.sendall(data)
 
     def _from_client(self, client: socket.socket) -> None:

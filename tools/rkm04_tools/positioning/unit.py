@@ -138,6 +138,18 @@ class Unit:
             raise WrongUnit(self.wire.name)
         self._known = True
 
+    def require_no_other(self) -> None:
+        """The same for a stop, which goes out to a unit that does not answer, too."""
+        tries, self.wire.tries = self.wire.tries, 1
+        try:
+            self.require_known()
+        except WrongUnit:
+            raise
+        except LineError:
+            pass
+        finally:
+            self.wire.tries = tries
+
     def require_same_start(self, executed: bool = False) -> None:
         """Tell a unit that has restarted since it was looked at first."""
         row = registers()["UPTIME"]
@@ -248,7 +260,8 @@ class Axis:
         """POS_CONTROL: feed in mm/min and permission; what is left out stays."""
         words = [] if permitted is None else [int(permitted)]
         words += [] if feed is None else _words(_feed(feed))
-        self.unit.require_known()
+        stops = permitted is False or feed == 0
+        self.unit.require_no_other() if stops else self.unit.require_known()
         if words:
             place = self._base + (CONTROL if permitted is not None else FEED)
             found, _ = self.unit.wire.write_and_read(place, words, self._base + CONTROL, 3)

@@ -64,7 +64,7 @@ class Stop:
 
     def _stop(self) -> bool:
         if self._new:
-            self.unit.require_known()
+            self.unit.require_no_other()
             self._take_permission()
             self.axes |= self._new
             self._new = set()

@@ -61,6 +61,15 @@ export class Unit {
         this.#isKnown = true;
     }
 
+    /** The same for a stop, which goes out to a unit that does not answer, too. */
+    async requireNoOther(): Promise<void> {
+        await this.requireKnown().catch((error: unknown) => {
+            if (error instanceof LineTrouble && error.trouble.kind === "WrongUnit") {
+                throw error;
+            }
+        });
+    }
+
     /** Tells a unit that has restarted since it was looked at first. */
     async requireSameStart(wasExecuted = false): Promise<void> {
         const row = register("UPTIME");

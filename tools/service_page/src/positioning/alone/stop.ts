@@ -78,7 +78,7 @@ export class Stop {
         const { unit, look } = this.#desk;
         if (this.#new.size > 0) {
             const wanted = this.#new;
-            await unit.requireKnown();
+            await unit.requireNoOther();
             this.#desk.looks().touch(wanted);
             await unit.takePermission(wanted);
             wanted.forEach((axis) => this.#axes.add(axis));
