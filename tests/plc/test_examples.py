@@ -18,6 +18,7 @@ DECLARATIONS = """
 VAR_EXTERNAL AXIS_1 : POS_AXIS; END_VAR
 VAR
   Released, Button : BOOL;
+  Start : R_TRIG;
   Fault : UINT;
   Power : MC_Power;
   Motion : MC_MoveRelative;
@@ -145,17 +146,32 @@ def begin_documented(plc: Plc, program: str, name: str, **inputs: bool) -> Insta
     return main
 
 
+def press(plc: Plc, main: Instance) -> None:
+    """Lets the button go, and presses it."""
+    for level in (False, True):
+        main["Button"] = level
+        plc.run(5)
+
+
+def lose_the_line_for_a_while(plc: Plc) -> None:
+    plc.cut = True
+    plc.until(lambda: not plc.axes[0]["Online"])
+    plc.cut = False
+    plc.run(400)
+    assert plc.axes[0]["Online"]
+
+
 def test_the_first_move_of_the_unit_s_page_moves(make_plc) -> None:
     program = documented(UNIT_PAGE)
     assert program.count("\n") <= 10
     plc = make_plc()
     main = begin_documented(plc, program, "FIRST_MOVE")
+    plc.until(lambda: main["Motion"]["Done"])
+    lose_the_line_for_a_while(plc)
     for position in (10000, 20000):
-        main["Button"] = True
-        plc.until(lambda: main["Motion"]["Done"])
         assert plc.unit.axes[0].position == position
-        main["Button"] = False
-        plc.run(5)
+        press(plc, main)
+        plc.until(lambda: main["Motion"]["Done"])
 
 
 def test_the_program_of_the_document_moves_an_axis(make_plc) -> None:
@@ -163,13 +179,15 @@ def test_the_program_of_the_document_moves_an_axis(make_plc) -> None:
     plc = make_plc()
     main = begin_documented(plc, program, "DOCUMENTED")
     assert plc.axes[0]["Online"]
-    assert plc.unit.axes[0].executed == []
     main["Released"] = True
+    plc.until(lambda: main["Power"]["Status"])
+    plc.run(100)
+    assert plc.unit.axes[0].position == 0
+    press(plc, main)
     plc.until(lambda: main["Motion"]["Done"])
+    lose_the_line_for_a_while(plc)
     assert plc.unit.axes[0].position == 12500
-    main["Button"] = False
-    plc.run(5)
-    main["Button"] = True
+    press(plc, main)
     plc.until(lambda: plc.unit.axes[0].position > 15000)
     main["Released"] = False
     plc.until(lambda: main["Stop"]["Done"])
