@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import pytest
+from plc_cycle import Plc
 from plc_moves import GO, INIT, LOCKED, MODE, NOT_ONLINE, OUT_OF_RANGE, feed, finish, moving
+
+FAULT_STANDS = 15
 
 
 def test_a_move_that_is_over_asks_for_no_feed(plc) -> None:
@@ -33,9 +37,12 @@ def test_reset_leaves_the_axis_to_a_stop_that_comes_while_it_waits(plc) -> None:
     plc.run(1)
     assert reset["Busy"]
     stop = plc.start("MC_Stop")
-    finish(plc, reset)
     finish(plc, stop)
-    assert (reset["Done"], stop["Done"]) == (True, True)
+    assert (reset["Busy"], stop["Done"]) == (True, True)
+    assert plc.unit.axes[0].executed == [INIT, MODE]
+    stop["Execute"] = False
+    finish(plc, reset)
+    assert reset["Done"]
     assert plc.unit.axes[0].executed == [INIT, MODE, INIT]
 
 
@@ -47,10 +54,37 @@ def test_reset_does_not_take_the_axis_while_stop_holds_it(plc) -> None:
     reset = plc.start("MC_Reset")
     stop = plc.start("MC_Stop")
     plc.until(lambda: stop["Done"])
-    plc.unit.axes[0].fault(7)
     again = plc.start("MC_Reset")
-    plc.run(1)
-    assert (reset["Done"], again["ErrorID"]) == (True, LOCKED)
+    plc.run(50)
+    assert (reset["Busy"], again["ErrorID"]) == (True, LOCKED)
+    assert plc.unit.axes[0].executed == [INIT, MODE]
+
+
+@pytest.mark.parametrize("name", ["MC_Halt", "MC_Stop"])
+def test_a_stop_sees_the_axis_stand_after_a_fault_and_leaves_the_fault_to_reset(name, plc) -> None:
+    status = plc.add("MC_ReadStatus", Enable=True)
+    finish_with_fault(plc)
+    assert plc.unit.axes[0].has("JEDE")
+    stop = plc.start(name)
+    finish(plc, stop)
+    assert (stop["Done"], plc.unit.axes[0].has("JEDE")) == (True, False)
+    stop["Execute"] = False
+    plc.run(10)
+    assert status["ErrorStop"]
+    refused = plc.start("MC_MoveRelative", Distance=1.0, **GO)
+    finish(plc, refused)
+    assert refused["ErrorID"] == FAULT_STANDS
+    reset = plc.start("MC_Reset")
+    finish(plc, reset)
+    assert (reset["Done"], status["ErrorStop"]) == (True, False)
+
+
+def finish_with_fault(plc: Plc) -> None:
+    """A move that is ended by a fault, and brakes yet."""
+    move = moving(plc, Acceleration=50.0)
+    plc.run(60)
+    plc.unit.axes[0].fault(7)
+    finish(plc, move)
 
 
 def test_reset_waits_until_the_axis_stands(plc) -> None:
