@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -46,6 +47,20 @@ def test_a_stop_goes_out_though_nobody_answers(
     assert positioning(*stop, "--port", relay.port).status == 3
 
     served.control().wait_for("stands", stands)
+
+
+def test_a_move_whose_answers_are_lost_is_held_if_the_unit_hears_it(
+    positioning: Callable[..., Any], served: Served, relay: Relay
+):
+    relay.dumb = False
+    falls_dumb = threading.Timer(1.0, setattr, (relay, "dumb", True))
+    falls_dumb.start()
+    result = positioning("move", "1000", "--axis", "2", "--port", relay.port)
+
+    assert result.status == 3
+    assert result.err.startswith("STOP NOT CONFIRMED: ")
+    served.control().wait_for("stands", lambda state: not state["moving"][1])
+    assert served.control().order("?")["positions"][1] > 0
 
 
 def test_a_stop_of_the_page_goes_out_to_a_unit_that_was_never_heard(

@@ -6,6 +6,7 @@ import os
 import sys
 from argparse import Namespace
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
 
 from rkm04_tools.bar import Bar
@@ -268,6 +269,8 @@ def _moved(options: Namespace, mm: float, work: Callable[[Axis, Tell], AxisState
                 raise
             except LineError as error:
                 shout(str(error))
+                with suppress(Failure):  # it may hear what it does not answer
+                    axis.control(permitted=False)
                 raise
             finally:
                 begun = is_taken or axis.instructed
