@@ -15,6 +15,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from rkm04_tools.positioning.line_errors import Faulted
+from rkm04_tools.positioning.unit import open_unit
 from served import Served
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -103,6 +105,25 @@ def test_a_limit_that_is_active_at_the_start_is_told_as_that(pos_call: Call, pos
     )
     pos_call("init")
     assert pos_call("move", "5", "--feed", "3000").startswith("axis 1: 5.000 mm, REACHED")
+
+
+def test_a_fault_is_told_when_the_axis_stands(pos_serve: Serve):
+    served = pos_serve(speed="1")
+    control = served.control()
+    with open_unit(served.place) as unit:
+        unit.set("LIMIT_PLUS", 3, 1)
+        axis = unit.axis(1)
+        axis.init()
+        axis.mode(1000.0, 100)
+        axis.control(6000, permitted=True)
+        control.wait_for("is fast", lambda state: state["positions"][0] > 3000)
+        control.order("3=1")
+        control.wait_for("brakes", lambda _: axis.read().has_fault)
+        with pytest.raises(Faulted, match="it brakes at"):
+            axis.control(100)
+        with pytest.raises(Faulted) as told:
+            axis.wait()
+        assert f"it stands at {axis.read().position_um / 1000:.3f} mm" in str(told.value)
 
 
 def test_a_feed_before_a_measure_is_told_what_is_missing(pos_call: Call, positioning: Tool):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.line_errors import LineError, UnitRestarted
-from rkm04_tools.positioning.state import EXCEPTIONS, error_text
+from rkm04_tools.positioning.state import EXCEPTIONS, AxisState, error_text, mm_text
 
 
 class WrongUnit(LineError):
@@ -59,13 +59,15 @@ class Refused(Failure):
 class Faulted(Failure):
     """A fault has ended the measure of an axis."""
 
-    def __init__(self, axis: int, number: int, at: str) -> None:
+    def __init__(self, state: AxisState) -> None:
+        at = mm_text(state.position_um)
+        where = f"it brakes at {at} mm" if state.moves else f"it stands at {at} mm"
         super().__init__(
-            f"axis {axis}: the measure was ended by {error_text(number)}; it stands at {at} mm; "
-            f"{ADVICE.get(number, 'find out why')}; init comes before the next one",
+            f"axis {state.axis}: the measure was ended by {error_text(state.error)}; {where}; "
+            f"{ADVICE.get(state.error, 'find out why')}; init comes before the next one",
             NOT_SO,
         )
-        self.number = number
+        self.number = state.error
 
 
 ADVICE = {

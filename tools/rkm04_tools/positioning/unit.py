@@ -277,7 +277,7 @@ class Axis:
         """Tell why a feed or a permission was not taken."""
         self._require_taken(state)
         if state.has_fault:
-            raise Faulted(self.number, state.error, mm_text(state.position_um))
+            raise Faulted(state)
         raise Failure(
             f"axis {self.number} is {state.words}, and takes no feed before a measure: "
             "mode gives one", NOT_SO,
@@ -320,9 +320,9 @@ class Axis:
         """Wait until the measure is reached; what ends it otherwise is an error."""
         while not (state := self.read()).is_reached:
             self._require_taken(state)
-            if state.has_fault:
-                raise Faulted(self.number, state.error, mm_text(state.position_um))
-            if not state.is_programmed:
+            if state.has_fault and not state.moves:
+                raise Faulted(state)
+            if not (state.has_fault or state.is_programmed):
                 raise Failure(
                     f"axis {self.number}: the measure was given up by another master; "
                     f"it is at {mm_text(state.position_um)} mm", NOT_SO,

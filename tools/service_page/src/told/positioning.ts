@@ -233,6 +233,7 @@ export const SERVICE: Sentences = [
     ["axis #1: $2 was refused: $3 (error #4: $5", "osa #1: instrukce $2 byla odmítnuta: $3 (chyba #4: $5"],
     ["find out why", "zjistěte proč"],
     ["axis #1: the measure was ended by $2", "osa #1: míru ukončila $2"],
+    ["it brakes at $1 mm", "brzdí na $1 mm"],
     ["it stands at $1 mm", "stojí na $1 mm"],
     ["init comes before the next one", "před další je třeba init"],
     ["axis #1: the measure was given up by another master", "osa #1: míry se vzdal jiný master"],
