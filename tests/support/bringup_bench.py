@@ -48,6 +48,32 @@ class Hands:
         return f"{line}\n"
 
 
+class FakeLine:
+    """A line that answers each command with the next of some texts, in pieces."""
+
+    name = "fake"
+
+    def __init__(self, *texts: bytes) -> None:
+        self.texts = list(texts)
+        self.sent: list[bytes] = []
+        self._there = b""
+
+    def read(self, seconds: float) -> bytes:
+        piece, self._there = self._there[:7], self._there[7:]
+        return piece
+
+    def write(self, data: bytes) -> None:
+        self.sent.append(data)
+        self._there += self.texts.pop(0) if self.texts else b""
+
+    def close(self) -> None:
+        pass
+
+
+def whole(text: bytes, letter: bytes) -> bytes:
+    return text + b"end %s %d\n" % (letter, sum(text))
+
+
 class VirtualLine:
     """A transport whose reading lets virtual time go by."""
 
@@ -55,9 +81,17 @@ class VirtualLine:
 
     def __init__(self, unit: virtual_board.Talk) -> None:
         self._unit = unit
+        self._kept = b""
 
     def read(self, seconds: float) -> bytes:
-        return self._unit.until(self._unit.ms + 1000 * seconds)
+        kept, self._kept = self._kept, b""
+        return kept or self._unit.until(self._unit.ms + 1000 * seconds)
+
+    def sleep(self, seconds: float) -> None:
+        """What comes meanwhile waits, as in a port."""
+        end = self._unit.ms + 1000 * seconds
+        while self._unit.ms < end:
+            self._kept += self._unit.until(end)
 
     def write(self, data: bytes) -> None:
         self._unit.say(data)
@@ -69,16 +103,12 @@ class VirtualLine:
 class VirtualTime:
     """What stands for the module `time`."""
 
-    def __init__(self, unit: virtual_board.Talk) -> None:
+    def __init__(self, unit: virtual_board.Talk, line: VirtualLine) -> None:
         self._unit = unit
+        self.sleep = line.sleep
 
     def monotonic(self) -> float:
         return self._unit.ms / 1000
-
-    def sleep(self, seconds: float) -> None:
-        end = self._unit.ms + 1000 * seconds
-        while self._unit.ms < end:
-            self._unit.until(end)
 
 
 class Bench:
@@ -131,8 +161,9 @@ def powered(
     arguments = ["--elf", str(elf), "--pins", str(folder / "pins"), "--lockstep"]
     arguments += ["--inputs", str(folder / "inputs"), "--for", str(SECONDS), *options]
     with virtual_board.Talk(virtual_board.program_path(), arguments) as unit:
-        monkeypatch.setattr(command, "open_transport", lambda _: VirtualLine(unit))
+        line = VirtualLine(unit)
+        monkeypatch.setattr(command, "open_transport", lambda _: line)
         for module in (clock, talk, wires):
-            monkeypatch.setattr(module, "time", VirtualTime(unit))
-        VirtualTime(unit).sleep(START_SECONDS)
+            monkeypatch.setattr(module, "time", VirtualTime(unit, line))
+        line.sleep(START_SECONDS)
         yield Bench(unit, name)

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from bringup_bench import INNER, Bench, Hands, powered
+from bringup_bench import INNER, Bench, FakeLine, Hands, powered, whole
 from rkm04_tools import board
 from rkm04_tools.board_header import read_board
 from rkm04_tools.bringup import command, talk, together
@@ -294,32 +294,6 @@ def test_a_walk_that_has_done_nothing_makes_no_report(tool, typed, listener, tmp
     assert result.status == 1
     assert "board.txt: not written, as nothing was done" in result.out
     assert list(tmp_path.iterdir()) == []
-
-
-class FakeLine:
-    """A line that answers each command with the next of some texts, in pieces."""
-
-    name = "fake"
-
-    def __init__(self, *texts: bytes) -> None:
-        self.texts = list(texts)
-        self.sent: list[bytes] = []
-        self._there = b""
-
-    def read(self, seconds: float) -> bytes:
-        piece, self._there = self._there[:7], self._there[7:]
-        return piece
-
-    def write(self, data: bytes) -> None:
-        self.sent.append(data)
-        self._there += self.texts.pop(0) if self.texts else b""
-
-    def close(self) -> None:
-        pass
-
-
-def whole(text: bytes, letter: bytes) -> bytes:
-    return text + b"end %s %d\n" % (letter, sum(text))
 
 
 READY = whole(b"ready bringup-f405 3\n", b"h")

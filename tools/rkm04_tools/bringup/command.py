@@ -12,7 +12,7 @@ from rkm04_tools import board
 from rkm04_tools.board_header import read_board
 from rkm04_tools.bringup import findings
 from rkm04_tools.bringup.findings import BAD, LEFT_OUT, NOT_DONE, Part, Report, Seen, rows_of
-from rkm04_tools.bringup.part import WrongImage
+from rkm04_tools.bringup.part import WrongImage, look_at_starts
 from rkm04_tools.bringup.person import AGAIN, GO, LEAVE, NO, YES, Person, Stopped
 from rkm04_tools.bringup.plan import SAFETY, STEPS
 from rkm04_tools.bringup.step import Bench, Step
@@ -119,6 +119,7 @@ def _try(bench: Bench, step: Step, part: Part) -> str:
     bench.seen.clear()
     try:
         part.seen = list(step.run(bench))
+        part.seen += look_at_starts(bench)
         part.state = findings.DONE
         return ""
     except WrongImage as wrong:

@@ -18,6 +18,7 @@ def _restart(bench: Bench, letter: str) -> tuple[list[Seen], Answer | None]:
         none = compared("starts again", f"not in {START_SECONDS:g} s", "at once", False)
         return [none], None
     answer = bench.talk.ask("p")
+    bench.talk.started = False
     return [
         compared("starts again", f"after {seconds:.1f} s", "in a second or so", True),
         noted("last reset", flags_text(answer.number("reset_flags", 16))),

@@ -46,6 +46,7 @@ def look_at_line(bench: Bench) -> list[Seen]:
     wanted = f"bringup-{bench.board} {VERSION}"
     if name != wanted:
         raise WrongImage(name, wanted)
+    bench.talk.started = False
     return [compared("image, version of its answers", name, wanted, good=True)]
 
 
@@ -102,6 +103,16 @@ def look_at_start(bench: Bench) -> list[Seen]:
     if cause == "fault":
         seen.append(noted("fault", fault_text(answer)))
     return seen
+
+
+def look_at_starts(bench: Bench) -> list[Seen]:
+    """A board that starts by itself is not good, whatever the step has seen."""
+    if not bench.talk.started:
+        return []
+    bench.talk.started = False
+    answer = bench.talk.ask("p")
+    told = f"{answer.word('cause')} ({flags_text(answer.number('reset_flags', 16))})"
+    return [compared("starts anew", told, "not by itself; if it was you: r, once more", good=False)]
 
 
 def look_at_clocks(bench: Bench) -> list[Seen]:

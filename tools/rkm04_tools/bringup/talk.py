@@ -11,7 +11,8 @@ from rkm04_tools.transport import Transport
 
 VERSION = "3"
 """Of commands and answers; bringup_main.c has the same."""
-READY = "ready"
+READY, ASK_NAME = "ready", "h"
+STARTED = b"ready bringup-"
 TRIES = 3
 ANSWER_SECONDS = 2.0
 """From one byte of an answer to the next."""
@@ -66,6 +67,8 @@ class Talk:
         self._buffer = b""
         self.asked = 0.0
         """When the last command was sent."""
+        self.started = False
+        """Whether the image has said, without being asked, that it has started."""
 
     def ask(self, command: str, tries: int = TRIES) -> Answer:
         """Send a command; the answer, its sum being right."""
@@ -100,6 +103,7 @@ class Talk:
             words = line.split()
             if line == command or not words:
                 continue  # an adapter that hears itself
+            self.started |= words[0] == READY and command != ASK_NAME
             if words[:2] == ["end", command[0]]:
                 whole = words[2:] == [str(total)]
                 return (Answer(rows) if whole else None), True
@@ -124,6 +128,8 @@ class Talk:
         return line.decode("latin-1").strip("\r")
 
     def _drain(self) -> None:
-        self._buffer = b""
-        while self._transport.read(QUIET_SECONDS):
-            pass
+        """What comes unasked is no answer, but may be the word of a board that has started."""
+        came, self._buffer = self._buffer, b""
+        while data := self._transport.read(QUIET_SECONDS):
+            came += data
+        self.started |= self.asked > 0 and STARTED in came

@@ -28,6 +28,7 @@ def try_together(bench: Bench) -> list[Seen]:
         answer = bench.talk.ask("p")
         if _faults(answer) == before:
             return _judged(bench.talk.ask("m"))
+        bench.talk.started = False
         return [_restarted(answer)]
 
 
