@@ -11,7 +11,16 @@ from pathlib import Path
 from rkm04_tools import board
 from rkm04_tools.board_header import read_board
 from rkm04_tools.bringup import findings
-from rkm04_tools.bringup.findings import BAD, LEFT_OUT, NOT_DONE, Part, Report, Seen, rows_of
+from rkm04_tools.bringup.findings import (
+    BAD,
+    LEFT_OUT,
+    NOT_DONE,
+    Part,
+    Report,
+    Seen,
+    bad_before,
+    rows_of,
+)
 from rkm04_tools.bringup.part import WrongImage, look_at_starts
 from rkm04_tools.bringup.person import AGAIN, GO, LEAVE, NO, YES, Person, Stopped
 from rkm04_tools.bringup.plan import SAFETY, STEPS
@@ -102,15 +111,17 @@ def _walk(bench: Bench, report: Report) -> int:
 
 def _do(bench: Bench, step: Step, part: Part) -> None:
     """A step, as often as the person wants it; without an answer there is no way on."""
-    again = True
+    again, before = True, list[Seen]()
     while again:
         silent = _try(bench, step, part)
+        before += [each for each in bad_before(part.seen) if each not in before]
         bench.person.tell(rows_of(part.seen))
         if silent:
             bench.person.tell("\n" + silent)
             again = bench.person.choose(AFTER_SILENCE, AGAIN, status=NO_CONNECTION) == AGAIN
         else:
             again = bench.person.choose(AFTER, AGAIN, enter=GO) == AGAIN
+    part.seen += [each for each in before if each not in bad_before(part.seen)]
 
 
 def _try(bench: Bench, step: Step, part: Part) -> str:

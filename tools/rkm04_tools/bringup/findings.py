@@ -31,6 +31,12 @@ def noted(what: str, seen: str, remark: str = "") -> Seen:
     return Seen(what, seen, remark, NOTE)
 
 
+def bad_before(seen: list[Seen]) -> list[Seen]:
+    """Of a try that is repeated: what is bad now and then is bad, too."""
+    bad = [f"{each.what.strip()}: {each.seen}" for each in seen if each.verdict == BAD]
+    return [noted("bad before", what) for what in bad]
+
+
 @dataclass
 class Part:
     """A step in the report."""
@@ -38,6 +44,17 @@ class Part:
     name: str
     state: str = NOT_DONE
     seen: list[Seen] = field(default_factory=list)
+
+    @property
+    def bad(self) -> list[str]:
+        """What was bad; what stands below something else with the name of that."""
+        found, head = [], ""
+        for seen in self.seen:
+            below = seen.what.startswith(" ")
+            head = head if below else seen.what
+            if seen.verdict == BAD:
+                found.append(f"{head}: {seen.what.strip()}" if below else head)
+        return found
 
 
 @dataclass
@@ -62,9 +79,9 @@ class Report:
         return any(part.seen for part in self.parts)
 
     @property
-    def bad(self) -> list[tuple[str, Seen]]:
-        """Step and what was seen in it."""
-        return [(p.name, s) for p in self.parts for s in p.seen if s.verdict == BAD]
+    def bad(self) -> list[str]:
+        """Each step in which something was, and what."""
+        return [f"{part.name} ({what})" for part in self.parts for what in part.bad]
 
     def as_object(self) -> dict[str, Any]:
         """For `--json`."""
@@ -88,9 +105,8 @@ class Report:
     def result(self) -> str:
         """The last line."""
         missing = [part.name for part in self.parts if part.state != DONE]
-        bad = [f"{name} ({seen.what})" for name, seen in self.bad]
         good = "nothing bad was seen" if self.looked else "nothing was seen"
-        said = [f"BAD: {', '.join(bad)}" if bad else good]
+        said = [f"BAD: {', '.join(self.bad)}" if self.bad else good]
         if missing:
             said.append(f"NOT DONE: {', '.join(missing)}")
         return "; ".join(said)

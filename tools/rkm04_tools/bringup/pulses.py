@@ -4,7 +4,7 @@ measured."""
 from __future__ import annotations
 
 from rkm04_tools.bringup import train
-from rkm04_tools.bringup.findings import NOTE, Seen, compared, rows_of
+from rkm04_tools.bringup.findings import NOTE, Seen, bad_before, compared, rows_of
 from rkm04_tools.bringup.person import AGAIN, GO
 from rkm04_tools.bringup.step import Bench
 from rkm04_tools.bringup.talk import Refused
@@ -34,14 +34,16 @@ def measure(bench: Bench) -> list[Seen]:
 
 def _motor(bench: Bench, motor: int) -> list[Seen]:
     step, capture = name_of(bench, f"STEP_{motor}"), name_of(bench, CAPTURE)
-    said = AGAIN
+    said, before = AGAIN, list[Seen]()
     while said == AGAIN:
         bench.person.tell(f"A wire from {step} to {capture}, and nothing else there.")
         bench.person.choose(MEASURE, "", enter=GO)
         rows = _measured(bench, motor)
         bench.person.tell(rows_of(rows))
         said = bench.person.choose(AFTER, AGAIN, enter=GO)
-    return rows
+        if said == AGAIN:
+            before += bad_before(rows)
+    return [*rows, *_named(before)]
 
 
 def _measured(bench: Bench, motor: int) -> list[Seen]:
