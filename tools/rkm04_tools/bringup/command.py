@@ -27,6 +27,7 @@ from rkm04_tools.bringup.plan import SAFETY, STEPS
 from rkm04_tools.bringup.step import Bench, Step
 from rkm04_tools.bringup.talk import Refused, Talk
 from rkm04_tools.client_base import port_of
+from rkm04_tools.doubt import interrupted_by_any_end
 from rkm04_tools.failure import (
     DONE,
     INTERRUPTED,
@@ -59,7 +60,8 @@ AFTER_SILENCE = "r: try again, q: stop here"
 
 
 def run(options: Namespace) -> int:
-    """Ask whether it is safe before anything is sent; report whatever ends the walk."""
+    """Ask whether it is safe before anything is sent; report whatever ends the walk, a terminal
+    that is closed, too."""
     name = board.image_of(options.board).board
     header = read_board((board.BOARDS / name / "board.h").read_text())
     if options.report:
@@ -68,10 +70,11 @@ def run(options: Namespace) -> int:
     person = Person(sys.stderr if options.json else sys.stdout)
     status, ending = DONE, ""
     try:
-        _make_sure(person, name)
-        with closing(open_transport(report.port)) as transport:
-            bench = Bench(name, header, Talk(transport), person, options.patience)
-            status = _walk(bench, report)
+        with interrupted_by_any_end():
+            _make_sure(person, name)
+            with closing(open_transport(report.port)) as transport:
+                bench = Bench(name, header, Talk(transport), person, options.patience)
+                status = _walk(bench, report)
     except KeyboardInterrupt:
         status, ending = INTERRUPTED, "interrupted"
     except Stopped as stopped:
@@ -152,13 +155,13 @@ def _try(bench: Bench, step: Step, part: Part) -> str:
 
 
 def _tell(options: Namespace, person: Person, report: Report, ending: str, status: int) -> int:
+    if options.report and report.begun:
+        _write(Path(options.report), report.as_text())
     if ending:
         person.tell(f"\n{ending}")
     text = json.dumps(report.as_object(), indent=2) if options.json else report.as_text()
     print(text if options.json else f"\n{text}")
-    if options.report and report.begun:
-        _write(Path(options.report), report.as_text())
-    elif options.report:
+    if options.report and not report.begun:
         person.tell(f"{options.report}: not written, as nothing was done")
     return status
 

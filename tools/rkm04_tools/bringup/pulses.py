@@ -8,7 +8,7 @@ from rkm04_tools.bringup.findings import NOTE, Seen, bad_before, compared, rows_
 from rkm04_tools.bringup.person import AGAIN, GO
 from rkm04_tools.bringup.step import Bench
 from rkm04_tools.bringup.talk import Refused
-from rkm04_tools.bringup.wires import KINDS, MOTORS, NO_CRYSTAL, name_of, signals_of
+from rkm04_tools.bringup.wires import KINDS, MOTORS, NO_CRYSTAL, all_off, name_of, signals_of
 
 CAPTURE = "CAPTURE"
 MEASURE = "Enter: measure, q: stop here"
@@ -76,5 +76,5 @@ def _elsewhere(bench: Bench, motor: int) -> str:
                 if bench.talk.ask(f"{letter}{number}").number("capture") != rest:
                     return f"; the wire is at {name_of(bench, signal)}"
         finally:
-            bench.talk.ask(f"{letter}0")
+            all_off(bench, letter)
     return f"; {DEAD}"

@@ -9,6 +9,7 @@ from rkm04_tools.bringup.findings import Seen, compared, noted
 from rkm04_tools.bringup.person import AGAIN, NO, YES
 from rkm04_tools.bringup.step import Bench
 from rkm04_tools.bringup.talk import Answer, Refused
+from rkm04_tools.doubt import undisturbed
 
 INPUTS, OUTPUTS, MOTORS = 8, 8, 4
 POLL_SECONDS = 0.3
@@ -98,10 +99,16 @@ def walk(kind: str) -> Callable[[Bench], list[Seen]]:
                 raise
             seen.append(compared("cannot be switched", "there is no crystal", "a crystal", False))
         finally:
-            bench.talk.ask(f"{letter}0")
+            all_off(bench, letter)
         return seen
 
     return run
+
+
+def all_off(bench: Bench, letter: str) -> None:
+    """Also when Ctrl-C is pressed twice."""
+    with undisturbed():
+        bench.talk.ask(f"{letter}0")
 
 
 def _switch(bench: Bench, command: str, signal: str, rest: Answer) -> list[Seen]:
