@@ -1,4 +1,5 @@
-"""`bringup`: whatever ends the walk, outputs go off, and what was seen is kept."""
+"""`bringup`: whatever ends the walk, outputs go off, and what was seen is kept; a line that does
+not let it end."""
 
 from __future__ import annotations
 
@@ -7,8 +8,9 @@ from pathlib import Path
 
 import pytest
 from bringup_bench import FakeLine, Hands, whole
-from rkm04_tools.bringup import command
+from rkm04_tools.bringup import command, talk
 from rkm04_tools.bringup.plan import STEPS
+from rkm04_tools.line_errors import GarbledAnswer
 
 NAME = whole(b"ready bringup-f405 3\n", b"h")
 REST = b"leds 00\ndirections 00\nsteps 00\nenables 00\ninputs 00\ncapture 0\n"
@@ -57,6 +59,30 @@ def test_an_output_goes_off_and_the_report_is_kept_whatever_ends_the_walk(
 
     assert (result.status, fake.sent[-1]) == (130, b"\no0\n")
     assert "outputs: not done" in (tmp_path / "report.txt").read_text()
+
+
+class Babble(FakeLine):
+    """A line that is never quiet, as with a unit of another rate: a byte in half a millisecond."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.seconds = 0.0
+
+    def monotonic(self) -> float:
+        return self.seconds
+
+    def read(self, seconds: float) -> bytes:
+        self.seconds += 0.0005
+        assert self.seconds < 60, "waits for ever"
+        return b"U"
+
+
+def test_a_line_that_is_never_quiet_is_told_and_not_waited_for(monkeypatch):
+    line = Babble()
+    monkeypatch.setattr(talk, "time", line)
+
+    with pytest.raises(GarbledAnswer, match="something came back"):
+        talk.Talk(line).ask("h")
 
 
 def test_ctrl_c_twice_leaves_no_output_on(tool, fake, monkeypatch):

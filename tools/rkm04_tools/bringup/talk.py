@@ -16,6 +16,8 @@ STARTED = b"ready bringup-"
 TRIES = 3
 ANSWER_SECONDS = 2.0
 """From one byte of an answer to the next."""
+WHOLE_SECONDS = 5.0
+"""For a whole answer, and for the line to be quiet before it."""
 QUIET_SECONDS = 0.02
 LINE_BYTES_MAX = 200
 GARBLED = "something came back, but no whole answer of a bring-up image"
@@ -74,7 +76,7 @@ class Talk:
         """Send a command; the answer, its sum being right."""
         heard = False
         for _ in range(tries):
-            self._drain()
+            heard = self._drain() or heard
             self._transport.write(f"\n{command}\n".encode())
             self.asked = time.monotonic()
             answer, some = self._answer(command)
@@ -98,7 +100,8 @@ class Talk:
         """What has come, and whether anything has."""
         rows: list[list[str]] = []
         total, heard = 0, False
-        while (line := self._line(ANSWER_SECONDS)) is not None:
+        end = time.monotonic() + WHOLE_SECONDS
+        while time.monotonic() < end and (line := self._line(ANSWER_SECONDS)) is not None:
             heard = heard or line not in ("", command)
             words = line.split()
             if line == command or not words:
@@ -127,9 +130,12 @@ class Talk:
         line, _, self._buffer = self._buffer.partition(b"\n")
         return line.decode("latin-1").strip("\r")
 
-    def _drain(self) -> None:
-        """What comes unasked is no answer, but may be the word of a board that has started."""
+    def _drain(self) -> bool:
+        """What comes unasked is no answer, but may be the word of a board that has started. Whether
+        it does not end."""
         came, self._buffer = self._buffer, b""
-        while data := self._transport.read(QUIET_SECONDS):
+        end = time.monotonic() + WHOLE_SECONDS
+        while (quiet := time.monotonic() < end) and (data := self._transport.read(QUIET_SECONDS)):
             came += data
         self.started |= self.asked > 0 and STARTED in came
+        return not quiet
