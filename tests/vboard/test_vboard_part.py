@@ -88,6 +88,13 @@ def test_a_stuck_pin_stays_where_it_is(run_image):
     assert run.result[7] <= 2
 
 
+def test_a_step_pin_that_is_stuck_before_power_comes_is_one_pulse_at_its_begin(run_image):
+    run = run_image("ports", "--stuck", "PA1=1", pins="m1_step PA1\n")
+
+    assert run.status == 0
+    assert run.summary["motors"][0]["pulses"] == 1
+
+
 def test_the_watchdog_resets_a_program_that_does_not_feed_it(run_image):
     run = run_image("watchdog", "--watch", "flags")
     flags = run.summary["watch"]["flags"]

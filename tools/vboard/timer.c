@@ -140,5 +140,6 @@ void timer_reset(struct timer *timer)
 void timer_init(struct timer *timer, struct timer_wires wires)
 {
     timer->wires = wires;
+    timer->start_cycle = VTIME_NEVER; /* pins have edges before the first reset */
     clock_attach(wires.clock, (enum event)(EVENT_TIM2 + wires.number), on_event, timer);
 }
