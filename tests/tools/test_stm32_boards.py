@@ -123,6 +123,26 @@ def test_a_build_for_an_unknown_board_is_told_which_there_are(tmp_path: Path) ->
     assert f"no such board; there are {', '.join(board.names())}" in " ".join(done.stderr.split())
 
 
+@pytest.mark.skipif(not shutil.which(board.COMPILER), reason=f"{board.COMPILER} is not installed")
+def test_nothing_that_could_be_flashed_is_made_of_pins_that_are_wrong(tmp_path: Path) -> None:
+    for part in ("CMakeLists.txt", "CMakePresets.json", "firmware", "tools", "tests"):
+        (tmp_path / part).symlink_to(ROOT / part)
+    shutil.copytree(ROOT / "hal", tmp_path / "hal")
+    header = tmp_path / "hal" / "stm32" / "boards" / "wrong" / "board.h"
+    header.parent.mkdir()
+    header.write_text(GOOD.replace("X(LED_2, C, 9, OUT)", "X(LED_2, C, 8, OUT)"))
+    ready = ["cmake", "--preset", "stm32", "-DFIRMWARE_BOARD=wrong"]
+    subprocess.run(ready, cwd=tmp_path, capture_output=True, check=True)
+
+    done = subprocess.run(
+        ["cmake", "--build", "--preset", "stm32"], cwd=tmp_path, capture_output=True, text=True
+    )
+
+    assert done.returncode != 0
+    assert f"{header}: PC8 is used twice: LED_1 and LED_2" in done.stderr + done.stdout
+    assert not list(tmp_path.glob("build/stm32/bin/*"))
+
+
 FIRST = "X(STEP_1, A, 0, TIM5_CH1)"
 LAST = "#define BOARD_DIR_HOLD_NS"
 
@@ -148,6 +168,8 @@ LAST = "#define BOARD_DIR_HOLD_NS"
         ("X(BO_1, B, 8, OUT)", "X(BO_1, B, 8, IN)", "BO_1 cannot be IN"),
         ("X(BO_1, B, 8, OUT)", "X(BO_1, B, 4, OUT)", "BO_1: PB4 is pulled up at reset as NJTRST"),
         (FIRST, "X(STEP_1, A, 15, TIM2_CH1)", "STEP_1: PA15 is pulled up"),
+        ("X(BO_1, B, 8, OUT)", "X(BO_1, C, 13, OUT)", "BO_1: PC13 must feed nothing (DS8626)"),
+        ("X(LED_1, C, 8, OUT)", "X(LED_1, C, 15, OUT)", "LED_1: PC15 must feed nothing (DS8626)"),
         ("X(BI_1, C, 0, IN_UP)", "X(BI_1, C, 0, OUT)", "BI_1 cannot be OUT"),
         ("X(BI_1, C, 0, IN_UP)", "", "BI_1 has no pin"),
         ("X(S1_1, A, 4, IN_UP)", "X(S1_1, A, 4, IN_UP) X(EN_1, B, 6, OUT)", "ENABLE is EN_ALL, or"),
@@ -205,6 +227,25 @@ def test_inputs_may_be_on_any_pins_and_the_first_of_those_that_share_a_line_has_
 )
 def test_enable_is_one_pin_or_one_of_each_motor(rows: str) -> None:
     assert list(board_pins.find_errors(f"{PLAIN}#define BOARD_ENABLE_PINS(X) {rows}\n")) == []
+
+
+def test_an_led_that_is_on_at_low_may_be_at_a_pin_that_only_sinks() -> None:
+    header = GOOD.replace("X(LED_1, C, 8, OUT)", "X(LED_1, C, 13, OUT)")
+
+    header = header.replace("BOARD_LED_LEVEL 1U", "BOARD_LED_LEVEL 0U")
+
+    assert list(board_pins.find_errors(header)) == []
+
+
+@pytest.mark.parametrize(("level", "wrong"), [("0U", False), ("1U", True)])
+def test_drivers_that_a_reset_would_switch_on_are_found(level: str, wrong: bool) -> None:
+    enable = (
+        f"#define BOARD_ENABLE_PINS(X) X(EN_ALL, A, 15, OUT)\n#define BOARD_ENABLE_LEVEL {level}"
+    )
+
+    errors = list(board_pins.find_errors(f"{PLAIN}{enable}\n"))
+
+    assert errors == ["EN_ALL: PA15 is pulled up at reset as JTDI"] * wrong
 
 
 def test_a_pin_that_a_part_of_the_board_takes_is_found() -> None:

@@ -77,6 +77,9 @@ INPUTS = {"BI", "S1"}
 # set them up. What must be safe meanwhile cannot be there.
 PULLED_UP = {"A15": "JTDI", "B4": "NJTRST"}
 SAFE_AT_RESET = {"STEP", "DIR", "BO", "LINE", "PWM"}
+# DS8626, output voltage characteristics: fed through the switch of the backup domain. They sink
+# 3 mA and must feed nothing, so all that they can do is light an LED that is on at low.
+WEAK = {"C13", "C14", "C15"}
 
 VALUE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(BOARD_\w+)[ \t]+\S", re.MULTILINE)
 LEVEL = re.compile(r"BOARD_(STEP|DIR|ENABLE|BI|BO|LED|S1|PWM)_LEVEL")
@@ -98,8 +101,6 @@ def value_errors(text: str, board: Board) -> Iterator[str]:
 def use_errors(pin: Pin, line: str, step_class: str) -> Iterator[str]:
     """Whether the pin can do what its signal needs."""
     kind, _, which = pin.signal.partition("_")
-    if kind in SAFE_AT_RESET and pin.pin in PULLED_UP:
-        yield f"{pin.signal}: P{pin.pin} is pulled up at reset as {PULLED_UP[pin.pin]}"
     channels = CHANNELS.get(kind, {})
     if kind in BY_CLASS and step_class == "2":
         if pin.use != (wanted := BY_CLASS[kind]):
@@ -118,6 +119,17 @@ def use_errors(pin: Pin, line: str, step_class: str) -> Iterator[str]:
             yield f"P{pin.pin} has no {line}_{which}"
     elif pin.use not in ({"IN", "IN_UP"} if kind in INPUTS else {"OUT"}):
         yield f"{pin.signal} cannot be {pin.use}"
+
+
+def place_errors(pin: Pin, values: dict[str, str]) -> Iterator[str]:
+    """Whether the signal may be there: what the pin does in a reset, and what it can feed."""
+    kind, _, _ = pin.signal.partition("_")
+    waked = kind == "EN" and values.get("BOARD_ENABLE_LEVEL") == "1U"
+    if (kind in SAFE_AT_RESET or waked) and pin.pin in PULLED_UP:
+        yield f"{pin.signal}: P{pin.pin} is pulled up at reset as {PULLED_UP[pin.pin]}"
+    sinks = kind == "LED" and values.get("BOARD_LED_LEVEL") == "0U"
+    if pin.pin in WEAK and pin.use in ("OUT", "GPIO") and not sinks:
+        yield f"{pin.signal}: P{pin.pin} must feed nothing (DS8626): no output but an LED on at low"
 
 
 def enable_errors(names: list[str]) -> Iterator[str]:
@@ -161,6 +173,7 @@ def find_errors(text: str) -> Iterator[str]:
             yield f"{pin.signal}: {package} has no P{pin.pin}"
         if occupant := board.taken.get(pin.pin) or DEBUG.get(pin.pin):
             yield f"{pin.signal}: P{pin.pin} belongs to {occupant}"
+        yield from place_errors(pin, board.values)
         yield from use_errors(pin, line, step_class)
     yield from channel_errors([pin for pin in board.pins if pin.signal != "CAPTURE"])
 

@@ -52,9 +52,23 @@ endif()
 # GCC 12: without this pass a step takes fewer cycles and less memory (hal/stm32/bench/README.md).
 target_compile_options(engine_step PRIVATE -fno-tree-forwprop)
 
+set(checks ${PROJECT_SOURCE_DIR}/tools/checks)
+set(run_python ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_SOURCE_DIR}/tools PYTHONDONTWRITEBYTECODE=1
+    ${Python3_EXECUTABLE} -m)
+
+# Before anything is compiled: nothing that could be flashed is left of pins that are wrong.
+add_custom_command(OUTPUT pins.stamp
+    COMMAND ${run_python} checks.board_pins ${board_header}
+    COMMAND ${CMAKE_COMMAND} -E touch pins.stamp
+    DEPENDS ${board_header} ${checks}/board_pins.py ${PROJECT_SOURCE_DIR}/tools/rkm04_tools/board_header.py
+    VERBATIM COMMENT "Checking pins")
+add_custom_target(board_pins DEPENDS pins.stamp)
+add_dependencies(hal_stm32 board_pins)
+
 # firmware_add_image(<target> <name> <library> <source>...): a main and the library that it needs, for the board.
 function(firmware_add_image target name library)
     add_executable(${target} ${ARGN})
+    add_dependencies(${target} board_pins)
     set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} SUFFIX .elf LINK_DEPENDS "${script};${unit_script}")
     set_target_properties(${target} PROPERTIES sram_data 0 flat 0)
     target_link_libraries(${target} PRIVATE ${library} hal hal_stm32 warnings)
@@ -96,9 +110,6 @@ target_link_libraries(take_back_image PRIVATE base)
 target_link_libraries(step_acts_image PRIVATE base)
 set_target_properties(take_back_image step_acts_image seam_image flat_image PROPERTIES EXCLUDE_FROM_ALL ON)
 
-set(checks ${PROJECT_SOURCE_DIR}/tools/checks)
-set(run_python ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_SOURCE_DIR}/tools PYTHONDONTWRITEBYTECODE=1
-    ${Python3_EXECUTABLE} -m)
 set(suffix ${PROJECT_SOURCE_DIR}/tools/rkm04_tools/image_suffix.py)
 add_custom_command(OUTPUT ${output}.hex ${output}.bin
     COMMAND ${CMAKE_OBJCOPY} -O ihex ${elf} ${output}.hex
@@ -118,14 +129,11 @@ if(TARGET paths_image)
     set(check_paths COMMAND ${run_python} checks.ram_code ${FIRMWARE_UNIT} $<TARGET_FILE:paths_image>)
 endif()
 add_custom_command(OUTPUT checked.stamp
-    COMMAND ${run_python} checks.board_pins ${board_header}
     COMMAND ${run_python} checks.ram_code ${FIRMWARE_UNIT} ${elf}
     ${check_paths}
     COMMAND ${CMAKE_COMMAND} -E touch checked.stamp
-    DEPENDS unit_image $<TARGET_NAME_IF_EXISTS:paths_image> ${board_header}
-        ${checks}/board_pins.py ${checks}/ram_code.py
-        ${PROJECT_SOURCE_DIR}/tools/rkm04_tools/board_header.py
-    VERBATIM COMMENT "Checking pins, and what runs from RAM")
+    DEPENDS unit_image $<TARGET_NAME_IF_EXISTS:paths_image> ${checks}/ram_code.py
+    VERBATIM COMMENT "Checking what runs from RAM")
 # All of a board, and nothing that only other units have.
 add_custom_target(board_files ALL DEPENDS ${files} checked.stamp)
 if(TARGET bench_image)
