@@ -69,6 +69,35 @@ def test_a_dump_of_sigrok_tells_its_sample_rate(tool, steps, tmp_path):
     assert facts(tool("compare", path, steps, "--json")) == EXPECTED
 
 
+@pytest.mark.parametrize(("step", "direction"), [("X STEP", "X DIR"), ("STEP 1", "DIR 1 [0]")])
+def test_names_in_a_dump_may_have_spaces(tool, steps, tmp_path, step, direction):
+    path = vcd_file(tmp_path / "a.vcd", SEEN, ANALYSER)
+    text = path.read_text()
+    for old, new in zip(names(SEEN), (step, direction), strict=True):
+        text = text.replace(f" {old} $end", f" {new} $end")
+    path.write_text(text)
+
+    assert facts(tool("compare", path, steps, "--json")) == EXPECTED
+
+
+def test_the_number_of_a_motor_may_stand_apart_in_a_dump(tool, tmp_path):
+    path = vcd_file(tmp_path / "a.vcd", edges(2, TRAIN, ANALYSER, Distortion()), ANALYSER)
+    path.write_text(path.read_text().replace("STEP2", "STEP 2").replace("DIR2", "DIR 2"))
+
+    told = tool("compare", path, steps_file(tmp_path / "steps.csv", {2: TRAIN}), "--json").json
+
+    assert (told["same"], [motor["motor"] for motor in told["motors"]]) == (True, [2])
+
+
+def test_a_wire_whose_level_is_told_late_has_changed_then(tool, steps, tmp_path):
+    path = vcd_file(tmp_path / "a.vcd", SEEN, ANALYSER)
+    text = path.read_text()
+    begin = text[text.index("#0 ") : text.index("\n", text.index("#0 "))]
+    path.write_text(text.replace(begin, "#0"))
+
+    assert facts(tool("compare", path, steps, "--json")) == EXPECTED
+
+
 def test_a_dump_may_have_vectors_and_reals_and_comments(tool, steps, tmp_path):
     path = vcd_file(tmp_path / "a.vcd", SEEN, ANALYSER)
     head, mark, body = path.read_text().partition("$upscope")

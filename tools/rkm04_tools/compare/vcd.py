@@ -1,6 +1,7 @@
 """Value change dumps (IEEE 1364): those of sigrok, of other analysers' programs, and of simulators.
 
-Only wires of one bit are taken; a value that is neither 0 nor 1 changes nothing.
+Only wires of one bit are taken; a value that is neither 0 nor 1 changes nothing. A wire whose level
+is not told at the begin has the other one until it is. Sigrok writes names with spaces as they are.
 """
 
 from __future__ import annotations
@@ -100,10 +101,12 @@ class _Changes:
                 if levels[name] == level:
                     continue
                 if levels[name] < 0:
-                    self.edges.begin(name, level)
-                else:
-                    levels[name] = level
-                    times[name].append(self.now)
+                    begins = self.now == (self.first or 0)
+                    self.edges.begin(name, level if begins else 1 - level)
+                    if begins:
+                        continue
+                levels[name] = level
+                times[name].append(self.now)
             elif word[0] == TIME and not self._skips:
                 self._set_time(word)
             elif self._skips or word[0] in WITH_CODE or word[0] == SECTION_MARK:
@@ -139,7 +142,8 @@ def _wires(texts: Iterable[str]) -> tuple[dict[str, str], Names]:
         words = text.split()
         if len(words) < 4 or words[0] in NO_WIRES:
             continue
-        _, size, code, name = words[:4]
+        _, size, code = words[:3]
+        name = " ".join(word for word in words[3:] if word[0] != "[")
         if size != "1":
             wide.add(name)
         elif codes.setdefault(name, code) != code:
