@@ -10,6 +10,7 @@ import pytest
 from rkm04_tools import board, virtual_board
 from rkm04_tools.board_header import read_board
 from rkm04_tools.bringup import clock, command, talk, wires
+from rkm04_tools.bringup.part import name_of_image
 from rkm04_tools.bringup.plan import STEPS
 
 INNER = {"address switch": 1, "outputs": 8, "LEDs": 4, "directions": 4}
@@ -72,6 +73,10 @@ class FakeLine:
 
 def whole(text: bytes, letter: bytes) -> bytes:
     return text + b"end %s %d\n" % (letter, sum(text))
+
+
+NAME = whole(f"ready {name_of_image('f405')}\n".encode(), b"h")
+"""What the image of that board says when it is asked who it is."""
 
 
 class VirtualLine:

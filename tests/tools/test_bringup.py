@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from bringup_bench import INNER, Bench, FakeLine, Hands, powered, whole
+from bringup_bench import INNER, NAME, Bench, FakeLine, Hands, powered, whole
 from rkm04_tools import board
 from rkm04_tools.board_header import read_board
 from rkm04_tools.bringup import command, talk, together
@@ -203,7 +203,8 @@ def test_an_image_for_other_pins_ends_the_walk_before_anything_is_switched(tool,
     result = tool("bringup", "--board", "weact-f405", "--port", "virtual")
 
     assert result.status == 1
-    assert "the board has the image bringup-f405 3, not bringup-weact-f405 3" in result.out
+    told = r"the board has the image bringup-f405 4 \w{8}, not bringup-weact-f405 4 \w{8}: flash"
+    assert re.search(told, result.out)
     assert "NOT DONE: line, part" in result.out
 
 
@@ -369,7 +370,7 @@ def test_ctrl_c_among_the_outputs_switches_them_off_and_tells_what_was_not_done(
 ):
     rest = b"leds 00\ndirections 00\nsteps 00\nenables 00\ninputs 00\ncapture 0\n"
     off, on = (whole(b"outputs %s\n" % mask + rest, b"o") for mask in (b"00", b"01"))
-    line = FakeLine(READY, off, on, off)
+    line = FakeLine(NAME, off, on, off)
     monkeypatch.setattr(command, "open_transport", lambda _: line)
     early = [step.name for step in STEPS[1:] if step.name != "outputs"]
     kept = answers(leave=early, until="LEDs").splitlines()
@@ -391,7 +392,7 @@ def test_what_was_bad_in_a_step_that_did_not_end_stays_in_the_report(
 ):
     rest = b"leds 00\ndirections 00\nsteps 00\nenables 00\ninputs 00\ncapture 0\n"
     off, on = (whole(b"outputs %s\n" % mask + rest, b"o") for mask in (b"00", b"01"))
-    line = FakeLine(READY, off, on, *([] if silent else [on, off]))
+    line = FakeLine(NAME, off, on, *([] if silent else [on, off]))
     monkeypatch.setattr(command, "open_transport", lambda _: line)
     early = ["s" for step in STEPS[1 : [step.name for step in STEPS].index("outputs")]]
     typed = ["y", "", "", *early, "", "n", *([last] if last else [])]

@@ -7,12 +7,11 @@ import signal
 from pathlib import Path
 
 import pytest
-from bringup_bench import FakeLine, Hands, whole
+from bringup_bench import NAME, FakeLine, Hands, whole
 from rkm04_tools.bringup import command, talk
 from rkm04_tools.bringup.plan import STEPS
 from rkm04_tools.line_errors import GarbledAnswer
 
-NAME = whole(b"ready bringup-f405 3\n", b"h")
 REST = b"leds 00\ndirections 00\nsteps 00\nenables 00\ninputs 00\ncapture 0\n"
 OFF, ON = (whole(b"outputs %s\n" % mask + REST, b"o") for mask in (b"00", b"01"))
 EARLY = ["s" for _ in STEPS[1 : [step.name for step in STEPS].index("outputs")]]

@@ -9,7 +9,6 @@ from rkm04_tools.bringup import command
 from rkm04_tools.bringup.findings import DONE, Part, Report, compared
 from rkm04_tools.bringup.plan import STEPS
 
-NAME = whole(b"ready bringup-f405 3\n", b"h")
 SUPPLY = b"supply_mv %d\ndetector_good 1\n"
 
 

@@ -1,4 +1,4 @@
-"""`bringup`: a board that starts anew while the walk goes on."""
+"""`bringup`: who it is that answers, and a board that starts anew while the walk goes on."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from bringup_bench import FakeLine, Hands, powered, whole
+from bringup_bench import NAME, FakeLine, Hands, powered, whole
 from rkm04_tools import board
 from rkm04_tools.bringup import talk
 from rkm04_tools.line_errors import GarbledAnswer
@@ -19,7 +19,6 @@ modelled = pytest.mark.skipif(
     not PROGRAM.is_file() or not shutil.which(board.COMPILER),
     reason="there is no virtual board, or no compiler for the image",
 )
-NAME = whole(b"ready bringup-f405 3\n", b"h")
 
 
 @modelled
@@ -31,6 +30,22 @@ def test_a_board_that_starts_by_itself_is_not_good_though_all_else_is(tool, tmp_
     assert result.status == 1
     assert re.search(r"BAD +starts anew +reset \(reset pin\)", result.out)
     assert "clocks (starts anew); NOT DONE: part" in result.out
+
+
+@modelled
+def test_an_image_of_another_header_of_that_board_ends_the_walk(tool, tmp_path, monkeypatch):
+    header = (board.BOARDS / "f405" / "board.h").read_text()
+    with powered(tmp_path, monkeypatch, "f405") as bench:
+        (tmp_path / "boards" / "f405").mkdir(parents=True)
+        changed = header.replace("X(BO_1, B, 8, OUT)", "X(BO_1, D, 2, OUT)")
+        (tmp_path / "boards" / "f405" / "board.h").write_text(changed)
+        monkeypatch.setattr(board, "BOARDS", tmp_path / "boards")
+        monkeypatch.setattr("sys.stdin", Hands(bench.walked()))
+        result = tool("bringup", "--board", "f405", "--port", "virtual")
+
+    assert result.status == 1
+    assert re.search(r"not bringup-f405 4 \w{8}, whose board\.h is another one: flash", result.out)
+    assert "NOT DONE: line, part" in result.out
 
 
 def test_a_start_that_was_not_asked_for_is_kept_in_mind():

@@ -97,7 +97,11 @@ if(FIRMWARE_UNIT STREQUAL rkm04)
     target_link_libraries(bringup_image PRIVATE base)
     target_include_directories(bringup_image PRIVATE ${PROJECT_SOURCE_DIR}/hal/stm32/boards/${FIRMWARE_BOARD}
         ${PROJECT_SOURCE_DIR}/firmware/${FIRMWARE_UNIT}/image)
-    target_compile_definitions(bringup_image PRIVATE BRINGUP_BOARD="${FIRMWARE_BOARD}")
+    # The tool that walks through it knows by this whether both have the same header.
+    file(SHA1 ${board_header} header_sum)
+    string(SUBSTRING ${header_sum} 0 8 header_sum)
+    target_compile_definitions(bringup_image PRIVATE
+        BRINGUP_BOARD="${FIRMWARE_BOARD}" BRINGUP_HEADER="${header_sum}")
 endif()
 
 # For the tests that ask for them.

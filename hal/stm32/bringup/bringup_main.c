@@ -10,7 +10,7 @@
 #include "hal_time.h"
 
 enum {
-    VERSION = 3, /* of the commands and answers; bringup/talk.py knows it */
+    VERSION = 4, /* of the commands and answers; bringup/talk.py knows it */
     COMMAND_BYTES_MAX = 8,
     WATCH_MS = 100,
 };
@@ -27,6 +27,7 @@ static void say_ready(void)
     say_name("ready");
     say_word("bringup-" BRINGUP_BOARD);
     say_decimal(VERSION);
+    say_word(BRINGUP_HEADER);
     say_line_end();
 }
 

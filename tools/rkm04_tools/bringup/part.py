@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from rkm04_tools import board_options
+import hashlib
+
+from rkm04_tools import board, board_options
 from rkm04_tools.board_part import FLASH_KB_MIN
 from rkm04_tools.bringup.clock import look_at_clock
 from rkm04_tools.bringup.findings import NOTE, Seen, compared, noted
@@ -35,19 +37,27 @@ class WrongImage(Failure):
     """An image with other pins, or other answers: what it did might be anything."""
 
     def __init__(self, name: str, wanted: str) -> None:
-        super().__init__(f"the board has the image {name}, not {wanted}: flash that", NOT_SO)
+        other = ", whose board.h is another one" if name.split()[:2] == wanted.split()[:2] else ""
+        text = f"the board has the image {name}, not {wanted}{other}: flash that"
+        super().__init__(text, NOT_SO)
         self.name = name
         self.wanted = wanted
+
+
+def name_of_image(name: str) -> str:
+    """What the image of a board says that it is: with which answers, made of which header."""
+    header = (board.BOARDS / name / "board.h").read_bytes()
+    return f"bringup-{name} {VERSION} {hashlib.sha1(header, usedforsecurity=False).hexdigest()[:8]}"
 
 
 def look_at_line(bench: Bench) -> list[Seen]:
     """Who answers."""
     name = " ".join(bench.talk.ask("h").words("ready"))
-    wanted = f"bringup-{bench.board} {VERSION}"
+    wanted = name_of_image(bench.board)
     if name != wanted:
         raise WrongImage(name, wanted)
     bench.talk.started = False
-    return [compared("image, version of its answers", name, wanted, good=True)]
+    return [compared("image, version of its answers, board.h", name, wanted, good=True)]
 
 
 def look_at_part(bench: Bench) -> list[Seen]:
@@ -65,16 +75,16 @@ def look_at_part(bench: Bench) -> list[Seen]:
     ]  # fmt: skip
 
 
-def option_bytes(board: str, control: int) -> list[Seen]:
+def option_bytes(name: str, control: int) -> list[Seen]:
     """Against what `board options` sets, and the rest as delivered."""
-    wanted = board_options.wanted_level(board, None)
+    wanted = board_options.wanted_level(name, None)
     level = (control & BROWN_OUT) >> board_options.LEVEL_PLACE
     other = (control ^ board_options.DELIVERED) & ~(BROWN_OUT | UNLOCKED) & 0xFFFFFFFF
     text = board_options.level_text(control)
     if level == board_options.BITS[wanted]:
         brown_out = compared("brown-out reset", text, f"level {wanted}", good=True)
     else:
-        advice = f"level {wanted}: tools/rkm04 board options --board {board}, later"
+        advice = f"level {wanted}: tools/rkm04 board options --board {name}, later"
         brown_out = Seen("brown-out reset", text, advice, NOTE)
     rest = f"{board_options.DELIVERED:08x} but for that level, as delivered"
     return [compared("option bytes", f"{control:08x}", rest, other == 0), brown_out]

@@ -9,7 +9,7 @@ from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.line_errors import GarbledAnswer, NoAnswer
 from rkm04_tools.transport import Transport
 
-VERSION = "3"
+VERSION = "4"
 """Of commands and answers; bringup_main.c has the same."""
 READY, ASK_NAME = "ready", "h"
 STARTED = b"ready bringup-"
