@@ -213,6 +213,15 @@ def test_enable_outputs_are_walked_and_seen_where_wires_lead_back(power, walk):
 
 
 @modelled
+def test_leds_that_blink_without_a_crystal_are_no_short_at_an_output(power, walk):
+    bench = power("f405", "--no-crystal", "--stuck", "PB8=0")
+
+    seen = walk("f405", bench, "outputs", "", *["y"] * 8, "")
+
+    assert [row["seen"] for row in seen["bad"]] == ["none is on"]
+
+
+@modelled
 def test_an_enable_output_that_is_stuck_is_read_at_its_pin(power, walk):
     name = "skr-pro-1.2"
     bench = power(name, "--stuck", "PF2=1", "--stuck", "PD7=0")

@@ -46,11 +46,11 @@ STEPS = (
     Step("pulses",
          "The STEP pins, one after the other: you lead a wire from it to CAPTURE, and a second\n"
          "timer measures 16 pulses, 60 to 135 us apart. Where none comes, the other STEP pins get\n"
-         "pulses, and all outputs go on one by one, to see where the wire leads.",
+         "pulses, and outputs, LEDs, DIR and ENABLE go on one by one, to see where the wire leads.",
          "all pulses, on their ticks, as wide as the board says", pulses.measure),
     Step("all motors",
          "Motors still unpowered, nothing to connect: 200 short bursts of the narrowest pulses at\n"
-         "all STEP pins at once.",
+         "all STEP pins at once. Nothing is measured there: the driver counts what it makes.",
          "each edge in time", together.try_together),
     Step("interrupts", "Nothing to do: how long the interrupts have taken, in cycles.",
          "they come", wires.look_at_cycles),

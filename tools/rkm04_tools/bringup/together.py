@@ -37,7 +37,7 @@ def _judged(answer: Answer) -> list[Seen]:
     period_us = 1e6 * answer.number("period_ticks") / answer.number("tick_hz")
     return [
         compared("pulses", f"{', '.join(map(str, made))}, {period_us:g} us apart",
-                 f"{wanted} of each motor", made == [wanted] * len(made)),
+                 f"{wanted} of each motor, by the driver's count", made == [wanted] * len(made)),
         compared("late", f"{late}", "0", late == 0),
     ]  # fmt: skip
 
