@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+from datetime import datetime
 
-from bringup_bench import FakeLine, Hands, whole
+from bringup_bench import NAME, FakeLine, Hands, whole
 from rkm04_tools.bringup import command
 from rkm04_tools.bringup.findings import DONE, Part, Report, compared
 from rkm04_tools.bringup.plan import STEPS
@@ -38,3 +39,15 @@ def test_what_was_bad_before_a_step_was_repeated_stays_in_the_report(tool, monke
         ("bad before", "supply at the part: 2.900 V", "note"),
     ]
     assert report["good"]
+
+
+def test_the_report_tells_when_the_walk_was(tool, monkeypatch, tmp_path):
+    monkeypatch.setattr(command, "open_transport", lambda _: FakeLine(NAME))
+    monkeypatch.setattr("sys.stdin", Hands(["y", "", "", "q"]))
+    begin = datetime.now().astimezone().replace(microsecond=0)
+
+    tool("bringup", "--port", "x", "--report", tmp_path / "report.txt")
+
+    head, _, _ = (tmp_path / "report.txt").read_text().partition("\n")
+    when = datetime.fromisoformat(head.removeprefix("bring-up of f405 at x, "))
+    assert begin <= when <= datetime.now().astimezone()

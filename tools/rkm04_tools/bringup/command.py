@@ -6,6 +6,7 @@ import json
 import sys
 from argparse import Namespace
 from contextlib import closing
+from datetime import datetime
 from pathlib import Path
 
 from rkm04_tools import board
@@ -66,7 +67,8 @@ def run(options: Namespace) -> int:
     header = read_board((board.BOARDS / name / "board.h").read_text())
     if options.report:
         _require_place(Path(options.report))
-    report = Report(name, port_of(options), [Part(step.name) for step in STEPS])
+    when = datetime.now().astimezone().isoformat(sep=" ", timespec="seconds")
+    report = Report(name, port_of(options), [Part(step.name) for step in STEPS], when)
     person = Person(sys.stderr if options.json else sys.stdout)
     status, ending = DONE, ""
     try:

@@ -64,6 +64,8 @@ class Report:
     board: str
     port: str
     parts: list[Part]
+    when: str = ""
+    """Date and time at the begin."""
 
     @property
     def begun(self) -> bool:
@@ -88,6 +90,7 @@ class Report:
         return {
             "board": self.board,
             "port": self.port,
+            "when": self.when,
             "complete": self.complete,
             "good": self.looked and not self.bad,
             "steps": [asdict(part) for part in self.parts],
@@ -95,7 +98,7 @@ class Report:
 
     def as_text(self) -> str:
         """For people."""
-        lines = [f"bring-up of {self.board} at {self.port}"]
+        lines = [f"bring-up of {self.board} at {self.port}, {self.when}"]
         for part in self.parts:
             lines += ["", f"{part.name}: {part.state}"]
             if part.seen:
