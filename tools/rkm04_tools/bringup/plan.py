@@ -32,7 +32,9 @@ STEPS = (
          "Set each input to 1 and back to 0, one after the other, in any order (by a switch or\n"
          "jumper, see the board's page). It ends when all have been, or nothing new comes.",
          "each goes to 1 and back, alone", wires.look_at_inputs),
-    Step("address switch", "Set switch S1 as you like; it was read when you see the address.",
+    Step("address switch",
+         "Set switch S1 as you like; it was read when you see the address. A contact is tried\n"
+         "when it was seen open and closed, so all open and all closed: r, once more.",
          "its address", wires.look_at_switch),
     Step("outputs", f"{ONE_BY_ONE}\nFirst BO_1.", "each on alone", wires.walk("BO")),
     Step("LEDs", f"{ONE_BY_ONE}\nFirst LED_1.", "each on alone", wires.walk("LED")),
