@@ -255,6 +255,7 @@ CSV_HEAD = "Time [s],STEP1\n"
         (b"\0" * 500_000, "is no capture: neither an .sr of sigrok nor a VCD"),
         (b"hello\n", "is no capture"),
         (b"time,level\n0,1\n", "is no capture"),
+        (b"Time [s];STEP1\n0;1\n", "first line is Time [s] and names, commas between"),
         (b"name,type,start_time,duration\n", "use its Export Raw Data"),
         (b"PK\x03\x04 and no more", "its end is missing, so it was cut off"),
         (b"$timescale 1 ns $end\n", "its head has no $enddefinitions"),

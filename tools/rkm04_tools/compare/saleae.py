@@ -45,7 +45,8 @@ class SaleaeReader:
         if len(columns) < 2 or not HEAD.fullmatch(columns[0]):
             raise Failure(
                 f"{path}: is no capture: neither an .sr of sigrok nor a VCD, and not a CSV of "
-                "Saleae Logic, whose first line begins with Time [s]; name another file"
+                "Saleae Logic, whose first line is Time [s] and names, commas between; name "
+                "another file"
             )
         self._columns = {name: at for at, name in reversed(list(enumerate(columns)))}
         self.names = names_of(columns[1:])
