@@ -111,3 +111,17 @@ def test_the_report_is_kept_where_there_is_no_terminal_any_more(
         tool("bringup", "--port", "x", "--report", tmp_path / "report.txt")
 
     assert "line: done" in (tmp_path / "report.txt").read_text()
+
+
+def test_a_report_that_cannot_be_written_in_the_end_is_on_the_screen(
+    tool, fake, monkeypatch, tmp_path: Path
+):
+    (tmp_path / "stick").mkdir()
+    hands = Hands(["y", "", ("", (tmp_path / "stick").rmdir), "q"])
+    monkeypatch.setattr("sys.stdin", hands)
+
+    result = tool("bringup", "--port", "x", "--report", tmp_path / "stick" / "report.txt")
+
+    assert result.status == 2
+    assert "report.txt: cannot be written" in result.err
+    assert "line: done" in result.out

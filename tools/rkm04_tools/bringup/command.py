@@ -157,12 +157,15 @@ def _try(bench: Bench, step: Step, part: Part) -> str:
 
 
 def _tell(options: Namespace, person: Person, report: Report, ending: str, status: int) -> int:
-    if options.report and report.begun:
-        _write(Path(options.report), report.as_text())
-    if ending:
-        person.tell(f"\n{ending}")
-    text = json.dumps(report.as_object(), indent=2) if options.json else report.as_text()
-    print(text if options.json else f"\n{text}")
+    """The file first: the terminal may be gone. And the terminal anyway: the disk may be full."""
+    try:
+        if options.report and report.begun:
+            _write(Path(options.report), report.as_text())
+    finally:
+        if ending:
+            person.tell(f"\n{ending}")
+        text = json.dumps(report.as_object(), indent=2) if options.json else report.as_text()
+        print(text if options.json else f"\n{text}")
     if options.report and not report.begun:
         person.tell(f"{options.report}: not written, as nothing was done")
     return status
