@@ -72,7 +72,7 @@ class FakeLine:
 
 
 def whole(text: bytes, letter: bytes) -> bytes:
-    return text + b"end %s %d\n" % (letter, sum(text))
+    return text + b"end %s %08x\n" % (letter, talk.summed(text))
 
 
 NAME = whole(f"ready {name_of_image('f405')}\n".encode(), b"h")

@@ -305,6 +305,7 @@ READY = whole(b"ready bringup-f405 3\n", b"h")
     [
         b"",
         READY.replace(b"ready", b"rea\xffy"),
+        READY.replace(b"ea", b"db"),
         READY[:-3],
         b"error ? broken\n",
         whole(b"ready bringup-f405 3\n", b"p"),

@@ -4,7 +4,7 @@
  * switched but by a command, and an output that is on goes off a minute after the last one.
  *
  * A command is a letter, perhaps a number, and the end of the line: see README.md beside this file. The answer is
- * lines of a name and values, then `end LETTER SUM`, the sum of all bytes before that line; or `error LETTER WHY`.
+ * lines of a name and values, then `end LETTER SUM` of all bytes before that line; or `error LETTER WHY`.
  *
  * Main only, but for the interrupts that these files start.
  */

@@ -23,6 +23,13 @@ LINE_BYTES_MAX = 200
 GARBLED = "something came back, but no whole answer of a bring-up image"
 
 
+def summed(data: bytes, total: int = 0) -> int:
+    """The sum of an answer after these bytes of it."""
+    for byte in data:
+        total = (31 * total + byte) % (1 << 32)
+    return total
+
+
 class Refused(Failure):
     """The image understands a command and does not do it."""
 
@@ -108,14 +115,14 @@ class Talk:
                 continue  # an adapter that hears itself
             self.started |= words[0] == READY and command != ASK_NAME
             if words[:2] == ["end", command[0]]:
-                whole = words[2:] == [str(total)]
+                whole = words[2:] == [f"{total:08x}"]
                 return (Answer(rows) if whole else None), True
             if words[0] == "error":
                 if words[1:2] == [command[0]]:
                     raise Refused(command, " ".join(words[2:]))
                 return None, True
             rows.append(words)
-            total += sum(line.encode("latin-1")) + ord("\n")
+            total = summed(f"{line}\n".encode("latin-1"), total)
         return None, heard
 
     def _line(self, seconds: float) -> str | None:
