@@ -5,7 +5,7 @@ enum {
     USUAL_MS = 3000, /* so long a stop takes at the most, as a rule */
 };
 
-static const uint16_t repeat_ms[] = {300, 300, 500, 1000, 2000, 4000};
+static const uint16_t repeat_ms[] = {300, 300, 500};
 
 /* ---- what is answered when the axes stand ---- */
 

@@ -77,9 +77,10 @@ void test_a_halt_gets_through_with_checksums_and_without(void)
     TEST_ASSERT_EQUAL(1, halts);
 }
 
-void test_a_halt_is_repeated_with_longer_and_longer_waits(void)
+/* So a line that is mended in between has an H that its unit takes within a second. */
+void test_a_halt_is_repeated_every_half_second(void)
 {
-    static const uint64_t waits_ms[] = {300, 300, 500, 1000, 2000, 4000, 4000};
+    static const uint64_t waits_ms[] = {300, 300, 500, 500, 500, 500, 500, 500};
     off = true;
     begin(GVE_MASTER_HALT, "");
     (void)pass();
