@@ -335,6 +335,31 @@ def test_a_unit_that_restarts_or_falls_silent_in_a_job_is_told_loudly(lined: Lin
         line.close()
 
 
+SLEEP = "(ms) => { const now = Date.now.bind(Date); Date.now = () => now() + ms; }"
+
+
+def test_after_a_sleep_of_the_computer_a_job_waits_for_somebody(place: str, lined: Lined) -> None:
+    page, bridge = lined(SerialBridge(place))
+    page.open("long.gve", LONG)
+    page.at("start").click()
+    page.doing("moving")
+    for worker in page.page.workers:
+        worker.evaluate(SLEEP, 25_000)
+    expect(page.at("job-words")).to_contain_text("slept for 25 s: INTERRUPTED by H")
+    page.doing("stopped, vectors wait")
+    page.at("language").select_option("cs")
+    expect(page.at("job-words")).to_contain_text("jeho program spal 25 s: PŘERUŠENO: H")
+    page.at("language").select_option("en")
+    bridge.sent = b""
+    page.page.wait_for_timeout(500)
+    assert b"!0C" not in bridge.sent
+    page.at("go").click()
+    page.doing("moving")
+    expect(page.at("job-words")).to_have_text("long.gve runs")
+    page.page.keyboard.press("Escape")
+    page.doing("stopped, vectors wait")
+
+
 def test_a_unit_that_has_restarted_while_its_port_was_gone_is_told(lined: Lined) -> None:
     unit = FakeGve()
     line = FakeGveLine(unit)

@@ -71,7 +71,8 @@ SERVED: dict[str, dict[str, set[str] | None]] = {
         "gve134/answers.py": None, "gve134/link.py": None, "gve134/link_errors.py": None,
         "gve134/master.py": None, "gve134/probing.py": None,
         "gve134/sending.py": {
-            "_unprobed", "executed_text", "_judge", "_refused", "interrupted", "_wait_for_room",
+            "_between", "_unprobed", "executed_text", "_judge", "_refused", "interrupted",
+            "_wait_for_room",
         },
         "gve134/state.py": {"text"}, "gve134/stopping.py": {
             "halted_text", "standing_text",
@@ -116,6 +117,8 @@ ASSEMBLED: dict[str, list[str]] = {
         "stand at X 0  Y 0  Z 0  A 0; stopped, nothing waits (Delete clears it); it is not known "
         "how many vectors were executed, 3 were sent",
         "a.gve: INTERRUPTED by what the unit does not tell; the axes stand at X 0  Y 0  Z 0  A 0",
+        "a.gve: the computer or its program slept for 25 s: INTERRUPTED by H; the "
+        "axes stand at X 0",
         "5 vectors were executed, 7 were sent",
         "a.gve:3: L5: refused: not while a vector runs, INTA is set; the 4 vectors before it are "
         "executed (answer F)",

@@ -9,7 +9,8 @@ What is refused ends the job, and so does an interrupt: INTA that no command of 
 brought about. What a line asks of the host (`gcode.directives`) is done when its turn comes.
 
 `tell` is called between commands and while something is waited for. What it raises ends `send` or
-`finish`, and another call goes on where that one was. So it is with an interrupt.
+`finish`, and another call goes on where that one was. So it is with an interrupt, and with a sleep
+of the computer, after which the axes are halted.
 """
 
 from __future__ import annotations
@@ -95,6 +96,7 @@ class Sender:
             self._commands = self._begin()
         self._pending.extendleft(reversed(self._begun))
         self._begun.clear()
+        self.unit.link.wire.take_slept()
         while True:
             count = self._fill()
             if count > 1:
@@ -103,7 +105,16 @@ class Sender:
                 self._send_single(self._take())
             else:
                 return
-            self.tell(self.sent)
+            self._between()
+
+    def _between(self) -> None:
+        """After a sleep nothing goes on by itself: beside the machine nobody expects that."""
+        if slept := self.unit.link.wire.take_slept():
+            self.unit.halt()
+            raise self.interrupted(
+                f"{self.job.source.name}: the computer or its program slept for {slept:.0f} s"
+            )
+        self.tell(self.sent)
 
     def _ahead(self, place: int) -> Command | None:
         """The command so many places ahead of the next one; None: there are not so many."""
@@ -249,6 +260,7 @@ class Sender:
         elif isinstance(asked, Pause):
             self._wait_until_stands()
             self.ask_person(asked.text)
+            self.unit.link.wire.take_slept()
         else:
             self._go_back(command)
 
@@ -257,10 +269,10 @@ class Sender:
         end = clock() + seconds
         while (left := end - clock()) > 0:
             self.unit.link.pause(min(left, POLL_SECONDS))
-            self.tell(self.sent)
+            self._between()
 
     def _wait_until_stands(self) -> Flags:
-        return self.unit.wait_until_stands(lambda: self.tell(self.sent))
+        return self.unit.wait_until_stands(self._between)
 
     def _go_back(self, command: Command) -> None:
         """Bring the axes back to where the sensor was touched."""
@@ -401,7 +413,7 @@ class Sender:
 
     def _wait_for_room(self, command: Command) -> None:
         """Wait a little; where nothing moves there will never be room."""
-        self.tell(self.sent)
+        self._between()
         self.unit.link.pause(NO_ROOM_SECONDS)
         if not self.unit.flags().has(RUN):
             self._waits += 1

@@ -12,6 +12,8 @@ from rkm04_tools.transport import Port
 SLICE_SECONDS = 0.02
 """How long a wait goes on before it is looked whether it is to end."""
 STALE_BYTES_MAX = 65_536
+SLEPT_SECONDS = 2.0
+"""A slice that takes so long was a sleep of the computer."""
 
 
 @dataclass(eq=False)
@@ -19,12 +21,15 @@ class Wire:
     """An open port.
 
     `look` is called again and again while an answer is waited for, and may raise what ends that.
+    `calendar` goes on while the computer sleeps, in which `clock` may stand.
     """
 
     port: Port
     baud: int
     clock: Callable[[], float] = time.monotonic
     look: Callable[[], None] = lambda: None
+    calendar: Callable[[], float] = time.time
+    _slept: float = 0.0
 
     def write(self, data: bytes) -> None:
         """Send bytes."""
@@ -33,7 +38,16 @@ class Wire:
     def read(self, seconds: float) -> bytes:
         """What comes within a slice of the time."""
         self.look()
-        return self.port.read(min(seconds, SLICE_SECONDS))
+        begin = self.calendar()
+        data = self.port.read(min(seconds, SLICE_SECONDS))
+        took = self.calendar() - begin
+        self._slept += took if took > SLEPT_SECONDS else 0.0
+        return data
+
+    def take_slept(self) -> float:
+        """For how long the computer has slept since this was asked last, in seconds."""
+        slept, self._slept = self._slept, 0.0
+        return slept
 
     def read_waiting(self) -> bytes:
         """What has come already."""

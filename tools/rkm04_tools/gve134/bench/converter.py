@@ -79,4 +79,4 @@ class Converter:
 
     def unit(self, baud: int) -> Unit:
         """The unit at the other end."""
-        return Unit(Link(Wire(self, baud, clock=self.seconds)))
+        return Unit(Link(Wire(self, baud, clock=self.seconds, calendar=self.seconds)))

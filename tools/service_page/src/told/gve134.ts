@@ -165,6 +165,8 @@ export const ALONE: Sentences = [
     ],
     ["INTERRUPTED by $1, positions at that moment $2", "PŘERUŠENO: $1, polohy v tom okamžiku $2"],
     ["INTERRUPTED by $1", "PŘERUŠENO: $1"],
+    ["the computer or its program slept for $1 s", "počítač nebo jeho program spal $1 s"],
+    ["the computer or its program slept for $1 s: INTERRUPTED by $2", "počítač nebo jeho program spal $1 s: PŘERUŠENO: $2"],
     ["what the unit does not tell", "příčinu jednotka neříká"],
     ["it is not known how many vectors were executed, $1 were sent", "není známo, kolik vektorů je vykonáno, odesláno $1"],
     ["$1 vectors were executed, $2 were sent", "vykonáno vektorů: $1, odesláno $2"],

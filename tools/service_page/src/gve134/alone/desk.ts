@@ -94,6 +94,7 @@ export class UnitDesk {
         if (this.#beats.isDue(now_ms)) {
             this.#tell({ type: "beat", beat: this.#beats.next(now_ms) });
         }
+        this.#line.link?.wire.stir();
         if (this.#halts.length > 0) {
             this.#line.link?.wire.poke();
         }

@@ -71,6 +71,7 @@ export class Sender {
             await this.#begin();
         }
         this.#pending.unshift(...this.#begun.splice(0));
+        this.#link.wire.takeSlept_s();
         for (;;) {
             const count = this.#fill();
             if (count > 1) {
@@ -80,9 +81,19 @@ export class Sender {
             } else {
                 return;
             }
-            await this.#hands.between();
+            await this.#between();
         }
     }
+
+    /** After a sleep nothing goes on by itself: beside the machine nobody expects that. */
+    readonly #between = async (): Promise<void> => {
+        const slept_s = this.#link.wire.takeSlept_s();
+        if (slept_s > 0) {
+            await this.#link.halt();
+            throw await this.#interrupted(`${this.#name}: the computer or its program slept for ${slept_s} s`);
+        }
+        await this.#hands.between();
+    };
 
     /** Waits until the axes stand. */
     async finish(): Promise<void> {
@@ -266,18 +277,19 @@ export class Sender {
             const end = performance.now() + 1000 * asked.seconds;
             for (let left = 1000 * asked.seconds; left > 0; left = end - performance.now()) {
                 await this.#link.wire.pause(Math.min(left, POLL_MS));
-                await this.#hands.between();
+                await this.#between();
             }
         } else if (asked.kind === "pause") {
             await this.#untilStands();
             await this.#hands.askPerson(asked.text);
+            this.#link.wire.takeSlept_s();
         } else {
             await this.#goBack(command);
         }
     }
 
     #untilStands(): Promise<number> {
-        return this.#link.untilStands(this.#hands.between);
+        return this.#link.untilStands(this.#between);
     }
 
     /** Brings the axes back to where the sensor was touched. */
@@ -381,7 +393,7 @@ export class Sender {
 
     /** Waits a little; where nothing moves there will never be room. */
     async #waitForRoom(command: Command): Promise<void> {
-        await this.#hands.between();
+        await this.#between();
         await this.#link.wire.pause(NO_ROOM_MS);
         this.#waits += (await this.#link.flags()) & RUN ? 0 : 1;
         if (this.#waits > WAITS_MAX) {

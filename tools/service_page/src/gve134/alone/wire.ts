@@ -6,6 +6,8 @@ import { Executed, type ExecutedExports } from "./executed";
 
 /** LINES_GVE134_HEARD_BYTES */
 const HEARD_BYTES = 4096;
+/** Who was not looked at for so long has slept. */
+const SLEPT_MS = 2000;
 
 /** What is asked for: enum gve_master_kind of tools/gve134_master/gve_master.h. */
 export const ASK = 0;
@@ -62,6 +64,8 @@ export class Wire {
     readonly #exports: Exports;
     readonly #line: number;
     #wake: (() => void) | null = null;
+    #stirred_ms = Date.now();
+    #slept_ms = 0;
 
     constructor(bytes: Bytes, port: BytePort) {
         this.port = port;
@@ -103,6 +107,22 @@ export class Wire {
             lines_gve134_take(this.#line, part.length, this.#now);
         }
         this.poke();
+    }
+
+    /** Called every few milliseconds. It goes by the date, as other clocks may stand while the computer sleeps. */
+    stir(): void {
+        const now_ms = Date.now();
+        const passed_ms = now_ms - this.#stirred_ms;
+        this.#slept_ms += passed_ms > SLEPT_MS ? passed_ms : 0;
+        this.#stirred_ms = now_ms;
+    }
+
+    /** For how long nobody has looked, since this was asked last. */
+    takeSlept_s(): number {
+        this.stir();
+        const slept_ms = this.#slept_ms;
+        this.#slept_ms = 0;
+        return Math.round(slept_ms / 1000);
     }
 
     /** Something has happened at which a wait is to look. */
