@@ -128,6 +128,7 @@ def test_a_job_runs_on_the_unit_in_the_page_and_halts_before_anything_else(page:
     stood = page.steps("X"), page.steps("Y")
     page.at("go").click()
     page.doing("moving")
+    expect(page.at("alarm")).to_be_hidden(timeout=1000)
     page.at("override").fill("200")
     expect(page.at("override-now")).to_have_text(re.compile(r"(19|20)\d(\.\d)? %"))
     expect(page.at("job-words")).to_have_text("circle.gve is done")

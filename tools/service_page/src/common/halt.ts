@@ -22,7 +22,8 @@ export class Halt {
     #done = "";
     #forget = 0;
 
-    constructor(unit: Known, t: CommonWords, left: Left) {
+    /** `moves`: whether something moves, of which it is not said any more that it stands. */
+    constructor(unit: Known, t: CommonWords, left: Left, moves: () => boolean) {
         this.#unit = unit;
         this.#t = t;
         this.#left = left;
@@ -35,9 +36,10 @@ export class Halt {
             }
             this.#show();
         });
-        unit.state.onChange(() => {
+        unit.watch(() => {
             const state = unit.state.value;
             this.#last = state === null ? this.#last : state.halt;
+            this.#done = moves() ? "" : this.#done;
             this.#show();
         });
         language.onChange(() => this.#show());

@@ -16,7 +16,7 @@ import { Facts } from "./facts";
 import { named, setUpLanguage, t } from "./i18n";
 import { CONDITION, type FromService, type ToService } from "./protocol";
 import { SettingsPanel } from "./settings";
-import { Unit } from "./unit";
+import { Unit, moves } from "./unit";
 
 /*
  * Puts the parts together; each sees the unit, and none of them another. Nothing on this page acts on a unit except
@@ -34,7 +34,7 @@ const danger = new Danger("danger-confirm");
 unit.state.watch((state) => danger.setPlace(state));
 const left = new Left(link, t, { name: "left_positioning", moves: () => unit.didMove });
 link.on("state", ({ doubt }) => doubt && left.mark());
-new Halt(unit, t, left);
+new Halt(unit, t, left, () => unit.now?.axes.some(moves) === true);
 new Connection(unit, t, { form: alone?.form });
 new Loud(unit, t, {
     didMove: () => unit.didMove,
