@@ -18,7 +18,7 @@ from fake_gve134 import FakeGve
 from gve134_ports import FakeGveLine
 from gve_drawn import drawn_file
 from gve_page import GvePage
-from page_looks import AXE, CUT, OUTSIDE, OVER, SIZES, VIOLATIONS
+from page_looks import AXE, CUT, DRAWN, OUTSIDE, OVER, SIZES, VIOLATIONS
 from playwright.sync_api import Browser, Page, WebSocket, expect
 from rkm04_tools import static_pages
 from rkm04_tools.gve134.service import alone
@@ -359,6 +359,20 @@ def test_after_a_sleep_of_the_computer_a_job_waits_for_somebody(place: str, line
     expect(page.at("job-words")).to_have_text("long.gve runs")
     page.page.keyboard.press("Escape")
     page.doing("stopped, vectors wait")
+
+
+def test_what_is_loud_covers_nothing_of_the_page(lined: Lined) -> None:
+    unit = FakeGve()
+    line = FakeGveLine(unit)
+    try:
+        page, _ = lined(SerialBridge(line.port))
+        page.page.evaluate("void fakeSerial.pull()")
+        page.at("stop").click()
+        expect(page.at("alarm")).to_contain_text("NOT CONFIRMED")
+        page.page.evaluate(DRAWN)
+        assert page.page.evaluate(OVER) == []
+    finally:
+        line.close()
 
 
 def test_a_unit_that_has_restarted_while_its_port_was_gone_is_told(lined: Lined) -> None:
