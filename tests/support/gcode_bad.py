@@ -87,6 +87,8 @@ BAD = [
                                 "mm away"),
     ("F100 G2 X0 R4", 1, 12, "an arc with R must end elsewhere than it starts; write a circle with "
                              "I, J, K"),
+    ("F100 G2 R4", 1, 9, "an arc with R must end elsewhere than it starts; write a circle with "
+                         "I, J, K"),
     ("F100 G2 X10 I0", 1, 13, "the arc has no radius: its centre is its start or its end"),
     ("M3", 1, 1, "M3: the spindle has no speed yet; write S"),
     ("S99999", 1, 1, "S99999: the spindle turns with 0 to 24000 turns a minute"),

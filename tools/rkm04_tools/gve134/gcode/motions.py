@@ -34,7 +34,7 @@ class Motions:
         modal, values = self.modal, block.values
         has_place = "X" in values or "Y" in values or "Z" in values or "A" in values
         if not has_place and not (
-            modal.is_arc and ("I" in values or "J" in values or "K" in values)
+            modal.is_arc and ("I" in values or "J" in values or "K" in values or "R" in values)
         ):
             if block.codes.get(code.MOTION) == code.PROBE:
                 raise Wrong(code.MOTION, "G38.2 takes the position to which the probe may go")
