@@ -33,6 +33,7 @@ NAME = "gve134.html"
 PORT = "USB 0403:6001"
 LONG = "V1000\n" + "C100,50\nC-100,50\n" * 200
 BAD = "V1000\nC1,2,3,4,5\nL10,0 ; \N{LATIN SMALL LETTER E WITH ACUTE}\nQX\n\n*E3\n"
+COLOUR = "(part) => getComputedStyle(part).color"
 READ = """async (files) => {
     const brought = JSON.parse(document.getElementById("alone").textContent);
     const script = new Blob([brought.worker], { type: "text/javascript" });
@@ -150,7 +151,10 @@ def test_errors_have_their_places_and_what_needs_the_service_is_said(page: GvePa
     page.at("language").select_option("en")
     gcode = {"name": "a.nc", "mimeType": "text/plain", "buffer": b"G1 X1 F100"}
     page.at("file").set_input_files(gcode)  # type: ignore[arg-type]
-    expect(page.at("file-trouble")).to_contain_text("tools/gve134 gcode")
+    trouble = page.at("file-trouble")
+    expect(trouble).to_contain_text("tools/gve134 gcode")
+    expect(trouble).to_contain_text("not opened, what is here stays")
+    assert trouble.evaluate(COLOUR) != page.at("file-name").evaluate(COLOUR)
     expect(page.at("alone-hint")).to_contain_text("service: G-code, ports over a network")
     page.open("large.gve", "N\n" + "C100,50\nC-100,50\nC9,9,9\n" * 20_000)
     expect(page.at("file-facts")).to_contain_text("60,000 vectors")

@@ -57,7 +57,8 @@ export class JobPanel {
         input.addEventListener("change", () => {
             const file = input.files?.[0];
             if (file) {
-                void this.#try(openFile(kind, file)).finally(() => (input.value = ""));
+                const more = kind === "file" && this.#unit.state.value?.file ? `; ${t("machine.notOpened")}` : "";
+                void this.#try(openFile(kind, file), more).finally(() => (input.value = ""));
             }
         });
     }
@@ -70,12 +71,13 @@ export class JobPanel {
         );
     }
 
-    async #try(work: Promise<void>): Promise<void> {
+    /** `more` is said with what is refused. */
+    async #try(work: Promise<void>, more = ""): Promise<void> {
         this.#say("");
         try {
             await work;
         } catch (error) {
-            this.#say(error instanceof Refused ? error.message : t("state.notSent"));
+            this.#say(error instanceof Refused ? error.message + more : t("state.notSent"));
         }
     }
 
