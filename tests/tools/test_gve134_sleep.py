@@ -21,9 +21,10 @@ def sender(unit: FakeGve, text: str) -> Sender:
 
 
 def fall_asleep(sending: Sender, seconds: float) -> None:
-    """Sleep at the next look for an answer."""
-    dates = [0.0, seconds]
-    sending.unit.link.wire.calendar = lambda: dates.pop(0) if len(dates) > 1 else dates[0]
+    """Sleep between two looks for an answer."""
+    wire = sending.unit.link.wire
+    date = wire.calendar() + seconds
+    wire.calendar = lambda: date
 
 
 def test_after_a_sleep_the_axes_are_halted_and_nothing_is_sent_by_itself() -> None:

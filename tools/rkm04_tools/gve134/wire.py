@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -13,7 +14,7 @@ SLICE_SECONDS = 0.02
 """How long a wait goes on before it is looked whether it is to end."""
 STALE_BYTES_MAX = 65_536
 SLEPT_SECONDS = 2.0
-"""A slice that takes so long was a sleep of the computer."""
+"""Who has not looked at the line for so long has slept."""
 
 
 @dataclass(eq=False)
@@ -29,6 +30,7 @@ class Wire:
     clock: Callable[[], float] = time.monotonic
     look: Callable[[], None] = lambda: None
     calendar: Callable[[], float] = time.time
+    _stirred: float = math.inf
     _slept: float = 0.0
 
     def write(self, data: bytes) -> None:
@@ -38,14 +40,18 @@ class Wire:
     def read(self, seconds: float) -> bytes:
         """What comes within a slice of the time."""
         self.look()
-        begin = self.calendar()
         data = self.port.read(min(seconds, SLICE_SECONDS))
-        took = self.calendar() - begin
-        self._slept += took if took > SLEPT_SECONDS else 0.0
+        self._stir()
         return data
+
+    def _stir(self) -> None:
+        now = self.calendar()
+        passed, self._stirred = now - self._stirred, now
+        self._slept += passed if passed > SLEPT_SECONDS else 0.0
 
     def take_slept(self) -> float:
         """For how long the computer has slept since this was asked last, in seconds."""
+        self._stir()
         slept, self._slept = self._slept, 0.0
         return slept
 
