@@ -433,6 +433,22 @@ def test_a_service_that_stands_still_is_noticed_and_clicks_meanwhile_never_act(
     expect(page.at("alarm")).to_have_attribute("data-kind", "done")
 
 
+def test_a_service_that_stands_still_in_a_job_is_told_loudly_and_the_job_then_waits(
+    line_page: GvePage, line_service: GveService, unit: FakeGve
+) -> None:
+    page = line_page
+    unit.vector_s = 0.05
+    page.open("a.gve", LONG)
+    page.at("start").click()
+    page.doing("moving")
+    line_service.tell(signal.SIGSTOP)
+    expect(page.at("loud")).to_contain_text("WHETHER THE AXES MOVE IS NOT KNOWN")
+    line_service.tell(signal.SIGCONT)
+    expect(page.at("job-words")).to_contain_text("slept for")
+    expect(page.at("loud")).to_be_hidden()
+    page.doing("stopped, vectors wait")
+
+
 def test_all_of_it_is_on_one_screen_whatever_the_length_of_the_file(page: GvePage) -> None:
     page.open("a.gve", LONG * 20)
     for name in ("stop", "start", "code", "canvas", "position-A", "outputs-off", "typed"):

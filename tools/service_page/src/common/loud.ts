@@ -64,7 +64,8 @@ export class Loud {
         if (state?.error && !state.connected && (state.away || didMove)) {
             return this.#t("loud.lost") + moving;
         }
-        if (state?.connected && (performance.now() - this.#fresh_ms > SILENT_MS || state.error !== null)) {
+        const isCut = didMove && !this.#unit.link.isOpen.value;
+        if (isCut || (state?.connected && (performance.now() - this.#fresh_ms > SILENT_MS || state.error !== null))) {
             return this.#t("loud.silent") + moving;
         }
         return this.#options.more();
