@@ -97,7 +97,7 @@ PROGRAMS = [
     "G64 G64", "G91.1 G91.1", "M0 M1", "M3 M4", "M6 M6", "M7 M7", "M8 M8", "M9 M9", "M98", "M104",
     "G64 P0.1", "G0 " + "X" * 2000, "o100 sub", "TURN_ON X=1", "CYCLE1(5)", "U1", "B5",
     "F300\nG20\nG1 X1", "G93\nG1 X1", "G0 D1", "G38.2 Z-10 F50\nG0 Z0", "G28\nG0 X400",
-    "G28\nG0 X-400", "G4 P500", "M30\nG0 X1", "S50 M3", "(nothing)",
+    "G28\nG0 X-400", "G4 P500", "M30\nG0 X1", "S50 M3", "S50 M3\nT1 M6\nG1 X1 F100", "(nothing)",
     "G1 F3000 Z1\nZ2", "F4000 G2 X0.2 I0.1", "G0 X1 ž", "G20\nG1 F182 X1",
 ]  # fmt: skip
 

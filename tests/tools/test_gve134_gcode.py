@@ -166,6 +166,11 @@ def test_a_machine_without_an_axis_a_spindle_or_a_probe_says_so() -> None:
         ("M30\nG0 X1\nG0 X2", [(2, "what follows the end of the program is left out")]),
         ("%\nG0 X1\n%\n\nnotes", [(5, "what follows the end of the program is left out")]),
         ("S50 M3", [(1, "the program ends without M2 or M30: the spindle stays on")]),
+        ("S50 M3\nT1 M6\nG0 X1\nG1 F100 Z-1\nX2\nM2", [
+            (4, "the spindle is off since the tool was changed (M6); write M3 after it"),
+        ]),
+        ("S50 M3\nT1 M6\nM3\nG1 F100 Z-1\nM2", []),
+        ("T1 M6\nG1 F100 Z-1\nM2", []),
         ("G1 F3000 Z1\nZ2\nX5", [(1, "vectors go slower than F, at an axis' limit; there are 2, "
                                      "the first one here")]),
     ],

@@ -213,6 +213,10 @@ const ACTS: Sentences = [
         "the program ends without M2 or M30: the spindle stays on",
         "program končí bez M2 nebo M30: vřeteno zůstane zapnuté",
     ],
+    [
+        "the spindle is off since the tool was changed (M6); write M3 after it",
+        "vřeteno je od výměny nástroje (M6) vypnuté; napište po ní M3",
+    ],
     ["there is no G-code in this file", "v souboru není žádný G-kód"],
     [
         "all moves of this program are shorter than a pulse, so nothing moves; look at steps_per_mm and steps_per_degree of the "

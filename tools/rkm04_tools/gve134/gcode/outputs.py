@@ -22,6 +22,8 @@ class Outputs:
     writer: Writer
     dwelt_s: float = 0.0
     """So long the spindle was waited for."""
+    stopped_by_change: bool = False
+    """The spindle was on, and is off since a tool was put in."""
     _spindle: int = OFF
     _rpm: float | None = None
     _tool: float | None = None
@@ -83,7 +85,7 @@ class Outputs:
         permille = 0 if command == OFF else _permille(self._rpm or 0.0, spindle)
         self.writer.turn_spindle(permille, command == REVERSE)
         starts = command != OFF and self._spindle == OFF
-        self._spindle = command
+        self._spindle, self.stopped_by_change = command, False
         if starts:
             self._wait(spindle)
 
@@ -96,6 +98,7 @@ class Outputs:
             raise Wrong("tool", "M6: no tool has been chosen; write T")
         if self.is_turning:
             self._turn(OFF)
+            self.stopped_by_change = True
         self.writer.pause(f"put in tool {self._tool:.0f}{f' ({comment})' if comment else ''}")
 
     def _cool(self, groups: set[str]) -> None:

@@ -20,6 +20,7 @@ TAPE_END = "%"
 GEOMETRY = "RIJKXYZAF"
 """The words to which a motion that cannot be is put down."""
 
+MOVING = frozenset("XYZAIJK")
 MOVES_ONLY = frozenset("XYZAF")
 PATH_TOLERANCE = (
     "G64 takes no tolerance (P) here: the path is kept exactly, and corners are slowed by the "
@@ -92,9 +93,18 @@ class Program:
         if once is not None:
             self._do_once(block, once)
         if once not in code.TAKES_AXES:
+            if self._outputs.stopped_by_change:
+                self._warn_of_spindle(block)
             self._motions.move(block)
         if (stop := commands.get("stop")) is not None:
             self.ended = self._outputs.stop(stop, comment)
+
+    def _warn_of_spindle(self, block: Block) -> None:
+        """Tell of the first motion with a feed whose spindle M6 has stopped."""
+        is_feed = self._modal.is_arc or self._modal.motion == code.LINEAR
+        if is_feed and not block.values.keys().isdisjoint(MOVING):
+            self._outputs.stopped_by_change = False
+            self._tell("the spindle is off since the tool was changed (M6); write M3 after it")
 
     def _do_once(self, block: Block, once: int) -> None:
         if once in code.TAKES_AXES and code.MOTION in block.codes:
