@@ -438,7 +438,7 @@ def test_a_service_that_stands_still_in_a_job_is_told_loudly_and_the_job_then_wa
 ) -> None:
     page = line_page
     unit.vector_s = 0.05
-    page.open("a.gve", LONG)
+    page.open("a.gve", f"!7V500\n{LONG}")
     page.at("start").click()
     page.doing("moving")
     line_service.tell(signal.SIGSTOP)
@@ -447,6 +447,8 @@ def test_a_service_that_stands_still_in_a_job_is_told_loudly_and_the_job_then_wa
     expect(page.at("job-words")).to_contain_text("slept for")
     expect(page.at("loud")).to_be_hidden()
     page.doing("stopped, vectors wait")
+    page.at("stop").click()
+    expect(page.at("alarm")).to_contain_text("confirmed by the unit; THE SPINDLE TURNS at 50 %")
 
 
 def test_all_of_it_is_on_one_screen_whatever_the_length_of_the_file(page: GvePage) -> None:

@@ -68,7 +68,8 @@ SERVED: dict[str, dict[str, set[str] | None]] = {
     },
     "gve134": {
         **SHARED,
-        "gve134/answers.py": None, "gve134/link.py": None, "gve134/link_errors.py": None,
+        "gve134/answers.py": None, "gve134/known.py": {"spindle_text"}, "gve134/link.py": None,
+        "gve134/link_errors.py": None,
         "gve134/master.py": None, "gve134/probing.py": None,
         "gve134/sending.py": {
             "_between", "_unprobed", "executed_text", "_judge", "_refused", "interrupted",
@@ -119,7 +120,7 @@ ASSEMBLED: dict[str, list[str]] = {
         "a.gve: INTERRUPTED by what the unit does not tell; the axes stand at X 0  Y 0  Z 0  A 0",
         "a.gve: the computer or its program slept for 25 s: INTERRUPTED by H; the "
         "axes stand at X 0",
-        "5 vectors were executed, 7 were sent",
+        "5 vectors were executed, 7 were sent", "confirmed by the unit; THE SPINDLE TURNS at 50 %",
         "a.gve:3: L5: refused: not while a vector runs, INTA is set; the 4 vectors before it are "
         "executed (answer F)",
         "a.gve:3: L5: refused: wrong syntax (answer 4)",

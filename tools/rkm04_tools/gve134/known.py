@@ -54,6 +54,12 @@ class Known:
         )
 
     @property
+    def spindle_text(self) -> str:
+        """What is to be said beside a confirmed stop; empty: it is off, or nobody knows."""
+        is_off = not self.spindle or (self.port or 0) & SPINDLE_BIT
+        return "" if is_off else f"; THE SPINDLE TURNS at {(self.spindle or 0) / 10:g} %"
+
+    @property
     def percent(self) -> float | None:
         """The factor of speed."""
         return None if self.factor is None else 100 * self.factor / FACTOR_ONE

@@ -116,7 +116,7 @@ class Worker(Turns[Unit]):
             unit.order("D")
         self._line.jogging = False
         self._line.look(unit)
-        return WORDS.plain(halted_text(halted))
+        return WORDS.plain(halted_text(halted)) + self._line.known.spindle_text
 
     def _has_more(self) -> bool:
         return self.board.state.wanted is not None and self._line.unit is not None

@@ -28,6 +28,7 @@ export const ALONE: Sentences = [
     ["halt comes first", "nejdříve HALT"],
     ["spindle: $1", "vřeteno: $1"],
     ["spindle off", "vřeteno je vypnuto"],
+    ["THE SPINDLE TURNS at $1 %", "VŘETENO SE OTÁČÍ na $1 %"],
     ["the spindle is set to $1", "vřeteno je nastaveno na $1"],
     ["the axes move by $1", "osy jedou o $1"],
     ["the axes go on", "osy pokračují"],

@@ -7,6 +7,7 @@ import * as acts from "./acts";
 import { ownFile, type Opened } from "./file";
 import { HELD, Jobs, STOPPED } from "./jobs";
 import type { UnitLink } from "./link";
+import { spindleText } from "./known";
 import { homingText, type Mill } from "./mill";
 import { UnitConnection } from "./seen_unit";
 import { flagsText, positionsText } from "./told";
@@ -438,7 +439,8 @@ export class UnitDesk {
         this.#line.isJogging = false;
         await this.#line.look(link);
         const what = restarted ? "the unit HAS RESTARTED, its positions count anew; " : "";
-        return `${what}the axes stand at ${positionsText(positions)}; ${flagsText(flags)}; confirmed by the unit`;
+        const text = `${what}the axes stand at ${positionsText(positions)}; ${flagsText(flags)}; confirmed by the unit`;
+        return text + spindleText(this.#line.state.known);
     }
 
     // ---- answers ----

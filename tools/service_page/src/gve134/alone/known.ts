@@ -53,6 +53,10 @@ export function knownWithout(known: Known, command: string): Known {
 
 export const percentOf = ({ factor }: Known): number | null => (factor === null ? null : (100 * factor) / FACTOR_ONE);
 
+/** What is to be said beside a confirmed stop; empty: it is off, or nobody knows. */
+export const spindleText = ({ port, spindle }: Known): string =>
+    spindle !== null && spindle > 0 && ((port ?? 0) & SPINDLE_BIT) === 0 ? `; THE SPINDLE TURNS at ${spindle / 10} %` : "";
+
 /** XU or XD, if it leads nearer to a wanted factor. */
 export function stepTowards(factor: number, wanted_percent: number): "XU" | "XD" | null {
     const wanted = factorOf(wanted_percent);
