@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+import zlib
 from dataclasses import dataclass
 
 from rkm04_tools.failure import NOT_SO, Failure
@@ -21,13 +22,6 @@ WHOLE_SECONDS = 5.0
 QUIET_SECONDS = 0.02
 LINE_BYTES_MAX = 200
 GARBLED = "something came back, but no whole answer of a bring-up image"
-
-
-def summed(data: bytes, total: int = 0) -> int:
-    """The sum of an answer after these bytes of it."""
-    for byte in data:
-        total = (31 * total + byte) % (1 << 32)
-    return total
 
 
 class Refused(Failure):
@@ -122,7 +116,7 @@ class Talk:
                     raise Refused(command, " ".join(words[2:]))
                 return None, True
             rows.append(words)
-            total = summed(f"{line}\n".encode("latin-1"), total)
+            total = zlib.crc32(f"{line}\n".encode("latin-1"), total)
         return None, heard
 
     def _line(self, seconds: float) -> str | None:
