@@ -166,8 +166,6 @@ def python_tests() -> Count:
     the other, when the machine is less busy; pytest names them both times. What they draw at random
     is the same again, so what they find by that is found again.
     """
-    # Each process compiles all tests for itself where nobody has: 8 s of a processor.
-    succeeds(*PYTEST, "--collect-only", "-q", "tests")
     processes = str((os.cpu_count() or 1) + 2)
     count = pytest("--numprocesses", processes, "--dist", "loadfile")
     if not 0 < count.failed <= TRIED_AGAIN:
