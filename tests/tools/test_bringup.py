@@ -297,30 +297,27 @@ def test_a_walk_that_has_done_nothing_makes_no_report(tool, typed, listener, tmp
     assert list(tmp_path.iterdir()) == []
 
 
-READY = whole(b"ready bringup-f405 3\n", b"h")
-
-
 @pytest.mark.parametrize(
     "before",
     [
         b"",
-        READY.replace(b"ready", b"rea\xffy"),
-        READY.replace(b"ea", b"db"),
-        READY[:-3],
+        NAME.replace(b"ready", b"rea\xffy"),
+        NAME.replace(b"ea", b"db"),
+        NAME[:-3],
         b"error ? broken\n",
-        whole(b"ready bringup-f405 3\n", b"p"),
+        NAME.replace(b"end h", b"end p"),
         b"\xff" * 500,
     ],
 )
 def test_an_answer_that_was_damaged_is_asked_for_again(before):
-    line = FakeLine(before, READY)
+    line = FakeLine(before, NAME)
 
-    assert talk.Talk(line).ask("h").words("ready") == ["bringup-f405", "3"]
+    assert talk.Talk(line).ask("h").word("ready") == "bringup-f405"
     assert line.sent == [b"\nh\n"] * 2
 
 
 def test_an_adapter_that_hears_itself_is_no_matter():
-    line = FakeLine(b"\nh\n" + READY)
+    line = FakeLine(b"\nh\n" + NAME)
 
     assert talk.Talk(line).ask("h").word("ready") == "bringup-f405"
 

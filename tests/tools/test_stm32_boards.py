@@ -123,26 +123,6 @@ def test_a_build_for_an_unknown_board_is_told_which_there_are(tmp_path: Path) ->
     assert f"no such board; there are {', '.join(board.names())}" in " ".join(done.stderr.split())
 
 
-@pytest.mark.skipif(not shutil.which(board.COMPILER), reason=f"{board.COMPILER} is not installed")
-def test_nothing_that_could_be_flashed_is_made_of_pins_that_are_wrong(tmp_path: Path) -> None:
-    for part in ("CMakeLists.txt", "CMakePresets.json", "firmware", "tools", "tests"):
-        (tmp_path / part).symlink_to(ROOT / part)
-    shutil.copytree(ROOT / "hal", tmp_path / "hal")
-    header = tmp_path / "hal" / "stm32" / "boards" / "wrong" / "board.h"
-    header.parent.mkdir()
-    header.write_text(GOOD.replace("X(LED_2, C, 9, OUT)", "X(LED_2, C, 8, OUT)"))
-    ready = ["cmake", "--preset", "stm32", "-DFIRMWARE_BOARD=wrong"]
-    subprocess.run(ready, cwd=tmp_path, capture_output=True, check=True)
-
-    done = subprocess.run(
-        ["cmake", "--build", "--preset", "stm32"], cwd=tmp_path, capture_output=True, text=True
-    )
-
-    assert done.returncode != 0
-    assert f"{header}: PC8 is used twice: LED_1 and LED_2" in done.stderr + done.stdout
-    assert not list(tmp_path.glob("build/stm32/bin/*"))
-
-
 FIRST = "X(STEP_1, A, 0, TIM5_CH1)"
 LAST = "#define BOARD_DIR_HOLD_NS"
 

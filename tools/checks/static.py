@@ -138,19 +138,19 @@ def analyse(files: Iterable[str], deep: bool) -> Iterator[str]:
     """Run clang-tidy on C files, several a process, as its start takes longer than a file."""
     mode = () if deep else SHALLOW
     arm, host = set(sources(*ARM)), (*mode, *includes(FOLDERS))
+    target = (*mode, *ARM_TARGET, "-isystem", NEWLIB)
     alike: dict[tuple[str, ...], list[str]] = {}
     for file in files:
-        own = (*mode, *ARM_TARGET, "-isystem", NEWLIB, *arm_includes(file))
-        alike.setdefault(own if file in arm else host, []).append(file)
-    jobs = [(part, own) for own, all_of in alike.items() for part in batched(all_of)]
+        own = (*target, *arm_includes(file)) if file in arm else host
+        alike.setdefault(own, []).append(file)
+    jobs = [
+        (some[start : start + FILES_A_PROCESS], own)
+        for own, some in alike.items()
+        for start in range(0, len(some), FILES_A_PROCESS)
+    ]
     with ThreadPoolExecutor(min(2, os.cpu_count() or 1)) as pool:
         for text in pool.map(lambda job: tidy(*job), jobs):
             yield from findings(text)
-
-
-def batched(files: list[str]) -> Iterator[list[str]]:
-    for start in range(0, len(files), FILES_A_PROCESS):
-        yield files[start : start + FILES_A_PROCESS]
 
 
 def complexities(files: Iterable[str]) -> Iterator[str]:

@@ -56,8 +56,9 @@ class Known:
     @property
     def spindle_text(self) -> str:
         """What is to be said beside a confirmed stop; empty: it is off, or nobody knows."""
-        is_off = not self.spindle or (self.port or 0) & SPINDLE_BIT
-        return "" if is_off else f"; THE SPINDLE TURNS at {(self.spindle or 0) / 10:g} %"
+        if not self.spindle or (self.port or 0) & SPINDLE_BIT:
+            return ""
+        return f"; THE SPINDLE TURNS at {self.spindle / 10:g} %"
 
     @property
     def percent(self) -> float | None:

@@ -261,7 +261,8 @@ class Axis:
         words = [] if permitted is None else [int(permitted)]
         words += [] if feed is None else _words(_feed(feed))
         stops = permitted is False or feed == 0
-        self.unit.require_no_other() if stops else self.unit.require_known()
+        require = self.unit.require_no_other if stops else self.unit.require_known
+        require()
         if words:
             place = self._base + (CONTROL if permitted is not None else FEED)
             found, _ = self.unit.wire.write_and_read(place, words, self._base + CONTROL, 3)
