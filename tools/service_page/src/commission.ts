@@ -344,6 +344,7 @@ export class Commission {
         }
         this.#say("teach-words", "");
         this.#say("homing-words", "");
+        this.#showRamp();
         this.#weighSoon();
         this.#show();
     }
