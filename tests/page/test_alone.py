@@ -247,6 +247,22 @@ def test_all_programs_start_together_and_escape_stops_them_until_resume(alone):
     expect(alone.locator("#state-1")).to_contain_text("moves")
 
 
+def test_what_is_left_of_a_program_that_was_cut_short_is_not_released_by_the_next(alone):
+    last = alone.locator("#log .log-item").first
+    write(alone, "\\ C100 [ F9 R")
+    alone.locator("#send").click()
+    expect(last).to_contain_text("sent and accepted")
+
+    write(alone, "F3 R")
+    alone.locator("#together").check()
+    alone.locator("#send-all").click()
+    expect(last).to_contain_text("motor 1 waits at [ in another program and would start too")
+    write(alone, "F2 R ]")
+    alone.locator("#send").click()
+
+    expect(alone.locator("#position-1")).to_have_text("11")
+
+
 def test_an_error_is_shown_in_the_program_and_nothing_is_sent(alone):
     write(alone, "F1 R\nV20000")
     alone.locator("#send").click()

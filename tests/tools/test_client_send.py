@@ -98,6 +98,19 @@ def test_the_unit_holds_the_long_program(motor, unit):
     assert (sent.commands, sent.messages, sent.overflow) == (241, 2, False)
 
 
+def test_what_is_left_of_a_program_that_was_cut_short_is_not_released_by_the_next(motor, unit):
+    unit.programs[1] = b"[S100F5R"
+    unit.states[0] = RUNNING
+
+    with pytest.raises(Failure, match=r"motor 1 waits at \[ in another program .* begin it with"):
+        motor.send(LONG[1:])
+
+    assert sent_texts(unit) == []
+    motor.send("F6R")
+    motor.send(LONG)
+    assert unit.programs[1].decode() == "[" + LONG[1:] + "]"
+
+
 def test_a_long_program_without_a_reset_is_held_too():
     assert plan(LONG[1:]).texts[0].startswith("[S100")
 

@@ -315,7 +315,7 @@ def is_locked(unit: Unit) -> bool:
 
 
 def require_room(motor: Motor, plan: Plan) -> None:
-    """Refuse to overwrite what is in the memory and may not have run."""
+    """Refuse to overwrite what is in the memory and may not have run, or to release it."""
     if motor.unit.node == BROADCAST or not plan.commands or plan.resets:
         return
     if [command.opcode for command in plan.commands] == ["SPEED"]:
@@ -324,16 +324,29 @@ def require_room(motor: Motor, plan: Plan) -> None:
         each = motor.unit.motor(number)
         if _has_run_all(each):
             continue
-        room = COMMANDS_MAX - len(held_commands(each))
+        held = held_commands(each)
+        room = COMMANDS_MAX - len(held)
         if plan.hold is Hold.BRACKETS:
             room -= len(BRACKETS)
-        if len(plan.commands) > room:
-            raise Failure(
-                f"{plan.checked.source.name}: has {len(plan.commands)} commands, and the memory of "
-                f"motor {number} has room for {max(room, 0)} more; nothing was sent; begin it with "
-                "\\, which stops the motor, or send it when the program there has run",
-                NOT_SO,
-            )
+        why = (
+            f"has {len(plan.commands)} commands, and the memory of motor {number} has room for "
+            f"{max(room, 0)} more"
+        )
+        if plan.hold is Hold.BRACKETS and waits_for_release(held):
+            why = f"motor {number} waits at [ in another program and would start too"
+        elif len(plan.commands) <= room:
+            continue
+        raise Failure(
+            f"{plan.checked.source.name}: {why}; nothing was sent; begin it with \\, which stops "
+            "the motor, or send it when the program there has run",
+            NOT_SO,
+        )
+
+
+def waits_for_release(held: Sequence[str]) -> bool:
+    """Whether what is held stops at a `[`, as a program does whose end has not come."""
+    brackets = [command for command in held if command in ("[", "]")]
+    return brackets[-1:] == ["["]
 
 
 def _has_run_all(motor: Motor) -> bool:

@@ -24,6 +24,7 @@ from rkm04_tools.sending import (
     require_room,
     send_program,
     send_texts,
+    waits_for_release,
 )
 from rkm04_tools.service.answers import Answer, ProgramWrong
 from rkm04_tools.service.checking import first_error
@@ -117,10 +118,9 @@ def _require_others_empty(unit: Unit, others: Sequence[int]) -> None:
     """`]` for all motors would be stored in their programs, and let one start that waits."""
     for number in others:
         held = held_commands(unit.motor(number))
-        brackets = [command for command in held if command in (HOLD, RELEASE)]
-        if brackets and brackets[-1] == HOLD:
+        if waits_for_release(held):
             why = "waits at [ in another program and would start too"
-        elif len(brackets) < len(held):
+        elif set(held) - {HOLD, RELEASE}:
             why = "holds another program, and ] to all motors would be added to it"
         else:
             continue

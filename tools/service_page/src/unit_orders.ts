@@ -4,7 +4,7 @@ import { ALL_MOTORS, MOTORS } from "./protocol";
 import type { Simulator } from "./simulator";
 import * as messages from "./unit_messages";
 import { LineTrouble, NODES_MAX, Refusal, SCANNING, STORING, type Wait } from "./unit_place";
-import { COMMANDS_MAX, HOLD, RELEASE, RESET, heldBack, planned, type Plan } from "./unit_plan";
+import { COMMANDS_MAX, HOLD, RELEASE, RESET, heldBack, planned, waitsForRelease, type Plan } from "./unit_plan";
 
 const FLAG_OVERFLOW = 3;
 const FLAGS: Record<number, string> = { 1: "the value after", 2: "the command" };
@@ -222,11 +222,11 @@ export class UnitOrders {
     async #requireOthersEmpty(motors: number[]): Promise<void> {
         for (const each of MOTORS.filter((motor) => !motors.includes(motor))) {
             const held = await this.#held(each);
-            const brackets = held.filter((command) => command === HOLD || command === RELEASE);
-            if (held.length > 0 && (brackets.length < held.length || brackets.at(-1) === HOLD)) {
+            const waits = waitsForRelease(held);
+            if (waits || held.some((command) => command !== HOLD && command !== RELEASE)) {
                 throw new Refusal(
-                    brackets.at(-1) === HOLD
-                        ? `motor ${each} waits at [ in another program and would start too`
+                    waits
+                        ? waiting(each)
                         : `motor ${each} holds another program, and ] to all motors would be added to it`,
                     "nothing was sent to any motor; reset it, or send without starting together",
                 );
@@ -249,7 +249,7 @@ export class UnitOrders {
         await this.#command(motors.length > 1 ? ALL_MOTORS : (motors[0] ?? ALL_MOTORS), RELEASE);
     }
 
-    /** Refuses to overwrite what is in the memory and may not have run. */
+    /** Refuses to overwrite what is in the memory and may not have run, or to release it. */
     async #requireRoom(motor: number, { texts, commands, plain, resets, alone }: Plan): Promise<void> {
         if (resets || alone !== null || (commands === 1 && plain[0]?.startsWith("V"))) {
             return;
@@ -259,11 +259,15 @@ export class UnitOrders {
             if (messages.isAtRest(motors[each - 1]) && !unit.memory_locked) {
                 continue;
             }
-            const brackets = texts.length > 1 || texts[0]?.startsWith(HOLD) ? 2 : 0;
-            const room = Math.max(0, COMMANDS_MAX - (await this.#held(each)).length - brackets);
-            if (commands > room) {
+            const brackets = texts[0]?.startsWith(HOLD) && plain[0] !== HOLD ? 2 : 0;
+            const held = await this.#held(each);
+            const room = Math.max(0, COMMANDS_MAX - held.length - brackets);
+            const waits = brackets > 0 && waitsForRelease(held);
+            if (commands > room || waits) {
                 throw new Refusal(
-                    `the program has ${commands} commands, and the memory of motor ${each} has room for ${room} more`,
+                    waits
+                        ? waiting(each)
+                        : `the program has ${commands} commands, and the memory of motor ${each} has room for ${room} more`,
                     "nothing was sent; begin it with \\, which stops the motor, or send it when the program there has run",
                 );
             }
@@ -341,6 +345,10 @@ export class UnitOrders {
 
 function numbersOf(motor: number): number[] {
     return motor === ALL_MOTORS ? [...MOTORS] : [motor];
+}
+
+function waiting(motor: number): string {
+    return `motor ${motor} waits at [ in another program and would start too`;
 }
 
 function programOf(answer: Uint8Array, motor: number): Got {

@@ -58,6 +58,11 @@ export function heldBack(plan: Plan, text_bytes_max: number, end = ""): Plan {
     return { ...plan, texts: packed(tokens, text_bytes_max) };
 }
 
+/** Whether a memory ends in a `[` that holds, as that of a program does whose end has not come. */
+export function waitsForRelease(held: string[]): boolean {
+    return held.filter((command) => command === HOLD || command === RELEASE).at(-1) === HOLD;
+}
+
 function begun(resets: boolean): string[] {
     return resets ? [RESET] : [];
 }
