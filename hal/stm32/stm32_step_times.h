@@ -11,6 +11,7 @@
 
 #include "base_tick.h"
 #include "board.h"
+#include "hal_step.h"
 #include "image.h"
 
 #define TICKS_OF_NS(ns) (((ns) * TICKS_PER_US + 999U) / 1000U)
@@ -42,6 +43,9 @@ enum {
 static_assert(IMAGE_STEP_HIGH_NS == 0U ||
                   (IMAGE_STEP_HIGH_NS >= BOARD_STEP_HIGH_NS && BOARD_LOW_TICKS <= LEFT_TICKS + ROUNDED_TICKS),
               "the drivers of the board want wider pulses than the unit makes, or more time between them");
+
+static_assert((BOARD_DIR_SETUP_NS <= HAL_STEP_DIR_NS) && (BOARD_DIR_HOLD_NS <= HAL_STEP_DIR_NS),
+              "the drivers of the board want DIR to stand for longer than a motion's first pulse leaves");
 
 static_assert(WIDEST_TICKS >= HIGH_TICKS && WIDEST_TICKS <= 10 * TICKS_PER_US,
               "a stop waits for the end of a pulse, with interrupts held off");

@@ -347,7 +347,7 @@ def with_value(name: str, value: str) -> str:
     """A header that has nothing wrong but this value."""
     header = GOOD.replace(LAST, f"{ENABLE}#define BOARD_ENABLE_LEVEL 0U\n{LAST}")
     old = re.compile(rf"#define {name} .*\n")
-    return old.sub("", header).replace(LAST, f"#define {name} {value}\n{LAST}")
+    return old.sub("", header) + f"\n#define {name} {value}\n"
 
 
 @compiled
@@ -377,6 +377,8 @@ ERASED, OVERLAPS = "flashing the image would erase the loader", "where programs 
     [
         *(("pins", f"BOARD_{level}_LEVEL", "2U", f"BOARD_{level}_LEVEL must") for level in LEVELS),
         *(("clock", "BOARD_CRYSTAL_MHZ", mhz, "must be 4 to 26") for mhz in ("0U", "3U", "27U")),
+        ("step", "BOARD_DIR_SETUP_NS", "200001U", "want DIR to stand for longer"),
+        ("gpio_step", "BOARD_DIR_HOLD_NS", "200001U", "want DIR to stand for longer"),
         ("flash", "BOARD_LOADER_BYTES", "0x1000", ERASED),
         ("flash", "BOARD_LOADER_BYTES", "0x14000", ERASED),
         ("flash", "BOARD_LOADER_BYTES", "0x30000", ERASED),
