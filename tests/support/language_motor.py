@@ -429,8 +429,6 @@ class Motor:
         else:
             self._watch.expect("stop", STOPS[cause], tick, tick + MS)
             self._follower.change(tick, lambda curve, k: curve.stopped_at(k))
-        if cause in self._guards:
-            self._guards[cause] = 0
         self._cause = cause
 
     def _end_limit_run(self, tick: int) -> None:
@@ -454,6 +452,8 @@ class Motor:
     def _finish(self, made: int, seen: int) -> None:
         """Go on after a move as what has stopped it wants."""
         cause, self._cause = self._cause, ""
+        if cause in self._guards and self._order and self._order.rest(made):
+            self._guards[cause] = 0
         if cause == "X":
             self._watch.allow("end", 0, self._clock, self._now.high)
             self.phase = Phase.ENDED

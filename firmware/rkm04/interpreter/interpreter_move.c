@@ -47,9 +47,13 @@ void interpreter_begin_move(struct interpreter *interpreter, const struct motion
     }
 }
 
-/* A guard that has stopped a move is spent. */
+/* A guard that has stopped a move is spent; not one that came when all of its steps were made or could not be helped
+ * any more: its input is in the way of the next move. */
 static void spend_guards(struct interpreter *interpreter, enum axis_cause cause)
 {
+    if (!axis_has_rest(interpreter->axis)) {
+        return;
+    }
     if (cause == AXIS_CAUSE_HIGH) {
         interpreter->guards.stop_high = 0;
     } else if (cause == AXIS_CAUSE_LOW) {

@@ -58,6 +58,30 @@ void test_a_guard_that_has_not_stopped_a_move_stays(void)
     TEST_ASSERT_UINT32_WITHIN(1, 50, bench_pulses(&bench, 1));
 }
 
+/* From before the last pulse of the first move until the unit has seen its end. */
+TEST_CASE(-1)
+TEST_CASE(0)
+TEST_CASE(1)
+TEST_CASE(200)
+void test_a_guard_that_comes_when_a_move_ends_is_there_for_the_next(int after_ticks)
+{
+    bench_do(&bench, 1, "S1000 F20 R");
+    uint64_t last = bench_pulse_tick(&bench, 1, 20);
+    bench_init(&bench);
+    bench_plan_input(&bench, last + (uint64_t)(int64_t)after_ticks, 3, true);
+    bench_do(&bench, 1, "M03 S1000 F20 R R R");
+    TEST_ASSERT_EQUAL_UINT32(40, bench_pulses(&bench, 1));
+}
+
+void test_a_guard_that_comes_on_the_way_down_is_there_for_the_next_move(void)
+{
+    bench_send(&bench, 1, "M03 S100 V1000 A2000 F1000 R R R");
+    bench_run_pulses(&bench, 1, 990);
+    bench_set_input(&bench, 3, true);
+    bench_run_idle(&bench);
+    TEST_ASSERT_EQUAL_UINT32(2000, bench_pulses(&bench, 1));
+}
+
 void test_only_the_guard_that_has_stopped_the_move_is_spent(void)
 {
     bench_set_input(&bench, 3, true);
