@@ -348,7 +348,8 @@ def test_an_interruption_of_a_stream_stops_the_motor_and_tells_so(start, serve, 
         assert (process.returncode, out) == (130, "")
         assert "rkm04: interrupted after " in err
         assert err.endswith(
-            f" of 4003 commands; unit {NODE}: motor 1 stands, stopped by K (rkm04 resume goes on)\n"
+            f" of 4003 commands; unit {NODE}: motor 1 stands, stopped by K (do not "
+            "resume: what is there of the program ends in its middle; rkm04 reset forgets it)\n"
         )
         before = motor.position()
         assert motor.unit.status().motors[0].stopped

@@ -125,6 +125,26 @@ def test_restore_stores_every_program_and_nothing_else(tool, folder, units):
     assert [done for done in units[0].done if done[0] == 3] == [b"\x031", b"\x033"]
 
 
+def test_restore_does_not_say_that_nothing_runs_in_a_unit_that_has_restarted(
+    tool, fake, folder, units
+):
+    def restart(answer: bytes) -> bytes:
+        stored = [message for message in units[0].done if message[0] == 3]
+        if len(stored) == 2 and units[0].done[-1][0] == 5:
+            units[0].restart()
+        return answer
+
+    fake.faults += [restart] * 1000
+
+    result = tool("restore", folder)
+
+    assert result.status == 1
+    node = units[0].node
+    assert f"unit {node} has restarted meanwhile, and runs what it has stored" in result.complaint
+    assert f"rkm04 stop --node {node} stops it" in result.complaint
+    assert "nothing runs" not in result.out
+
+
 def test_restore_ends_where_a_unit_holds_another_program(tool, folder, units, monkeypatch):
     def execute(unit: FakeUnit, message: bytes) -> bytes:
         answer = original(unit, message)

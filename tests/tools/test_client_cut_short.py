@@ -166,6 +166,7 @@ def test_a_send_to_a_unit_that_is_not_there_is_in_no_doubt(tool, fake, unit, wri
     [
         (["send"], b"F100", 0),
         (["resume"], b"C75", STOPPED),
+        (["reset"], b"\\", RUNNING | MOVING),
         (["speed", "500"], b"V500", RUNNING | MOVING),
     ],
 )

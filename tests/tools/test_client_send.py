@@ -22,6 +22,7 @@ from rkm04_tools.sending import (
     plan_program,
     without_hold,
 )
+from rkm04_tools.service.together import send_all
 from statuses import Vector
 
 LONG = "\\S100" + "F16000000R" * 120
@@ -319,7 +320,32 @@ def test_nor_if_it_has_restarted_while_it_was_waited_for(motor, unit, monkeypatc
     with pytest.raises(UnitRestarted):
         motor.send(LONG + "[")
 
-    assert sent_texts(unit) == ["\\[", "K"]
+    assert sent_texts(unit) == ["\\["]
+
+
+def test_what_needs_several_messages_does_not_go_to_all_units_at_once(fake, unit):
+    with open_line(fake.port) as line, pytest.raises(Failure, match="cannot go to all units"):
+        line.unit(0).motor(1).send(LONG)
+
+    assert unit.done == []
+
+
+@pytest.mark.parametrize("motors", [1, 2])
+def test_nothing_is_started_in_a_unit_that_has_restarted_since_it_got_its_programs(
+    fake, unit, motors
+):
+    def restart(answer: bytes) -> bytes:
+        if sent_texts(unit)[-1:] == [f"\\[F{motors}R"]:
+            unit.restart()
+        return answer
+
+    fake.faults += [restart] * 1000
+    programs = {number: f"\\ F{number} R" for number in range(1, motors + 1)}
+
+    with open_line(fake.port) as line, pytest.raises(Failure, match="has restarted"):
+        send_all(line.unit(1), programs, True, sending.silent)
+
+    assert "]" not in sent_texts(unit)
 
 
 def test_progress_is_told(motor):

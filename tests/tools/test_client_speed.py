@@ -40,6 +40,23 @@ def test_speed_goes_to_those_motors_that_move(tool, fake, unit):
     ]
 
 
+def test_no_speed_goes_to_a_unit_that_has_restarted_since_it_was_looked_at(tool, fake, unit):
+    unit.states[:] = [GOES] * 4
+
+    def restart(answer: bytes) -> bytes:
+        if unit.done[-1:] == [b"\xc8"] and unit.done.count(b"\xc8") == 1:
+            unit.restart()
+        return answer
+
+    fake.faults += [restart] * 1000
+
+    result = tool("speed", "500", "--motor", "0")
+
+    assert result.status == 3
+    assert "has restarted" in result.complaint
+    assert acts(unit) == []
+
+
 def test_speed_at_rest_sends_nothing_and_says_so(tool, fake, unit):
     result = tool("speed", "6000")
 

@@ -120,9 +120,8 @@ def test_watch_says_that_a_unit_has_restarted_and_takes_no_speed_across_it(call,
 
     assert len(lines) == 4
     assert lines[1].split("  ", 1)[1] == RESTARTED
-    assert "1: 0 - steps/s" in lines[2] or when != b"\xc8"
-    assert "- steps/s" in lines[2]
-    assert "1: 0 +0 steps/s" in lines[3] or when != b"\xc8"
+    assert "1: 0 - steps/s" in lines[2]
+    assert "1: 0 +0 steps/s" in lines[3]
 
 
 def test_so_it_does_of_one_that_was_silent_meanwhile(call, fake, unit, monkeypatch):

@@ -28,6 +28,7 @@ QUIET_SECONDS = 0.5
 POLL_SECONDS = 0.05
 EMERGENCY = "use the emergency stop"
 MAY_MOVE = "it may move: rkm04 status tells what it does, rkm04 stop stops it"
+RESUMES = " (rkm04 resume goes on)"
 KEPT = "nothing was changed: a motor that moves goes on"
 BROADCAST_NOTE = "NOT CONFIRMED: no unit answers a broadcast; look at each motor, or ask each unit"
 
@@ -77,9 +78,10 @@ def resume(unit: Unit, number: int, doubt: Doubt) -> list[Told]:
 def reset(unit: Unit, number: int, doubt: Doubt) -> list[Told]:
     """Send \\, and tell what each motor does then; nothing of a broadcast."""
     doubt.about("whether \\ was taken, and the motor stands", MAY_MOVE)
-    unit.motor(number).reset()
-    doubt.what = "\\ was taken, but whether the motor stands"
-    return [] if unit.node == BROADCAST else _after_stop(unit, number)
+    with unit.line.one_session(unit.node):
+        unit.motor(number).reset()
+        doubt.what = "\\ was taken, but whether the motor stands"
+        return [] if unit.node == BROADCAST else _after_stop(unit, number)
 
 
 def change_speed(
@@ -90,13 +92,14 @@ def change_speed(
         raise Failure(
             "node 0 means all units, and none can say which of its motors move; name one, 1 to 16"
         )
-    # One look decides, and gives the reason: in the next one the motor may move again.
-    found = states(unit, number)
-    still = _still(found) if found else _unmoved(unit, number)
-    return [
-        Told(each, still[each], False) if each in still else send(unit.motor(each), steps_per_s)
-        for each in numbers_of(number)
-    ]
+    with unit.line.one_session(unit.node):
+        # One look decides, and gives the reason: in the next one the motor may move again.
+        found = states(unit, number)
+        still = _still(found) if found else _unmoved(unit, number)
+        return [
+            Told(each, still[each], False) if each in still else send(unit.motor(each), steps_per_s)
+            for each in numbers_of(number)
+        ]
 
 
 def _still(found: Sequence[MotorStatus]) -> dict[int, str]:
@@ -164,7 +167,7 @@ def _stopped(motor: MotorStatus) -> Told:
         return Told(motor.motor, f"WAS NOT STOPPED: {motor.text}", False)
     if motor.moving:
         return Told(motor.motor, "still brakes", True)
-    why = " (rkm04 resume goes on)" if motor.stopped else ""
+    why = RESUMES if motor.stopped else ""
     return Told(motor.motor, f"{_does(motor)}{why}", True)
 
 

@@ -10,6 +10,7 @@ import itertools
 import re
 import textwrap
 from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,7 +22,8 @@ from rkm04_tools.failure import (
     finished_or_absent,
     writing_failed,
 )
-from rkm04_tools.line import Line
+from rkm04_tools.line import Line, Motor, Unit
+from rkm04_tools.line_errors import UnitRestarted
 from rkm04_tools.messages import MOTORS
 from rkm04_tools.sending import (
     Tell,
@@ -108,21 +110,43 @@ def read_folder(folder: Path) -> list[Program]:
 def restore(line: Line, programs: Sequence[Program], tell: Tell = silent) -> list[Program]:
     """Load and store programs, and read each of them back; return those whose motors moved.
 
-    All units are looked for first.
+    All units are looked for first, and at the end once more: one that has restarted meanwhile runs
+    what it has stored.
     """
-    for node in sorted({program.node for program in programs}):
-        line.unit(node).version()
+    nodes = sorted({program.node for program in programs})
     moved = []
-    for done, program in enumerate(programs):
-        motor = line.unit(program.node).motor(program.motor)
-        moved += [program] if motor.table() else []
-        tell(done, len(programs))
-        load_program(motor, program.checked)
-        motor.store()
-        if not plan_program(program.checked).is_held(held_commands(motor)):
-            raise Failure(f"{program.path}: the unit holds another program; restore again", NOT_SO)
-    tell(len(programs), len(programs))
+    with ExitStack() as sessions:
+        for node in nodes:
+            sessions.enter_context(line.one_session(node))
+            line.unit(node).version()
+        for done, program in enumerate(programs):
+            motor = line.unit(program.node).motor(program.motor)
+            moved += [program] if motor.table() else []
+            tell(done, len(programs))
+            _restore_one(motor, program)
+        tell(len(programs), len(programs))
+        for node in nodes:
+            _require_not_restarted(line.unit(node))
     return moved
+
+
+def _restore_one(motor: Motor, program: Program) -> None:
+    load_program(motor, program.checked)
+    motor.store()
+    if not plan_program(program.checked).is_held(held_commands(motor)):
+        raise Failure(f"{program.path}: the unit holds another program; restore again", NOT_SO)
+
+
+def _require_not_restarted(unit: Unit) -> None:
+    """By any question but the version, which a session begins with."""
+    try:
+        unit.positions()
+    except UnitRestarted:
+        raise Failure(
+            f"unit {unit.node} has restarted meanwhile, and runs what it has stored; "
+            f"rkm04 stop --node {unit.node} stops it",
+            NOT_SO,
+        ) from None
 
 
 def names_of(programs: Sequence[Saved]) -> str:

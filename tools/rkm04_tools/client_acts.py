@@ -37,6 +37,10 @@ from rkm04_tools.sending import (
 from rkm04_tools.speeding import send_speed
 from rkm04_tools.streaming import PART_COMMANDS_MAX, stream_program
 
+ENDS_IN_ITS_MIDDLE = (
+    " (do not resume: what is there of the program ends in its middle; rkm04 reset forgets it)"
+)
+
 Act = Callable[[Unit, int, Doubt], list[Told]]
 
 
@@ -156,7 +160,8 @@ def _stream(options: Namespace, node: int, port: str, checked: Checked) -> int:
                 doubt.done = f"interrupted after {counts}"
                 found = acting.stop(motor.unit, motor.number, doubt)
             for each in found:
-                print(f"rkm04: {doubt.done}; {_line(motor, each)}", file=sys.stderr)
+                text = _line(motor, each).replace(acting.RESUMES, ENDS_IN_ITS_MIDDLE)
+                print(f"rkm04: {doubt.done}; {text}", file=sys.stderr)
             return INTERRUPTED
 
 

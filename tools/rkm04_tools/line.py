@@ -15,7 +15,8 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from threading import RLock
 from types import TracebackType
@@ -51,6 +52,7 @@ STORE_SECONDS = 2.5
 SCAN_SECONDS = 0.045
 SCAN_ATTEMPTS = 2
 STALE_BYTES_MAX = 65_536
+BROADCAST_STOPS = 3
 
 
 @dataclass(frozen=True)
@@ -98,6 +100,7 @@ class Line:
     clock: Callable[[], int] = time.perf_counter_ns
     _master: Master = field(default_factory=lambda: Master(BAUD, USUAL.ms))
     _lock: RLock = field(default_factory=RLock)
+    _kept: dict[int, int | None] = field(default_factory=dict)
 
     def __enter__(self) -> Line:
         return self
@@ -118,6 +121,21 @@ class Line:
         """The unit with an address, 1 to 16; 0 means all of them, and none answers."""
         _require_node(node)
         return Unit(self, node)
+
+    @contextmanager
+    def one_session(self, node: int) -> Iterator[None]:
+        """Inside, a unit that has restarted since its first answer is told, whatever is asked.
+
+        Else a question begins a new session unseen, and what comes after it goes to a unit that
+        runs what it has stored. After an error nothing is known, and nothing told.
+        """
+        outer = node in self._kept
+        self._kept.setdefault(node, None)
+        try:
+            yield
+        finally:
+            if not outer:
+                self._kept.pop(node, None)
 
     def scan(self, nodes: Collection[int] = NODES, tell: Tell = silent) -> list[Found]:
         """Ask addresses for their version; silent ones are left out."""
@@ -160,12 +178,26 @@ class Line:
             if in_session:
                 # It may be under way still: the next request begins a session of its own.
                 self._master.forget(node)
+            self._keep_nothing(node)
             raise
         finally:
             self.sessions[node] = self._master.sessions(node)
             self.echoes = self._master.echoes()
         if end is not End.ANSWERED:
+            self._keep_nothing(node)
             raise self._failed(node, end)
+        if in_session and node in self._kept:
+            self._require_kept(node)
+
+    def _keep_nothing(self, node: int) -> None:
+        if node in self._kept:
+            self._kept[node] = None
+
+    def _require_kept(self, node: int) -> None:
+        kept, now = self._kept[node], self.sessions[node]
+        self._kept[node] = now
+        if kept not in (None, now):
+            raise UnitRestarted(f"{self.transport.name}: unit {node}", repeated=True)
 
     def _go_on(self) -> End:
         if out := self._master.take_out():
@@ -296,9 +328,11 @@ class Motor:
 
     def stop(self) -> None:
         """Stop down the ramp, and the program with it."""
-        # A second K does nothing, so this need not wait for a session to begin.
+        # A second K does nothing, so this need not wait for a session to begin, and where no unit
+        # answers it goes out several times.
         message = messages.request(SET_COMMAND, self.number, b"K")
-        answer = self.unit.line.request_at_once(self.unit.node, message)
+        for _ in range(BROADCAST_STOPS if self.unit.node == BROADCAST else 1):
+            answer = self.unit.line.request_at_once(self.unit.node, message)
         if answer:
             messages.parse_set_command(answer, self.number)
 

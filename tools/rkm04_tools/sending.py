@@ -156,7 +156,18 @@ def held_commands(motor: Motor) -> list[str]:
 
 def send_program(motor: Motor, checked: Checked, tell: Tell = silent) -> Sent:
     """Send a program without errors, which runs when all of it has arrived."""
-    plan = plan_program(checked)
+    with motor.unit.line.one_session(motor.unit.node):
+        return _send_plan(motor, plan_program(checked), tell)
+
+
+def _send_plan(motor: Motor, plan: Plan, tell: Tell) -> Sent:
+    # A unit that misses the first of them, with its [, runs the others as they come.
+    if motor.unit.node == BROADCAST and len(plan.texts) > 1:
+        raise Failure(
+            f"{plan.checked.source.name}: cannot go to all units at once, as it needs several "
+            "messages and leaves no way to hold it; send it to each unit",
+            NOT_SO,
+        )
     require_room(motor, plan)
     if plan.hold is not Hold.STOP:
         return send_texts(motor, plan, tell)
@@ -249,12 +260,6 @@ def pack(tokens: Sequence[str]) -> list[str]:
 def _require_holdable(motor: Motor, plan: Plan) -> None:
     """Refuse, while nothing has been sent, what cannot wait for C75."""
     name = plan.checked.source.name
-    if motor.unit.node == BROADCAST:
-        raise Failure(
-            f"{name}: cannot go to all units at once, as it needs several messages and leaves no "
-            "way to hold it; send it to each unit",
-            NOT_SO,
-        )
     if len(plan.commands) + len(BRACKETS) > COMMANDS_MAX and is_locked(motor.unit):
         raise Failure(f"{name}: has no room for [ and ] while T40 is on; send C40 first", NOT_SO)
 

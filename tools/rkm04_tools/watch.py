@@ -20,6 +20,7 @@ from rkm04_tools.table import table, thousands
 
 LATE_LOOKS = 2
 """So many tell that the interval cannot be kept."""
+Asked = tuple[Motor, float, int, tuple[BreakPoint, ...], Progress]
 HEAD = ("motor", "position", "steps/s", "steps made", "of", "command")
 
 
@@ -116,8 +117,7 @@ class Watcher:
     def look(self) -> Seen:
         """Ask them all."""
         try:
-            status = self._status()
-            asked = [self._ask(number) for number in self._numbers]
+            status, asked = self._asked()
         except LineError:
             self._missed += 1
             raise
@@ -127,6 +127,16 @@ class Watcher:
         looks = [self._look(*each) for each in asked]
         levels = Levels(status.inputs, status.outputs) if status else None
         return Seen(looks, levels, restarted, status.cause if status else "")
+
+    def _asked(self) -> tuple[Status | None, list[Asked]]:
+        """What all tell in one session: a look that a restart falls into is of two units."""
+        sessions, node = self._unit.line.sessions, self._unit.node
+        while True:
+            status = self._status()
+            session = sessions[node]
+            asked = [self._ask(number) for number in self._numbers]
+            if sessions[node] == session:
+                return status, asked
 
     def _status(self) -> Status | None:
         """Inputs, outputs and counts; None: the unit cannot tell, which is said once."""
@@ -166,7 +176,7 @@ class Watcher:
         """What a unit counts from one look to the next, at the least."""
         return 1 + 3 * len(self._numbers)
 
-    def _ask(self, number: int) -> tuple[Motor, float, int, tuple[BreakPoint, ...], Progress]:
+    def _ask(self, number: int) -> Asked:
         motor = self._unit.motor(number)
         position = motor.position()
         now = time.monotonic() - self._started

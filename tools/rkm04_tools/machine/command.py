@@ -33,6 +33,7 @@ from rkm04_tools.source import MACHINE_SUFFIX, named, read_source
 from rkm04_tools.table import table, thousands
 
 INPUTS_FILE = "inputs.csv"
+WAITS = "what has come waits for ] to all motors; rkm04 reset forgets it"
 
 
 def run_check(options: Namespace) -> int:
@@ -152,11 +153,13 @@ def run_send(options: Namespace) -> int:
     with in_doubt(Doubt()) as doubt, open_line(port) as line, Bar("sending") as bar:
 
         def show(done: int, total: int) -> None:
-            what = f"which motors have got their programs of {machine.file}, and run"
+            waits = options.together and done < total
+            does = "wait" if waits else "run"
+            what = f"which motors have got their programs of {machine.file}, and {does}"
             counts = f"{done} of {count_of(total, 'message')} taken"
             if done and not options.together:
                 counts += "; motors that have all of theirs run it"
-            doubt.about(what, MAY_MOVE, counts)
+            doubt.about(what, WAITS if waits else MAY_MOVE, counts)
             bar.show(done, total)
 
         unit = line.unit(node)

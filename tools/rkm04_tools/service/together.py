@@ -41,6 +41,12 @@ def send_all(unit: Unit, texts: Mapping[int, str], together: bool, tell: Tell) -
     be empty, and hold it then, where it does nothing.
     """
     plans = {motor: _planned(motor, text) for motor, text in texts.items()}
+    # What has started anew before ] runs what it has stored when that comes.
+    with unit.line.one_session(unit.node):
+        return _send_plans(unit, plans, together, tell)
+
+
+def _send_plans(unit: Unit, plans: dict[int, Plan], together: bool, tell: Tell) -> Answer:
     if together:
         plans = {motor: _held_back(motor, plan) for motor, plan in plans.items()}
         for motor, plan in plans.items():
