@@ -44,8 +44,10 @@ static_assert(IMAGE_STEP_HIGH_NS == 0U ||
                   (IMAGE_STEP_HIGH_NS >= BOARD_STEP_HIGH_NS && BOARD_LOW_TICKS <= LEFT_TICKS + ROUNDED_TICKS),
               "the drivers of the board want wider pulses than the unit makes, or more time between them");
 
-static_assert((BOARD_DIR_SETUP_NS <= HAL_STEP_DIR_NS) && (BOARD_DIR_HOLD_NS <= HAL_STEP_DIR_NS),
-              "the drivers of the board want DIR to stand for longer than a motion's first pulse leaves");
+static_assert(BOARD_DIR_SETUP_NS <= HAL_STEP_DIR_NS,
+              "the drivers want DIR to stand for longer before a pulse than can be");
+static_assert(BOARD_DIR_HOLD_NS <= HAL_STEP_DIR_NS,
+              "the drivers want DIR to stand for longer after a pulse than can be");
 
 static_assert(WIDEST_TICKS >= HIGH_TICKS && WIDEST_TICKS <= 10 * TICKS_PER_US,
               "a stop waits for the end of a pulse, with interrupts held off");

@@ -377,8 +377,8 @@ ERASED, OVERLAPS = "flashing the image would erase the loader", "where programs 
     [
         *(("pins", f"BOARD_{level}_LEVEL", "2U", f"BOARD_{level}_LEVEL must") for level in LEVELS),
         *(("clock", "BOARD_CRYSTAL_MHZ", mhz, "must be 4 to 26") for mhz in ("0U", "3U", "27U")),
-        ("step", "BOARD_DIR_SETUP_NS", "200001U", "want DIR to stand for longer"),
-        ("gpio_step", "BOARD_DIR_HOLD_NS", "200001U", "want DIR to stand for longer"),
+        ("step", "BOARD_DIR_SETUP_NS", "200001U", "DIR to stand for longer"),
+        ("gpio_step", "BOARD_DIR_HOLD_NS", "200001U", "DIR to stand for longer"),
         ("flash", "BOARD_LOADER_BYTES", "0x1000", ERASED),
         ("flash", "BOARD_LOADER_BYTES", "0x14000", ERASED),
         ("flash", "BOARD_LOADER_BYTES", "0x30000", ERASED),

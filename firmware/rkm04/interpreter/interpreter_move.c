@@ -51,12 +51,10 @@ void interpreter_begin_move(struct interpreter *interpreter, const struct motion
  * any more: its input is in the way of the next move. */
 static void spend_guards(struct interpreter *interpreter, enum axis_cause cause)
 {
-    if (!axis_has_rest(interpreter->axis)) {
-        return;
-    }
-    if (cause == AXIS_CAUSE_HIGH) {
+    bool stopped = axis_has_rest(interpreter->axis);
+    if (stopped && (cause == AXIS_CAUSE_HIGH)) {
         interpreter->guards.stop_high = 0;
-    } else if (cause == AXIS_CAUSE_LOW) {
+    } else if (stopped && (cause == AXIS_CAUSE_LOW)) {
         interpreter->guards.stop_low = 0;
     }
 }
