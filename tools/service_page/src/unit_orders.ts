@@ -94,10 +94,12 @@ export class UnitOrders {
      */
     async speed(motor: number, value: number): Promise<Got> {
         const { motors } = await this.#status();
+        const { session } = this.#talk;
         const moving = numbersOf(motor).filter((each) => motors[each - 1]?.moving && motors[each - 1]?.running);
         const changed: number[] = [];
         for (const each of moving) {
             const before = await this.#points(each);
+            this.#requireSession(session);
             await this.#command(each, `V${value}`);
             changed.push(...((await this.#points(each)) === before ? [] : [each]));
         }
@@ -167,11 +169,18 @@ export class UnitOrders {
             const { session } = this.#talk;
             this.#talk.tell(done + index, total);
             overflow = (await this.#command(motor, text)) || overflow;
-            if (index > 0 && session !== this.#talk.session) {
-                throw new LineTrouble("UnitRestarted", "the unit has restarted", "look at it before you send again");
+            if (index > 0) {
+                this.#requireSession(session);
             }
         }
         return overflow;
+    }
+
+    /** A question begins a new session unseen, in which the unit may be another one. */
+    #requireSession(session: number): void {
+        if (session !== this.#talk.session) {
+            throw new LineTrouble("UnitRestarted", "the unit has restarted", "look at it before you send again");
+        }
     }
 
     /** Sends each motor its own program, or nothing if one of them is wrong. */
@@ -237,6 +246,7 @@ export class UnitOrders {
     /** Lets all motors start, when none of them slows down any more because of `\`. */
     async #start(motors: number[]): Promise<void> {
         const end_ms = performance.now() + STAND_MS;
+        const { session } = this.#talk;
         for (const motor of motors) {
             while (messages.table(await this.#talk.ask(messages.request(messages.GET_TABLE, motor)), motor).length > 0) {
                 if (performance.now() > end_ms) {
@@ -246,6 +256,7 @@ export class UnitOrders {
                 await pause(POLL_MS);
             }
         }
+        this.#requireSession(session);
         await this.#command(motors.length > 1 ? ALL_MOTORS : (motors[0] ?? ALL_MOTORS), RELEASE);
     }
 
