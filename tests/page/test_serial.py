@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 from alone_page import forget, hold, write, write_alone
-from fake_unit import FakeLine, FakeUnit
 from frames import frame
 from noisy_line import NoisyLine
 from page_looks import AXE, CUT, OUTSIDE, OVER, SIZES, VIOLATIONS
@@ -419,47 +417,6 @@ def test_a_stop_does_not_wait_for_what_is_under_way(page, bridge):
     said = bytes(page.evaluate("window.fakeSerial.said"))
     ahead = said[: said.index(frame(0, 0, K.encode()))]
     assert len([part for part in ahead.split(b"\x7e") if part]) <= UNDER_WAY_MAX
-
-
-@dataclass
-class Restarting(FakeUnit):
-    """Once, where a table is asked for after a certain message."""
-
-    before: bytes = b""
-
-    def take(self, number: int, message: bytes) -> bytes:
-        if message == b"\x061" and self.done[-1:] == [self.before]:
-            self.before = b""
-            self.restart()
-        return super().take(number, message)
-
-
-@pytest.mark.parametrize("act", ["start", "speed"])
-def test_what_is_begun_does_not_go_on_with_a_unit_that_has_restarted(open_page, act):
-    """It restarts before it is asked for the table, which the page asks again."""
-    before = b"\xc8" if act == "speed" else b"\x022\\[F2R"
-    unit = Restarting(NODE, states=[3] * 4 if act == "speed" else [0] * 4, before=before)
-    fake = FakeLine(unit)
-    bridge = SerialBridge(fake.port)
-    try:
-        page = open_page(bridge.script)
-        connect(page)
-        if act == "speed":
-            page.locator("#motors label").first.click()
-            page.locator("#speed").fill("900")
-            page.locator("#speed-form button").click()
-        else:
-            write(page, "\\ F1 R")
-            page.locator("#tab-2").click()
-            write(page, "\\ F2 R")
-            page.locator("#together").check()
-            page.locator("#send-all").click()
-
-        expect(page.locator("#log .log-item").first).to_contain_text("the unit has restarted")
-        assert not {b"\x020]", b"\x021V900"} & set(unit.done)
-    finally:
-        bridge.close()
-        fake.close()
 
 
 def test_a_stop_is_confirmed_by_every_unit_that_has_answered(open_page, tmp_path):
