@@ -38,6 +38,17 @@ def test_a_program_above_the_limit_of_speed_is_not_sent_and_leads_to_the_command
     expect(page.position(1)).to_have_text("400")
 
 
+def test_nor_is_one_that_begins_with_a_speed_above_the_limit(page):
+    opened(page, "\\ C100\nF400 R", limits={"speed_max_steps_per_s": 999})
+    page.page.locator("#log-clear").click()
+    page.page.locator("#send").click()
+    expect(page.answers.first).to_contain_text(
+        "motor 1, line 2: R (V1000) is above the machine's limit, 999 steps/s; nothing was sent"
+    )
+    page.send("\\ C100 V999 F400 R")
+    expect(page.position(1)).to_have_text("400")
+
+
 def test_a_program_for_all_motors_is_held_against_the_limits_of_each(page):
     opened(page, "\\ F1 R")
     page.page.locator("#tab-2").click()

@@ -88,6 +88,26 @@ def test_a_speed_above_the_limit_of_its_motor_is_an_error_at_its_place(tool, put
     assert tool("machine", "check", at_limit).status == 0
 
 
+@pytest.mark.parametrize(
+    ("program", "moves"),
+    [
+        ("\\ C100 F300 R", ["R"]),
+        ("\\ F10 Y V500 F20 Y R", ["Y"]),
+        ("\\ V500 F300 R \\ G10", ["G10"]),
+        ("\\ V500 F300 R", []),
+        ("F300 R", []),
+    ],
+)
+def test_so_is_a_move_with_the_speed_that_programs_start_with(tool, put, program, moves):
+    file = put(with_motor(program=program, limits={"speed_max_steps_per_s": 999}))
+
+    result = tool("machine", "check", file)
+
+    words = [line for line in result.err.splitlines() if "above the limit" in line]
+    assert [line.split("error: ")[1].split(",")[0] for line in words] == moves
+    assert all("with V1000 from the start, is above the limit of motor 1" in line for line in words)
+
+
 def test_inputs_that_the_simulator_refuses_are_named(tool, put):
     result = tool("machine", "check", put(content(inputs="500,9,1")))
 

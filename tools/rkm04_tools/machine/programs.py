@@ -15,6 +15,9 @@ from rkm04_tools.machine.machine import Machine, Motor
 from rkm04_tools.source import Source
 
 SPEEDS = {"SPEED": "V", "START_SPEED": "S"}
+MOVES = {"MOVE", "APPEND_SECTION", "GO_TO", "GO_HOME", "RUN_FORWARD", "RUN_BACKWARD"}
+START_STEPS_PER_S = 1000
+"""V after `\\`, as the language has it."""
 NO_PROGRAM = "W1"
 
 
@@ -86,13 +89,16 @@ def _exceeding(motor: Motor, checked: Checked) -> list[Diagnostic]:
     limit = motor.speed_max_steps_per_s
     if limit is None:
         return []
-    return [
-        Diagnostic(
-            checked.source.place(each.offset),
-            "error",
-            "speed-limit",
-            f"{each.text} is above the limit of {motor.title}: {limit} steps/s",
-        )
-        for each in checked.parsed.commands
-        if each.opcode in SPEEDS and each.value > limit
-    ]
+    found = []
+    has_start_speed = False
+    for each in checked.parsed.commands:
+        has_start_speed = each.opcode == "RESET" or (has_start_speed and each.opcode != "SPEED")
+        text = each.text
+        speed = each.value if each.opcode in SPEEDS else 0
+        if has_start_speed and each.opcode in MOVES:
+            text, speed = f"{text}, with V{START_STEPS_PER_S} from the start,", START_STEPS_PER_S
+        if speed > limit:
+            words = f"{text} is above the limit of {motor.title}: {limit} steps/s"
+            place = checked.source.place(each.offset)
+            found.append(Diagnostic(place, "error", "speed-limit", words))
+    return found

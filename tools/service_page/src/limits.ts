@@ -19,6 +19,9 @@ export const setLimits = (machine: MachineContent | null): void =>
 /** The highest speed of a motor, steps/s. */
 export const speedLimit = (motor: number): number => limits.value[motor - 1]?.speed_max_steps_per_s ?? Infinity;
 
+/** V after `\`, steps/s. */
+const START = 1000;
+
 /** A speed above the limit, in a program. */
 export interface TooFast {
     motor: number;
@@ -28,15 +31,19 @@ export interface TooFast {
     limit: number;
 }
 
-/** The first S or V of these programs, by motor, that is above the limit. */
+/** The first S or V of these programs, by motor, that is above the limit, or move with the V that a program starts with. */
 export async function tooFast(programs: readonly (readonly [motor: number, text: string])[]): Promise<TooFast | null> {
     for (const [motor, text] of programs) {
         const limit = speedLimit(motor);
         const { listing = [] } = limit === Infinity ? {} : await checkProgram(text);
-        const found = listing.find(([, , command]) => Number(/^[SV](\d+)$/.exec(command)?.[1] ?? 0) > limit);
-        if (found !== undefined) {
-            const [line, column, command] = found;
-            return { motor, line, column, command, limit };
+        // The listing has what is stored, and so no reset.
+        let isStart = text.replace(/\{[^}]*/g, "").includes("\\");
+        for (const [line, column, command] of listing) {
+            isStart &&= !command.startsWith("V");
+            const isMove = isStart && /^[RYGH]/.test(command);
+            if (Number(isMove ? START : /^[SV](\d+)$/.exec(command)?.[1]) > limit) {
+                return { motor, line, column, command: isMove ? `${command} (V${START})` : command, limit };
+            }
         }
     }
     return null;
