@@ -244,6 +244,7 @@ def test_all_programs_start_together_and_escape_stops_them_until_resume(alone):
     expect(alone.locator("#state-2")).to_have_text("stopped by K")
     assert alone.locator("#position-1").inner_text() == alone.locator("#position-2").inner_text()
     alone.locator("#resume").click()
+    expect(alone.locator("#alarm")).to_be_hidden(timeout=1500)
     expect(alone.locator("#state-1")).to_contain_text("moves")
 
 

@@ -12,6 +12,10 @@ from service_page import Service, ServicePage, free_port, shown
 K = b"\x020K"
 STANDS = statuses.Vector("").whole
 RUNS = statuses.Vector("", motors=[3, 0, 0, 0]).whole
+BRAKES = statuses.Vector("", motors=[9, 0, 0, 0]).whole
+SOON_MS = 1500
+"""Much less than a confirmation is shown for."""
+
 NODE, OTHER = 3, 5
 RED = "NOT CONFIRMED: use the emergency stop"
 SMALLEST, ZOOMED = (320, 568), (320, 200)
@@ -100,6 +104,30 @@ def test_a_stop_that_is_confirmed_says_by_whom_and_goes_away(lines_page, line):
     expect(lines_page.alarm).to_be_hidden(timeout=10_000)
     nodes = [node for node, _, message in line.requests if message == K]
     assert nodes == [0, NODE]
+
+
+def test_a_stop_is_not_confirmed_any_more_when_a_motor_moves_again(
+    browser, lines_page, lines_service, unit
+):
+    """BRAKES is still what was stopped; an original unit tells no motion, but takes an order."""
+    with shown(browser, lines_service.url) as second:
+        unit.status = BRAKES
+        lines_page.stopped()
+        lines_page.page.wait_for_timeout(500)
+        for page in (lines_page, second):
+            expect(page.alarm).to_have_attribute("data-kind", "done", timeout=0)
+        unit.status = RUNS
+        for page in (lines_page, second):
+            expect(page.alarm).to_be_hidden(timeout=SOON_MS)
+
+        unit.status = b""
+        expect(lines_page.state(1)).not_to_contain_text("moves")
+        lines_page.page.locator("#log-clear").click()
+        lines_page.stopped()
+        second.page.locator("#resume").click()
+        for page in (lines_page, second):
+            expect(page.alarm).to_be_hidden(timeout=SOON_MS)
+            expect(page.answers.first).to_have_attribute("data-message", "resume")
 
 
 def test_a_stop_without_an_answer_is_a_red_line_until_it_is_confirmed(

@@ -4,6 +4,7 @@ import type { Left, Place } from "./left";
 import type { Link } from "./link";
 import type { Answer, Node, UnitState } from "./protocol";
 import { listenForStop } from "./stop_press";
+import { isStopped } from "./unit_messages";
 
 const DONE_MS = 4000;
 
@@ -37,6 +38,7 @@ export class Stop {
         this.#left = left;
         link.on("state", (state) => this.#setState(state));
         link.on("answer", (answer) => this.#hear(answer));
+        link.on("live", ({ motors }) => motors.every(isStopped) || this.#celebrate());
         link.isOpen.onChange(() => this.#linkChanged());
         listenForStop(this.#button, () => this.press());
         language.onChange(() => this.#show());
@@ -83,6 +85,9 @@ export class Stop {
     }
 
     #hear({ message, from, error, values }: Answer): void {
+        if (/^(send|resume)/.test(message) && error === null && !/^[K\\]$/.test(values?.alone ?? "")) {
+            this.#celebrate(); // what has been stopped may move again
+        }
         if (message !== "stop") {
             return;
         }
@@ -108,13 +113,14 @@ export class Stop {
         return nodes.filter(({ port }) => port !== VIRTUAL || this.#state?.port === VIRTUAL);
     }
 
-    #celebrate(confirmed: Node[]): void {
+    #celebrate(confirmed: Node[] = []): void {
         this.#confirmed = confirmed;
         window.clearTimeout(this.#forget);
         this.#forget = window.setTimeout(() => {
             this.#confirmed = [];
             this.#show();
         }, DONE_MS);
+        this.#show();
     }
 
     /** A stop whose answer is lost with the service is not confirmed, and neither is one that was open there. */
