@@ -96,8 +96,8 @@ function tokensOf(marked, text) {
     return tokens;
 }
 
-/** No text has a bare ">", so only tags are joined. */
-const htmlOf = (marked, tokens) => marked.parser(tokens).replaceAll(">\n", ">");
+/** No text has a bare ">", so only tags are joined; what the parser of HTML ends itself takes a kilobyte of the page. */
+const htmlOf = (marked, tokens) => marked.parser(tokens).replaceAll(">\n", ">").replace(/<\/(?:li|p|t[dhr])>/g, "");
 
 async function textOf(document, places) {
     const marked = new Marked({ renderer: rendererOf(document, places) });
