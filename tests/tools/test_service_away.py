@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import pytest
 import statuses
-from fake_unit import FakeLine, FakeUnit
+from fake_unit import FakeLine, FakeUnit, lost
 from relay import expect_reset
 from rkm04_tools.service import browsers, live, worker
 from rkm04_tools.service.fields import Asked
@@ -17,16 +17,22 @@ from service_desk import CLIENT, Desk
 
 READS = {1, 4, 7, 200}
 """Messages that change nothing: Version, Get Position, Get Status."""
+CHANGES = {2, 3}
+"""Set Command, Store Flash."""
+MAYBE = "NOT CONFIRMED: it may have been taken"
 AT_REST = statuses.Vector("").whole
 AT_WORK = next(each for each in statuses.VECTORS if each.name == "at work").whole
 
 
 class Waking(FakeUnit):
-    """A unit during whose first answer something else happens."""
+    """A unit during whose first answer, or with each change of it, something else happens."""
 
     on_version: Callable[[], None] | None = None
+    on_change: Callable[[], None] | None = None
 
     def execute(self, message: bytes) -> bytes:
+        if message[0] in CHANGES and self.on_change:
+            self.on_change()
         if message == b"\1" and self.on_version:
             happens, self.on_version = self.on_version, None
             happens()
@@ -136,6 +142,41 @@ def test_what_waits_after_a_request_without_an_answer_is_given_up(desk, line):
     refused = [desk.answer(number)["error"]["kind"] for number in (102, 103, 101)]
 
     assert refused == ["Unsent", "Unsent", "NoAnswer"]
+
+
+@pytest.mark.parametrize(
+    ("order", "may_move"),
+    [
+        (Request("send", 1, "\\ F100 R"), True),
+        (Request("send_all", 0, texts=((1, "\\ F100 R"),)), True),
+        (Act("resume", 0), True),
+        (Act("reset", 0), True),
+        (Request("store", 1), False),
+    ],
+)
+def test_what_was_taken_and_whose_answer_was_lost_is_not_told_as_not_done(
+    desk, line, unit, order, may_move
+):
+    unit.on_change = lambda: line.faults.extend([lost] * 20)
+
+    error = desk.ask(order)["error"]
+
+    assert CHANGES & {message[0] for message in unit.done}
+    words = f"{error['cause']}; {error['next']}"
+    assert words.startswith(f"{MAYBE}; {'motors may move; ' if may_move else ''}")
+    assert "unit 3 does not answer; check power" in words
+    assert error["kind"] == "NoAnswer"
+    assert MAYBE not in desk.worker.state_as_json()["error"]["cause"]
+
+
+def test_what_was_not_on_the_line_was_not_taken(desk, line):
+    """A session comes first; a question changes nothing."""
+    desk.connect(line.port, 9)
+    assert MAYBE not in str(desk.ask(Act("resume", 0))["error"])
+    assert not CHANGES & kinds(line)
+    desk.connect(line.port, 3)
+    line.faults.extend([lost] * 20)
+    assert MAYBE not in str(desk.ask(Request("position", 0))["error"])
 
 
 def test_a_click_just_before_the_unit_comes_back_is_refused(desk, line, unit):

@@ -6,9 +6,10 @@ from collections.abc import Callable
 
 from rkm04_tools import acting, messages
 from rkm04_tools.check import check_source
+from rkm04_tools.doubt import CUT_SHORT
 from rkm04_tools.frame import BROADCAST
 from rkm04_tools.line import USUAL, Motor, Unit, Wait
-from rkm04_tools.line_errors import UnitRefused
+from rkm04_tools.line_errors import UnitRefused, UnitRestarted
 from rkm04_tools.messages import ALL_MOTORS, MOTORS, VERSION
 from rkm04_tools.sending import Tell, check_program, held_commands, plan_program, send_program
 from rkm04_tools.service.answers import Answer, ProgramWrong
@@ -50,6 +51,17 @@ def act(unit: Unit, order: Act) -> Answer:
         motor.reset()
         return Answer("reset, the program memory is empty")
     return _speed(unit, order)
+
+
+def put_in_doubt(got: object, may_move: bool) -> None:
+    """Say of an order that was on the line and was cut short that the unit may have taken it.
+
+    A restart says itself what became of the order, and what has notes was forgotten by the unit.
+    """
+    is_told = isinstance(got, UnitRestarted) or hasattr(got, "__notes__")
+    if isinstance(got, CUT_SHORT) and not is_told:
+        moves = ["motors may move"] if may_move else []
+        got.args = ("; ".join(["NOT CONFIRMED: it may have been taken", *moves, str(got)]),)
 
 
 def _speed(unit: Unit, order: Act) -> Answer:

@@ -17,7 +17,7 @@ from typing import Any, TypeGuard, TypeVar
 from rkm04_tools.failure import Failure
 from rkm04_tools.line import Line, Unit
 from rkm04_tools.line_errors import LineError, PortError
-from rkm04_tools.messages import ALL_MOTORS, SET_COMMAND, VERSION
+from rkm04_tools.messages import ALL_MOTORS, SET_COMMAND, STORE_FLASH, VERSION
 from rkm04_tools.service import talking, virtual
 from rkm04_tools.service.answers import Answer, answer_of, whose
 from rkm04_tools.service.fields import Asked
@@ -227,10 +227,12 @@ class Worker:
         got = _tried(lambda: nothing_kept_back(lambda: self._obey(order, asked), self._take_back))
         if was_away or isinstance(got, LineError):
             self._give_up(Unsent())
-        is_first = isinstance(order, Connect) and asked.client is None
-        self._note(got, comes_back=is_first or not isinstance(order, Connect))
         wanted = VERSION if isinstance(order, Connect) else MESSAGES.get(name, SET_COMMAND)
         node, exchanges = self._state.node, self._exchanges(wanted)
+        is_first = isinstance(order, Connect) and asked.client is None
+        self._note(got, comes_back=is_first or not isinstance(order, Connect))
+        if exchanges and wanted in (SET_COMMAND, STORE_FLASH):
+            talking.put_in_doubt(got, may_move=wanted == SET_COMMAND)
         told = answer_of(name, motor_of(order), node, asked, got, exchanges)
         self._change(busy=None)
         self._tell(told)

@@ -28,6 +28,9 @@ const HEARD_BYTES = 4096;
 /** A frame of 1024 bytes, less its envelope: short ones are checked better, and lost less. */
 const TEXT_BYTES_MAX = 1013;
 
+/** What stands before a byte that would be a flag or this one: in a frame flag, address, number, message. */
+const ESCAPE = 0x7d;
+
 /** enum master_end of tools/master/master.h, from MASTER_WAITS on. */
 const WAITS = 0;
 const ANSWERED = 1;
@@ -63,6 +66,7 @@ export class SerialLine implements Place {
     readonly isVirtual = false;
     readonly text_bytes_max = TEXT_BYTES_MAX;
     readonly stood_s = null;
+    written = 0;
     readonly #exports: Exports;
     readonly #line: number;
     readonly #write: (data: Bytes) => void;
@@ -156,7 +160,9 @@ export class SerialLine implements Place {
         const end = lines_rkm04_poll(this.#line, this.#now);
         const length = lines_rkm04_take_out(this.#line);
         if (length > 0) {
-            this.#write(this.#copied(lines_rkm04_out(this.#line), length));
+            const frame = this.#copied(lines_rkm04_out(this.#line), length);
+            this.written = frame[frame[2] === ESCAPE ? 4 : 3] ?? 0;
+            this.#write(frame);
         }
         if (end === ANSWERED) {
             const { lines_rkm04_answer, lines_rkm04_answer_length } = this.#exports;

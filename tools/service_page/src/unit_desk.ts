@@ -230,6 +230,7 @@ export class UnitDesk {
         this.#orders.forget();
         this.#asked = "id" in order ? order.id : 0;
         this.#isStill = false;
+        const place = this.#place;
         const wasAway = this.#state.now.error !== null;
         this.#state.change({ busy: nameOf(order) });
         const got = await tried(() => this.#obeyed(order));
@@ -238,7 +239,7 @@ export class UnitDesk {
             this.#giveUp(UNSENT);
         }
         this.#state.change({ busy: null });
-        this.#answer(order, got, this.#orders.last);
+        this.#answer(order, inDoubt(got, place?.written), this.#orders.last);
         this.#look_due_ms = performance.now();
     }
 
@@ -393,6 +394,17 @@ export class UnitDesk {
         }
     }
 
+}
+
+/** What was cut short on the line: the unit may have taken it. A restart says itself what became of it. */
+function inDoubt(got: Got | Refusal, message = 0): Got | Refusal {
+    const changes = message === messages.SET_COMMAND || message === messages.STORE_FLASH;
+    if (!changes || !(got instanceof Refusal) || !/Answer|Lost/.test(got.trouble.kind ?? "")) {
+        return got;
+    }
+    const { cause, next, kind = "" } = got.trouble;
+    const moves = message === messages.SET_COMMAND ? "motors may move; " : "";
+    return new Refusal("NOT CONFIRMED: it may have been taken", `${moves}${cause}; ${next}`, { kind });
 }
 
 /** What came of some work; a refusal is an answer, too. */

@@ -35,6 +35,8 @@ export interface Place {
     readonly stood_s: number | null;
     /** Whether the last scan has got two answers. */
     readonly isTwice: boolean;
+    /** The number of the message that was written last: a request's own, or Version, which begins its session. */
+    readonly written: number;
     /** The answer; of all units (node 0) it is empty. Fails with a LineTrouble. */
     ask(node: number, request: Bytes, wait: Wait): Promise<Bytes>;
     /** How many sessions were begun with a node: after another one it may be another unit. */

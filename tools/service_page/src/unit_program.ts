@@ -25,6 +25,7 @@ export class UnitProgram implements Place {
     readonly port = VIRTUAL;
     readonly isVirtual = true;
     readonly isTwice = false;
+    readonly written = 0;
     readonly text_bytes_max = TEXT_BYTES_MAX;
     readonly #exports: Exports;
     readonly #unit: number;

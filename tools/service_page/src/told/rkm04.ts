@@ -59,6 +59,8 @@ export const ALONE: Sentences = [
     ["the unit does not know this message", "jednotka tuto zprávu nezná"],
     ["it has other software", "má jiný software"],
     ["cause #1", "příčina #1"],
+    ["NOT CONFIRMED: it may have been taken", "NEPOTVRZENO: mohlo to být přijato"],
+    ["motors may move", "motory se mohou pohybovat"],
     ["unit #1 does not answer", "jednotka #1 neodpovídá"],
     [
         "unit #1 does not answer, only the adapter's echo comes back",
