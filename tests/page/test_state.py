@@ -12,7 +12,7 @@ from playwright.sync_api import expect
 from service_page import NOT_KNOWN, ServicePage, shown
 
 MOVING, RUNNING, WAITING, STOPPED, FAILED, ENDED, SIMULATED = (1 << bit for bit in range(7))
-NODE = 3
+NODE, OTHER = 3, 5
 SOON_MS = 3000
 """A second until the page goes grey, and what a busy machine takes."""
 
@@ -48,6 +48,27 @@ def test_a_unit_that_restarts_is_told_until_somebody_has_noted_it(lines_page, un
     expect(loud).to_contain_text("THE UNIT HAS RESTARTED")
     assert loud.evaluate("part => parseFloat(getComputedStyle(part).fontSize)") >= 22
     lines_page.page.wait_for_timeout(500)
+    lines_page.page.reload()
+    lines_page.ready()
+    expect(loud).to_contain_text("THE UNIT HAS RESTARTED")
+    lines_page.page.locator("#seen").click()
+    expect(loud).to_be_hidden()
+    lines_page.page.reload()
+    lines_page.ready()
+    expect(loud).to_be_hidden()
+
+
+def test_another_unit_has_not_restarted(lines_page, line, unit):
+    loud = lines_page.page.locator("#loud")
+    unit.status = status(late_steps=7)
+    expect(lines_page.page.locator("#live-facts")).to_contain_text("late steps 7")
+    unit.status = status()
+    expect(loud).to_be_visible()
+    lines_page.connect(line.port, OTHER)
+    lines_page.ready()
+    expect(loud).to_be_hidden()
+    lines_page.connect(line.port, NODE)
+    expect(loud).to_be_visible()
     lines_page.page.locator("#seen").click()
     expect(loud).to_be_hidden()
 

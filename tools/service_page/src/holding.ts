@@ -2,11 +2,14 @@ import { checkProgram } from "./api";
 import type { Link } from "./link";
 import { ALL_MOTORS, MOTORS, type Answer, type Live, type ToService, type UnitState } from "./protocol";
 import { Cell } from "./signal";
+import { keep, recall } from "./storage";
 
 /** A memory that is full may have lost its oldest commands. */
 const COMMANDS_MAX = 700;
 /** A program of fewer characters goes in one message on any line, without `[` and `]` around it. */
 const ONE_MESSAGE_BYTES = 1000;
+/** Under which the browser keeps which unit has restarted. */
+const KEPT = "restarted";
 const [RESET, HOLD, RELEASE] = ["\\", "[", "]"];
 
 type Request = Extract<ToService, { type: "request" }>;
@@ -17,7 +20,7 @@ type Request = Extract<ToService, { type: "request" }>;
  * master on the line sends is not seen.
  */
 export class Holding {
-    /** Whether the unit has started anew since it was connected to, and nobody has taken note of it. */
+    /** Whether the unit has started anew since it was connected to, and nobody has taken note of it in this window. */
     readonly restarted = new Cell(false);
     readonly #link: Link;
     readonly #asked = new Map<number, Request>();
@@ -46,6 +49,16 @@ export class Holding {
         return this.#held.get(motor) ?? null;
     }
 
+    /** The user has taken note of the restart. */
+    note(): void {
+        keep(KEPT, "");
+        this.restarted.set(false);
+    }
+
+    get #name(): string {
+        return `${this.#unit?.node} ${this.#unit?.port}`;
+    }
+
     /** Another unit, or perhaps another. */
     #setState({ port, node, connected }: UnitState): void {
         const before = this.#unit;
@@ -53,11 +66,11 @@ export class Holding {
         if (isOther || !connected) {
             this.#held.clear();
         }
+        this.#unit = { port, node, connected };
         if (isOther) {
             this.#counts = [];
-            this.restarted.set(false);
+            this.restarted.set(recall(KEPT, "") === this.#name);
         }
-        this.#unit = { port, node, connected };
     }
 
     /** What a unit has counted since its start becomes less by a start only. */
@@ -68,6 +81,7 @@ export class Holding {
         const counts = [unit.late_steps, ...Object.values(unit.line)];
         if (counts.some((count, index) => count < (this.#counts[index] ?? 0))) {
             this.#held.clear();
+            keep(KEPT, this.#name);
             this.restarted.set(true);
         }
         this.#counts = counts;

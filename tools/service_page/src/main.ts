@@ -91,7 +91,7 @@ new Connection(link, presence);
 const live = new LiveView(link, presence);
 const holding = new Holding(link);
 holding.restarted.onChange((restarted) => (byId("loud", HTMLElement).hidden = !restarted));
-byId("seen", HTMLButtonElement).addEventListener("click", () => holding.restarted.set(false));
+byId("seen", HTMLButtonElement).addEventListener("click", () => holding.note());
 new Follow(link, programs, holding, presence, (motor) => commands.request("program", motor));
 const machine = new Machine({
     programs: () => programs.all(),
