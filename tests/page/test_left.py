@@ -15,7 +15,7 @@ from pos_page import PosService, pos_shown
 from serial_bridge import SerialBridge
 from serial_page import NODE, PORT, connect, send
 from served import GVE_COMMAND, POSITIONING_COMMAND, Served
-from service_page import Service, ServicePage
+from service_page import Service, ServicePage, shown
 from tab import DESK
 
 RUNS = statuses.Vector("", motors=[3, 0, 0, 0]).whole
@@ -90,6 +90,36 @@ def test_who_says_that_it_is_dealt_with_is_believed(lines_page, line, left):
     lines_page.ready()
     expect(left).to_be_hidden()
     lines_page.stopped()
+
+
+def test_a_stop_that_is_not_confirmed_by_a_port_that_was_left_can_be_dealt_with(
+    browser, lines_page, lines_service, line
+):
+    """In any window, and for all of them; until then it stays."""
+    left = lines_page.page.locator("#left-units")
+    with shown(browser, lines_service.url) as second:
+        expect(lines_page.page.locator(".card").first).to_have_attribute("data-moving", "false")
+        del line.units[NODE]
+        lines_page.page.keyboard.press("Escape")
+        expect(lines_page.alarm).to_have_attribute("data-kind", "failed")
+        expect(left).to_be_hidden()
+        leave(lines_page)
+        connect_virtual(lines_page)
+        unit_name = f"node {NODE} of {line.port}"
+        lines_page.page.reload()
+        lines_page.ready()
+        lines_page.page.keyboard.press("Escape")
+        for page in (lines_page, second):
+            expect(page.answers.first).to_have_attribute("data-message", "stop")
+            expect(page.alarm).to_have_text(f"{NOT_CONFIRMED} ({unit_name})")
+            expect(page.page.locator("#left-units")).to_contain_text(f"{CANNOT} {unit_name}")
+
+        lines_page.page.locator("#dealt").click()
+        for page in (lines_page, second):
+            expect(page.page.locator("#left-units")).to_be_hidden()
+            expect(page.alarm).to_have_text(NOT_CONFIRMED)
+        second.stopped()
+        lines_page.stopped()
 
 
 def test_a_program_whose_answer_was_lost_may_run(lines_page, line, unit):

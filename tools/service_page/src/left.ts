@@ -40,8 +40,9 @@ const keyOf = ({ port, node = 0 }: Place): string => `${node} ${port}`;
 const usualName = ({ port, node }: Place): string => (node === undefined ? port : `${port} #${node}`);
 
 /**
- * Units of which something moved when they were seen last. What a stop from here does not reach is told until it is
- * connected again, or the user says that it is dealt with; the browser keeps it, so that loading the page does not forget it.
+ * Units of which something moved when they were seen last, and those that have not confirmed a stop. What a stop from
+ * here does not reach is told until it is connected again, or the user says that it is dealt with; the browser keeps
+ * those that moved, so that loading the page does not forget them.
  */
 export class Left<Live = any> {
     readonly #t: Translate<keyof typeof leftEn | "port.virtualShort">;
@@ -49,6 +50,8 @@ export class Left<Live = any> {
     readonly #box = byId("left-units", HTMLElement);
     readonly #units: Map<string, Place>;
     readonly #onChange: (() => void)[] = [];
+    /** Those that have not confirmed a stop. */
+    #stopping: Place[] = [];
     #at: Connected | null = null;
     #shown = "";
 
@@ -103,6 +106,14 @@ export class Left<Live = any> {
         }
     }
 
+    /** A stop waits for these; those of other ports are told, too, as long as it does. */
+    await(units: Place[]): void {
+        if (units.map(keyOf).join() !== this.#stopping.map(keyOf).join()) {
+            this.#stopping = units;
+            this.#show();
+        }
+    }
+
     /** Nothing moves there, as far as that has to be told. */
     forget(units: Place[]): void {
         units.forEach((unit) => this.#units.delete(keyOf(unit)));
@@ -112,12 +123,13 @@ export class Left<Live = any> {
     /** Virtual units of a port that was closed move nothing. */
     get #left(): Place[] {
         const at = this.#at;
+        const units = [...new Map([...this.units, ...this.#stopping].map((unit) => [keyOf(unit), unit])).values()];
         if (at === null || !(at.connected || at.away)) {
-            return at === null ? [] : this.units;
+            return at === null ? [] : units;
         }
         const isReached = ({ port, node }: Place): boolean =>
             port === at.port && (this.#options.reachesPort === true || node === at.node);
-        return this.units.filter((unit) => unit.port !== VIRTUAL && !isReached(unit));
+        return units.filter((unit) => unit.port !== VIRTUAL && !isReached(unit));
     }
 
     #deal(): void {

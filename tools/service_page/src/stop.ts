@@ -74,6 +74,12 @@ export class Stop {
     }
 
     #setState(state: UnitState): void {
+        const waits = state.stop?.map(keyOf);
+        for (const key of (this.#state?.stop ?? []).map(keyOf)) {
+            if (waits?.includes(key) === false) {
+                this.#known.delete(key); // it has been dealt with, perhaps in another window
+            }
+        }
         this.#state = state;
         for (const node of state.nodes) {
             this.#known.set(keyOf(node), node);
@@ -136,6 +142,7 @@ export class Stop {
 
     #show(): void {
         const isOpen = this.#open !== null || (this.#state?.stop ?? null) !== null;
+        this.#left.await(this.#outside());
         this.#alarm.dataset.lost = String(this.#state?.lost === true);
         const isUnderWay = isOpen && (!this.#isOver || this.#state?.busy === "stop");
         const isDone = this.#confirmed.length > 0 && this.#left.names === "";
