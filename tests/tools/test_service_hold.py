@@ -7,8 +7,9 @@ from collections.abc import Iterator
 
 import pytest
 from rkm04_tools.service import virtual
+from rkm04_tools.service.fields import Asked
 from rkm04_tools.service.holding import HOLD_SECONDS, Holds
-from rkm04_tools.service.orders import Connect, Disconnect, Request
+from rkm04_tools.service.orders import Connect, Disconnect, Forget, Request
 from service_desk import Desk
 
 MINE, OTHER = 1, 2
@@ -49,6 +50,18 @@ def test_who_leaves_the_unit_while_another_one_holds_a_button_stops_it_first(des
     desk.ask(order)
     stop, _ = [told for told in desk.told if told["type"] == "answer"][-2:]
     assert (stop["message"], stop["error"]) == ("stop", None)
+
+
+def test_no_port_is_opened_because_a_button_is_let_go_after_the_port_was_closed(desk):
+    desk.ask(Disconnect())
+    desk.worker.holds.hold(MINE)  # it was on its way
+    desk.worker.give(Forget(()), Asked())  # the worker sees it
+    time.sleep(HOLD_SECONDS / 2)
+    desk.worker.holds.let_go(MINE)
+    time.sleep(HOLD_SECONDS)
+
+    state = desk.worker.state
+    assert (state.connected, state.error) == (False, None)
 
 
 def test_a_button_that_is_held_or_let_go_stops_nothing(desk):

@@ -183,7 +183,7 @@ class Worker:
                 self._do_stop(stops)
             elif work:
                 self._do(*work)
-            elif not is_lost:
+            elif not is_lost and self._is_wanted:
                 self._look()
         self._close_line()
 
@@ -199,9 +199,14 @@ class Worker:
     def _is_stop_wanted(self) -> bool:
         return self._closing or bool(self._stops) or self.holds.is_lost()
 
+    @property
+    def _is_wanted(self) -> bool:
+        """Whether the port is open, or will be when it is there again."""
+        return bool(self._line) or self._state.away
+
     def _rest_seconds(self) -> float | None:
         held = self.holds.rest_seconds()
-        if not self._line and not self._state.away:
+        if not self._is_wanted:
             return held
         look = max(0.0, self._look_due - time.monotonic())
         return look if held is None else min(look, held)
