@@ -259,6 +259,23 @@ def test_a_unit_that_falls_silent_while_the_button_is_held_is_an_alarm(lines_pag
     expect(page.page.locator("#jog-forth")).to_be_disabled()
 
 
+def test_a_run_that_waits_for_a_scan_is_withdrawn_when_the_button_is_let_go(lines_page, unit):
+    page = lines_page
+    opened(page.page, **FAST)
+    expect(page.page.locator("#jog-forth")).to_be_enabled()
+    unit.done.clear()
+    aim(page.page, "#jog-forth")
+    page.page.evaluate("document.getElementById('scan').click()")
+    page.page.mouse.down()
+    page.expect_sent("request", 2)
+    page.page.mouse.up()
+    expect(page.page.locator("#log .log-item[data-message=scan]")).to_be_visible()
+    expect(page.page.locator("#commission-motor")).to_be_enabled()
+    sent = {each[2:] for each in unit.done if each[:1] == b"\x02"}
+    assert sent <= {b"K", b"\\"}
+    assert "stop" not in page.sent
+
+
 def test_the_ramp_is_told_as_the_firmware_plans_it(bench):
     opened(bench.page, start="100", speed="1000", ramp="2000", trial="5000")
     words = bench.page.locator("#ramp-words")

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
+from fake_unit import FakeLine, FakeUnit
 from rkm04_tools.service import virtual
 from rkm04_tools.service.fields import Asked
 from rkm04_tools.service.holding import HOLD_SECONDS, Holds
-from rkm04_tools.service.orders import Connect, Disconnect, Forget, Request
+from rkm04_tools.service.orders import SCAN, Connect, Disconnect, Forget, Request
 from service_desk import Desk
 
 MINE, OTHER = 1, 2
 RUNS = Request("send", 1, "\\S200 V2000 A8000 G+")
+RUN_OF_BUTTON = replace(RUNS, held=True)
 
 
 @pytest.fixture
@@ -24,6 +27,23 @@ def desk() -> Iterator[Desk]:
     desk.stop()
     desk.worker.close()
     desk.units.close()
+
+
+@pytest.fixture
+def unit() -> FakeUnit:
+    return FakeUnit()
+
+
+@pytest.fixture
+def busy(unit: FakeUnit) -> Iterator[Desk]:
+    """A desk whose line is busy for more than a second."""
+    line, desk = FakeLine(unit), Desk()
+    desk.connect(line.port)
+    desk.worker.give(Request(SCAN, 0), Asked(OTHER, 100))
+    desk.state(lambda told: told["busy"] == SCAN)
+    yield desk
+    desk.worker.close()
+    line.close()
 
 
 def is_moving(desk: Desk) -> bool:
@@ -72,6 +92,45 @@ def test_a_button_that_is_held_or_let_go_stops_nothing(desk):
     desk.worker.holds.let_go(MINE)
     time.sleep(2 * HOLD_SECONDS)
     assert is_moving(desk)
+
+
+def test_a_run_that_waits_for_the_line_is_never_sent_after_its_button_was_let_go(busy, unit):
+    busy.worker.holds.hold(MINE)
+    busy.worker.give(RUN_OF_BUTTON, Asked(MINE, 101))
+    busy.worker.give(RUN_OF_BUTTON, Asked(OTHER, 102))
+    busy.worker.let_go(MINE)
+
+    refused, scanned, sent = (busy.answer(number) for number in (101, 100, 102))
+
+    assert refused["error"]["kind"] == "Stopped"
+    assert (scanned["error"], sent["error"]) == (None, None)
+    assert len([each for each in unit.done if each[:1] == b"\x02"]) == 1
+
+
+def test_a_browser_that_goes_while_it_holds_a_button_is_not_waited_for(busy, unit):
+    busy.worker.holds.hold(MINE)
+    busy.worker.give(RUN_OF_BUTTON, Asked(MINE, 101))
+    began = time.monotonic()
+    busy.worker.lose(OTHER)
+    busy.worker.lose(MINE)
+
+    stop = busy.until(lambda told: told["type"] == "answer" and told["message"] == "stop")
+
+    assert stop["error"] is None
+    assert time.monotonic() - began < HOLD_SECONDS
+    assert {each for each in unit.done if each[:1] == b"\x02"} == {b"\x020K"}
+
+
+def test_a_page_that_is_gone_has_gone_for_the_worker_too(service):
+    holding, other = service.browser(), service.browser()
+    other.connected()
+    holding.say(type="hold", held=True)
+    assert holding.request("send", text=RUNS.text, held=True)["error"] is None
+    began = time.monotonic()
+    holding.close()
+    other.until(lambda told: told["type"] == "answer" and told["message"] == "stop")
+    assert time.monotonic() - began < HOLD_SECONDS
+    other.close()
 
 
 def test_each_browser_holds_for_itself():

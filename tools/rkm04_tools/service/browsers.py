@@ -47,6 +47,9 @@ class Desk(Protocol):
     def take(self, text: str, client: int, is_late: IsLate) -> Aside | None:
         """Take what a browser says; a Failure is for this one alone."""
 
+    def leave(self, client: int) -> None:
+        """A browser has gone."""
+
 
 class Beats:
     """Signs of life with numbers, so that a request shows how old it is."""
@@ -134,6 +137,7 @@ class Browsers:
             pass  # a KeyError is a message of bytes, which no page sends
         finally:
             self._queues.pop(number, None)
+            self._desk.leave(number)
             sender.cancel()
             await asyncio.gather(sender, return_exceptions=True)
 

@@ -60,10 +60,14 @@ class UnitDesk:
             self._worker.give(order, asked)
         return None
 
+    def leave(self, client: int) -> None:
+        """A browser has gone."""
+        self._worker.lose(client)
+
     def _hold(self, order: Hold, client: int, late: bool) -> None:
         """What comes too late, or without a line, holds nothing."""
         if not order.held:
-            self._worker.holds.let_go(client)
+            self._worker.let_go(client)
         elif not late and self._worker.state.connected:
             self._worker.holds.hold(client)
 

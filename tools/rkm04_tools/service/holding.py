@@ -26,6 +26,12 @@ class Holds:
         with self._lock:
             self._ends.pop(client, None)
 
+    def lose(self, client: int | None) -> None:
+        """Say that a browser will say nothing more: what it holds is lost now."""
+        with self._lock:
+            if client in self._ends:
+                self._ends[client] = time.monotonic()
+
     def rest_seconds(self) -> float | None:
         """Until the first of them is lost; None: nobody holds a button."""
         with self._lock:

@@ -33,6 +33,7 @@ MESSAGES = {
 }
 SCAN, SEND_ALL = "scan", "send_all"
 TO_ALL_UNITS = ("send", "store")
+LETS_GO = "K"
 ACTS = ("resume", "reset", "speed")
 TEXT_MAX = 200_000
 """Characters: more than 700 commands with comments; a stop must not wait for a longer check."""
@@ -64,7 +65,8 @@ class Request:
     """One of the seven messages, or several: a scan, the programs of all motors.
 
     `everywhere`: to all units of the line (DNode 0), of which none answers. `texts` are the
-    programs by motor; they start `together` or as they arrive.
+    programs by motor; they start `together` or as they arrive. `held`: of a button that makes a
+    motor run while it is held, the run or the K of letting go.
     """
 
     name: str
@@ -73,6 +75,7 @@ class Request:
     everywhere: bool = False
     texts: tuple[tuple[int, str], ...] = ()
     together: bool = False
+    held: bool = False
 
 
 @dataclass(frozen=True)
@@ -136,6 +139,11 @@ def name_of(order: Work) -> str:
     return "connect" if isinstance(order, Connect) else "disconnect"
 
 
+def runs(order: Work) -> bool:
+    """Whether it is not to be sent after its button was let go."""
+    return isinstance(order, Request) and order.held and order.text != LETS_GO
+
+
 def motor_of(order: Work) -> int | None:
     """The motor that is meant, 0 for all; None: it is no matter of motors."""
     return order.motor if isinstance(order, Request | Act) else None
@@ -182,7 +190,8 @@ def _request(told: Mapping[str, Any]) -> Request:
     if everywhere and name not in TO_ALL_UNITS:
         raise BadRequest("node 0 means all units, and none of them answers; ask one of them")
     has_text = name == "send" or (name == "store" and told.get("text") is not None)
-    return Request(name, motor, text_of(told, "text", TEXT_MAX) if has_text else "", everywhere)
+    text = text_of(told, "text", TEXT_MAX) if has_text else ""
+    return Request(name, motor, text, everywhere, held=flag_of(told, "held"))
 
 
 def _texts(told: Mapping[str, Any]) -> tuple[tuple[int, str], ...]:

@@ -68,6 +68,9 @@ class TurnsDesk:
             self._turns.give(self.work_of(order), asked)
         return None
 
+    def leave(self, client: int) -> None:
+        """A browser has gone, which changes nothing."""
+
     def _set_input(self, order: SetInput) -> None:
         state = self._turns.board.state
         if not (state.connected and state.virtual):

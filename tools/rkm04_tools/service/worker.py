@@ -12,7 +12,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from threading import Condition, Thread
-from typing import Any, TypeGuard, TypeVar
+from typing import Any, TypeVar
 
 from rkm04_tools.failure import Failure
 from rkm04_tools.line import Line, Unit
@@ -35,6 +35,7 @@ from rkm04_tools.service.orders import (
     Work,
     motor_of,
     name_of,
+    runs,
 )
 from rkm04_tools.service.stopping import stop_all
 from rkm04_tools.service.trouble import (
@@ -159,14 +160,32 @@ class Worker:
         node = self._state.node
         self._tell(answer_of(name_of(order), motor_of(order), node, asked, failure))
 
-    def _give_up(self, failure: Failure) -> None:
-        """Refuse what waits for the line."""
+    def let_go(self, client: int | None) -> None:
+        """A browser has let its button go: a run that still waits for the line is never sent."""
+        self.holds.let_go(client)
+        self._give_up(Stopped(), lambda order, asked: asked.client == client and runs(order))
+
+    def lose(self, client: int) -> None:
+        """A browser has gone: if it holds a button, all motors stop."""
         with self._wakes:
-            waiting = list(self._waiting)
-            self._waiting = deque(each for each in waiting if not _is_for_unit(each[0]))
-        for order, asked, _ in waiting:
-            if _is_for_unit(order):
-                self.refuse(order, asked, failure)
+            self.holds.lose(client)
+            self._wakes.notify()
+
+    def _give_up(
+        self,
+        failure: Failure,
+        is_meant: Callable[[Request | Act, Asked], bool] = lambda order, asked: True,
+    ) -> None:
+        """Refuse what waits for the line, as far as it is meant."""
+        with self._wakes:
+            refused = [
+                (order, asked)
+                for order, asked, _ in self._waiting
+                if isinstance(order, Request | Act) and is_meant(order, asked)
+            ]
+            self._waiting = deque(each for each in self._waiting if each[:2] not in refused)
+        for order, asked in refused:
+            self.refuse(order, asked, failure)
 
     def _run(self) -> None:
         while not self._closing:
@@ -443,7 +462,3 @@ def _tried(work: Callable[[], Got]) -> Got | Failure:
         what = f"{type(error).__name__}: {error}"
         print(f"rkm04: {what}; this is a fault of the tool", file=sys.stderr)
         return Fault(what)
-
-
-def _is_for_unit(order: Queued) -> TypeGuard[Request | Act]:
-    return isinstance(order, Request | Act)

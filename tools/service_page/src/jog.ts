@@ -87,7 +87,7 @@ export class Jog {
         const id = this.#link.nextId();
         this.#run?.asked.add(id);
         const isSent = this.#run !== null
-            && this.#link.send({ type: "request", id, message: "send", motor: this.#run.motor, text });
+            && this.#link.send({ type: "request", id, message: "send", motor: this.#run.motor, text, held: true });
         if (!isSent) {
             this.#giveUp();
         }
@@ -122,10 +122,11 @@ export class Jog {
         if (this.#run === null || id === null || !isMine || !this.#run.asked.delete(id)) {
             return;
         }
-        if (error !== null) {
+        const isReleased = this.phase.value === "released";
+        if (error === null) {
+            this.#run.isTaken = isReleased && this.#run.asked.size === 0;
+        } else if (!isReleased || error.kind !== "Stopped") { // a run that had to wait is withdrawn when it is let go
             this.#giveUp();
-        } else if (this.phase.value === "released" && this.#run.asked.size === 0) {
-            this.#run.isTaken = true;
         }
     }
 

@@ -43,6 +43,8 @@ export interface RequestParts {
     texts?: Record<string, string>;
     /** Whether they start on the same tick, or each as it arrives. */
     together?: boolean;
+    /** Of a button that is held: its run, which is not sent after it was let go, or the K of letting go. */
+    held?: true;
 }
 
 /** A unit: its address on a port. */

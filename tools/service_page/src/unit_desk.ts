@@ -118,6 +118,9 @@ export class UnitDesk {
         } else if (asked.type === "hold") {
             const isMeant = this.#place !== null && !this.#beats.isLate(asked.beat, now_ms);
             this.#grip.set(asked.held && isMeant, now_ms);
+            if (!asked.held) {
+                this.#giveUp(STOPPED, isRun);
+            }
         } else if (asked.type === "forget") {
             this.#state.forget(asked.nodes);
         } else if (asked.type === "input") {
@@ -210,10 +213,9 @@ export class UnitDesk {
     }
 
     /** Refuses what waits for the line; whether there is one is another matter. */
-    #giveUp(why: Refusal): void {
-        const isForUnit = ({ order }: { order: Order }): boolean => !("port" in order) && order.type !== "disconnect";
-        const refused = this.#queue.filter(isForUnit);
-        this.#queue = this.#queue.filter((each) => !isForUnit(each));
+    #giveUp(why: Refusal, isMeant = isForUnit): void {
+        const refused = this.#queue.filter(({ order }) => isMeant(order));
+        this.#queue = this.#queue.filter(({ order }) => !isMeant(order));
         refused.forEach(({ order }) => this.#refuse(order, why));
     }
 
@@ -406,6 +408,10 @@ function inDoubt(got: Got | Refusal, message = 0): Got | Refusal {
     const moves = message === messages.SET_COMMAND ? "motors may move; " : "";
     return new Refusal("NOT CONFIRMED: it may have been taken", `${moves}${cause}; ${next}`, { kind });
 }
+
+const isForUnit = (order: Order): boolean => !("port" in order) && order.type !== "disconnect";
+/** Whether it is not to be sent after the button was let go. */
+const isRun = (order: Order): boolean => order.type === "request" && order.held === true && order.text !== "K";
 
 /** What came of some work; a refusal is an answer, too. */
 async function tried<T>(work: () => Promise<T>): Promise<T | Refusal> {
