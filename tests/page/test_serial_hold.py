@@ -7,10 +7,14 @@ from pathlib import Path
 
 import pytest
 from alone_page import hold, write_alone
+from frames import frame
 from playwright.sync_api import Browser, Page, expect
 from serial_bridge import SerialBridge
-from serial_page import NODE, connect, messages_to
+from serial_page import NODE, connect, messages_to, wait_until
 from served import Served
+
+UNDER_WAY_MAX = 1
+"""Frames that may be on their way when the button is let go."""
 
 
 @pytest.fixture
@@ -53,3 +57,18 @@ def test_a_run_that_waits_for_the_line_is_withdrawn_when_the_button_is_let_go(pa
     expect(page.locator("#commission-motor")).to_be_enabled()
     sent = {each[2:] for each in messages_to(NODE, bridge.sent) if each[:1] == b"\x02"}
     assert sent <= {b"K", b"\\"}
+
+
+def test_a_unit_whose_answers_are_lost_hears_k_before_it_is_looked_at_again(page, bridge):
+    hold(page, farthest=0)
+    bridge.silent = True
+    page.wait_for_timeout(300)
+    before = len(bridge.sent)
+    page.mouse.up()
+
+    letting_go = frame(NODE, 0, b"\x021K")
+    wait_until(page, lambda: letting_go in bridge.sent)
+    ahead = bridge.sent[before : bridge.sent.index(letting_go)]
+    assert len([part for part in ahead.split(b"\x7e") if part]) <= UNDER_WAY_MAX
+    bridge.silent = False
+    expect(page.locator("#state-1")).to_contain_text("stopped by K")

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
-from fake_unit import FakeLine, FakeUnit
+from fake_unit import FakeLine, FakeUnit, lost
 from rkm04_tools.service import virtual
 from rkm04_tools.service.fields import Asked
 from rkm04_tools.service.holding import HOLD_SECONDS, Holds
@@ -17,6 +17,7 @@ from service_desk import Desk
 MINE, OTHER = 1, 2
 RUNS = Request("send", 1, "\\S200 V2000 A8000 G+")
 RUN_OF_BUTTON = replace(RUNS, held=True)
+LETTING_GO = Request("send", 1, "K", held=True)
 
 
 @pytest.fixture
@@ -35,15 +36,21 @@ def unit() -> FakeUnit:
 
 
 @pytest.fixture
-def busy(unit: FakeUnit) -> Iterator[Desk]:
+def line(unit: FakeUnit) -> Iterator[FakeLine]:
+    line = FakeLine(unit)
+    yield line
+    line.close()
+
+
+@pytest.fixture
+def busy(line: FakeLine) -> Iterator[Desk]:
     """A desk whose line is busy for more than a second."""
-    line, desk = FakeLine(unit), Desk()
+    desk = Desk()
     desk.connect(line.port)
     desk.worker.give(Request(SCAN, 0), Asked(OTHER, 100))
     desk.state(lambda told: told["busy"] == SCAN)
     yield desk
     desk.worker.close()
-    line.close()
 
 
 def is_moving(desk: Desk) -> bool:
@@ -105,6 +112,45 @@ def test_a_run_that_waits_for_the_line_is_never_sent_after_its_button_was_let_go
     assert refused["error"]["kind"] == "Stopped"
     assert (scanned["error"], sent["error"]) == (None, None)
     assert len([each for each in unit.done if each[:1] == b"\x02"]) == 1
+
+
+def test_letting_go_cuts_short_what_is_under_way(busy, line, unit):
+    unit.done.clear()
+    busy.worker.holds.hold(MINE)
+    busy.worker.give(Request("version", 0), Asked(OTHER, 101))
+    busy.worker.give(LETTING_GO, Asked(MINE, 102))
+
+    cut, told, waited = (busy.answer(number) for number in (100, 102, 101))
+
+    assert cut["error"]["kind"] == "Stopped"
+    assert (told["text"], told["values"], told["error"]) == ("K sent", {"alone": "K"}, None)
+    assert waited["error"] is None
+    assert busy.worker.holds.rest_seconds() is None
+    assert (1, 0, b"\x021K") in line.requests
+
+
+def test_a_unit_whose_answers_are_lost_hears_k_before_it_is_looked_at_again(busy, line):
+    busy.answer(100)
+    busy.live()
+    line.faults.extend([lost] * 1000)
+    asked = len(line.requests)
+    while len(line.requests) == asked:
+        time.sleep(0.001)
+    asked = len(line.requests)
+    busy.worker.give(LETTING_GO, Asked(MINE, 101))
+    assert busy.answer(101)["error"]["kind"] == "NoAnswer"
+
+    assert line.requests[asked : asked + 4] == 4 * [(1, 0, b"\x021K")]
+
+
+def test_a_stop_goes_ahead_of_a_button_that_is_let_go(busy, line):
+    busy.answer(100)
+    line.faults.extend([lost] * 3)
+    busy.worker.give(LETTING_GO, Asked(MINE, 101))
+    while (1, 0, b"\x021K") not in line.requests:
+        time.sleep(0.001)
+    assert busy.stop()["error"] is None
+    assert [told["error"]["kind"] for told in busy.told if told.get("id") == 101] == ["Stopped"]
 
 
 def test_a_browser_that_goes_while_it_holds_a_button_is_not_waited_for(busy, unit):

@@ -144,6 +144,11 @@ def runs(order: Work) -> bool:
     return isinstance(order, Request) and order.held and order.text != LETS_GO
 
 
+def lets_go(order: Queued) -> bool:
+    """Whether it is the K of a button that is let go, which only a stop goes ahead of."""
+    return isinstance(order, Request) and order.held and order.text == LETS_GO
+
+
 def motor_of(order: Work) -> int | None:
     """The motor that is meant, 0 for all; None: it is no matter of motors."""
     return order.motor if isinstance(order, Request | Act) else None

@@ -10,11 +10,11 @@ from rkm04_tools.doubt import CUT_SHORT
 from rkm04_tools.frame import BROADCAST
 from rkm04_tools.line import USUAL, Motor, Unit, Wait
 from rkm04_tools.line_errors import UnitRefused, UnitRestarted
-from rkm04_tools.messages import ALL_MOTORS, MOTORS, VERSION
+from rkm04_tools.messages import ALL_MOTORS, MOTORS, SET_COMMAND, VERSION
 from rkm04_tools.sending import Tell, check_program, held_commands, plan_program, send_program
 from rkm04_tools.service.answers import Answer, ProgramWrong
 from rkm04_tools.service.checking import NAME, first_error
-from rkm04_tools.service.orders import MESSAGES, SCAN, SEND_ALL, Act, Request
+from rkm04_tools.service.orders import LETS_GO, MESSAGES, SCAN, SEND_ALL, Act, Request, lets_go
 from rkm04_tools.service.together import send_all
 from rkm04_tools.source import Source
 from rkm04_tools.speeding import send_speed_briefly
@@ -28,6 +28,8 @@ def ask(unit: Unit, request: Request, tell: Tell) -> Answer:
         return _scan(unit, tell)
     if request.name == SEND_ALL:
         return send_all(unit, dict(request.texts), request.together, tell)
+    if lets_go(request):
+        return _let_go(unit.motor(request.motor))
     if request.name == "send":
         return _send(unit.motor(request.motor), request.text, tell)
     if request.name == "store":
@@ -99,6 +101,14 @@ def _send(motor: Motor, text: str, tell: Tell) -> Answer:
         "notes": list(sent.notes),
     }
     return Answer("; ".join([words, *sent.notes]), values)
+
+
+def _let_go(motor: Motor) -> Answer:
+    """Send K at once: it may be taken twice, so that it needs no session."""
+    message = messages.request(SET_COMMAND, motor.number, LETS_GO.encode())
+    answer = motor.unit.line.request_at_once(motor.unit.node, message)
+    messages.parse_set_command(answer, motor.number)
+    return Answer(f"{LETS_GO} sent", {"alone": LETS_GO})
 
 
 def _broadcast(motor: Motor, request: Request, tell: Tell) -> Answer:

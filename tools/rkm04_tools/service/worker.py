@@ -33,6 +33,7 @@ from rkm04_tools.service.orders import (
     Queued,
     Request,
     Work,
+    lets_go,
     motor_of,
     name_of,
     runs,
@@ -110,6 +111,7 @@ class Worker:
         self._waiting: deque[tuple[Queued, Asked, float]] = deque()
         self._stops: deque[tuple[Asked, Sequence[Node]]] = deque()
         self._closing = False
+        self._letting_go = False
         self._look_due = 0.0
         self._thread = Thread(target=self._run, name="line", daemon=True)
 
@@ -130,11 +132,17 @@ class Worker:
         self._thread.start()
 
     def give(self, order: Queued, asked: Asked) -> None:
-        """Put an order after those that wait."""
+        """Put an order after those that wait; K of a button that is let go ahead of them.
+
+        Like a stop, it cuts short what is under way.
+        """
+        if lets_go(order):
+            self.let_go(asked.client)
         with self._wakes:
             if len(self._waiting) >= ORDERS_MAX:
                 raise Failure("too much is waiting for the line; wait for the answers")
-            self._waiting.append((order, asked, time.monotonic()))
+            put = self._waiting.appendleft if lets_go(order) else self._waiting.append
+            put((order, asked, time.monotonic()))
             self._wakes.notify()
 
     def stop(self, asked: Asked, nodes: Sequence[Node] = ()) -> None:
@@ -216,7 +224,10 @@ class Worker:
         return bool(self._is_stop_wanted() or self._waiting)
 
     def _is_stop_wanted(self) -> bool:
-        return self._closing or bool(self._stops) or self.holds.is_lost()
+        """Whether what is under way has to make room; also for a button that is let go."""
+        waiting = self._waiting
+        lets_one_go = bool(waiting) and lets_go(waiting[0][0]) and not self._letting_go
+        return self._closing or bool(self._stops) or self.holds.is_lost() or lets_one_go
 
     @property
     def _is_wanted(self) -> bool:
@@ -248,7 +259,9 @@ class Worker:
             self._wire.forget()
         was_away = bool(self._state.error)
         self._change(busy=name)
+        self._letting_go = lets_go(order)
         got = _tried(lambda: nothing_kept_back(lambda: self._obey(order, asked), self._take_back))
+        self._letting_go = False
         if was_away or isinstance(got, LineError):
             self._give_up(Unsent())
         wanted = VERSION if isinstance(order, Connect) else MESSAGES.get(name, SET_COMMAND)

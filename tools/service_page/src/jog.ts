@@ -67,9 +67,8 @@ export class Jog {
         }
         this.phase.set("released");
         this.#run.since_ms = performance.now();
-        if (this.#ask("K")) {
-            this.#hold(false);
-        }
+        this.#hold(false);
+        this.#ask("K");
     }
 
     /** All motors were told to stop, by whoever pressed STOP. */
@@ -83,7 +82,7 @@ export class Jog {
         return this.#link.send({ type: "hold", held });
     }
 
-    #ask(text: string): boolean {
+    #ask(text: string): void {
         const id = this.#link.nextId();
         this.#run?.asked.add(id);
         const isSent = this.#run !== null
@@ -91,7 +90,6 @@ export class Jog {
         if (!isSent) {
             this.#giveUp();
         }
-        return isSent;
     }
 
     /** What cannot be done to one motor is done to all. */

@@ -6,7 +6,7 @@ import { Beats } from "./unit_beats";
 import { Grip } from "./unit_grip";
 import * as messages from "./unit_messages";
 import { UnitOrders, type Exchange, type Got } from "./unit_orders";
-import { BROADCAST, LineTrouble, OPENING, Refusal, USUAL, type Place, type Wait } from "./unit_place";
+import { AT_ONCE, BROADCAST, LineTrouble, OPENING, Refusal, USUAL, type Place, type Wait } from "./unit_place";
 import { RESET } from "./unit_plan";
 import { DeskState, merged } from "./unit_state";
 import { STOP, stopAll } from "./unit_stop";
@@ -53,6 +53,7 @@ export class UnitDesk {
     #isStill = false;
     #isBusy = false;
     #isStopping = false;
+    #isUrgent = false;
     #look_due_ms = 0;
     #busy_ms = 0;
     #load = { since_ms: 0, share: 0 };
@@ -119,7 +120,7 @@ export class UnitDesk {
             const isMeant = this.#place !== null && !this.#beats.isLate(asked.beat, now_ms);
             this.#grip.set(asked.held && isMeant, now_ms);
             if (!asked.held) {
-                this.#giveUp(STOPPED, isRun);
+                this.#giveUp(STOPPED, isHeld);
             }
         } else if (asked.type === "forget") {
             this.#state.forget(asked.nodes);
@@ -129,6 +130,9 @@ export class UnitDesk {
             const isLate = asked.type !== "connect" && asked.type !== "disconnect" && this.#beats.isLate(asked.beat, now_ms);
             if (isLate) {
                 this.#refuse(asked, LATE);
+            } else if (isUrgent(asked)) {
+                this.#queue.unshift({ order: asked, since_ms: now_ms });
+                this.#place?.hurry();
             } else {
                 this.#queue.push({ order: asked, since_ms: now_ms });
             }
@@ -197,12 +201,13 @@ export class UnitDesk {
         if (place === null) {
             throw this.#why;
         }
-        const isGivenUp = (): boolean => this.#stops.length > 0 && !this.#isStopping;
+        const hasUrgent = (): boolean => !this.#isUrgent && this.#queue.some(({ order }) => isUrgent(order));
+        const isGivenUp = (): boolean => !this.#isStopping && (this.#stops.length > 0 || hasUrgent());
         if (isGivenUp()) {
             throw STOPPED;
         }
         try {
-            const answer = await place.ask(node, request, wait);
+            const answer = await place.ask(node, request, this.#isUrgent ? AT_ONCE : wait);
             if (node !== BROADCAST) {
                 this.#state.hear({ port: place.port, node });
             }
@@ -235,7 +240,9 @@ export class UnitDesk {
         const place = this.#place;
         const wasAway = this.#state.now.error !== null;
         this.#state.change({ busy: nameOf(order) });
+        this.#isUrgent = isUrgent(order);
         const got = await tried(() => this.#obeyed(order));
+        this.#isUrgent = false;
         this.#note(got);
         if (got instanceof LineTrouble || wasAway) {
             this.#giveUp(UNSENT);
@@ -410,8 +417,10 @@ function inDoubt(got: Got | Refusal, message = 0): Got | Refusal {
 }
 
 const isForUnit = (order: Order): boolean => !("port" in order) && order.type !== "disconnect";
-/** Whether it is not to be sent after the button was let go. */
-const isRun = (order: Order): boolean => order.type === "request" && order.held === true && order.text !== "K";
+/** Whether it is not to be sent after the button was let go, which is told before its K. */
+const isHeld = (order: Order): boolean => "held" in order;
+/** Whether it is the K of a button that is let go, which only a stop goes ahead of. */
+const isUrgent = (order: Order): boolean => "held" in order && order.text === "K";
 
 /** What came of some work; a refusal is an answer, too. */
 async function tried<T>(work: () => Promise<T>): Promise<T | Refusal> {

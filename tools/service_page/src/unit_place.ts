@@ -18,6 +18,7 @@ export const SCANNING: Wait = { patience_ms: 100, attempts: 2, session: true, sc
 export const OPENING: Wait = { patience_ms: 400, attempts: 2, session: true };
 /** For what may be executed twice: questions, and K. */
 export const LOOKING: Wait = { patience_ms: 400, attempts: 2, session: false };
+export const AT_ONCE: Wait = { ...USUAL, session: false };
 export const ONCE: Wait = { patience_ms: 400, attempts: 1, session: false };
 
 export const BROADCAST = 0;
