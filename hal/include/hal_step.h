@@ -43,14 +43,9 @@ unsigned hal_step_waiting(unsigned motor);
  * If any were, hal_step_run has to follow for more to come. Only while hal_step_hold is in force. */
 unsigned hal_step_take_back(unsigned motor, unsigned count);
 
-enum {
-    /* HOLD and SETUP of a board at most, each: a motion's first pulse comes so long after its begin at least. */
-    HAL_STEP_DIR_NS = 200000
-};
-
 /* DIR changes by itself between a pulse and the next one laid if that goes the other way: HOLD after the rising edge of
- * the one, SETUP before that of the other. So long the two must be apart, else the other one is late. Microseconds, at
- * most 500; any context. */
+ * the one, SETUP before that of the other. So long the two must be apart, else the other one is late. Microseconds; any
+ * context. */
 uint32_t hal_step_turn_us(void);
 
 /* Sets DIR: false forward, true backward. Called only while no pulse waits. Main. */

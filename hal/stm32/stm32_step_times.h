@@ -11,7 +11,6 @@
 
 #include "base_tick.h"
 #include "board.h"
-#include "hal_step.h"
 #include "image.h"
 
 #define TICKS_OF_NS(ns) (((ns) * TICKS_PER_US + 999U) / 1000U)
@@ -38,16 +37,15 @@ enum {
     LOW_TICKS = IMAGE_STEP_HIGH_NS != 0U && BOARD_LOW_TICKS > LEFT_TICKS ? LEFT_TICKS : BOARD_LOW_TICKS,
     SETUP_TICKS = TICKS_OF_NS(BOARD_DIR_SETUP_NS),
     HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS) + WIDEST_TICKS, /* after a rising edge, while main waits */
+    DIR_NS_MAX = 200000, /* a motion's first pulse comes so long after its begin at least */
 };
 
 static_assert(IMAGE_STEP_HIGH_NS == 0U ||
                   (IMAGE_STEP_HIGH_NS >= BOARD_STEP_HIGH_NS && BOARD_LOW_TICKS <= LEFT_TICKS + ROUNDED_TICKS),
               "the drivers of the board want wider pulses than the unit makes, or more time between them");
 
-static_assert(BOARD_DIR_SETUP_NS <= HAL_STEP_DIR_NS,
-              "the drivers want DIR to stand for longer before a pulse than can be");
-static_assert(BOARD_DIR_HOLD_NS <= HAL_STEP_DIR_NS,
-              "the drivers want DIR to stand for longer after a pulse than can be");
+static_assert(BOARD_DIR_SETUP_NS <= DIR_NS_MAX, "the drivers want DIR to stand for longer before a pulse than can be");
+static_assert(BOARD_DIR_HOLD_NS <= DIR_NS_MAX, "the drivers want DIR to stand for longer after a pulse than can be");
 
 static_assert(WIDEST_TICKS >= HIGH_TICKS && WIDEST_TICKS <= 10 * TICKS_PER_US,
               "a stop waits for the end of a pulse, with interrupts held off");

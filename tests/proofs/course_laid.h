@@ -21,6 +21,8 @@
         (c->legs == 1 ==> value(c->leg[0].end) == value(c->end)) &&
         (c->legs == 2 ==> value(c->leg[1].end) == value(c->end)) &&
         (c->legs == 3 ==> value(c->leg[2].end) == value(c->end));
+    predicate as_section(struct path_course *c, struct path_section *s) =
+        c->length == s->length && c->grains_per_step == 2048 * s->vector.accel;
     logic integer section_way(struct path_section *s) = 2048 * s->vector.accel * s->length;
 */
 
@@ -31,7 +33,7 @@
     requires goal_fits(entry, goal, section_way(section) - value(entry->place));
     assigns *course, *speeds;
     ensures speeds_fit(speeds);
-    ensures course->length == section->length && course->grains_per_step == 2048 * section->vector.accel;
+    ensures as_section(course, section);
     ensures legs_asked(course) && legs_laid(course) && legs_from(course, entry) && legs_until_end(course);
     ensures value(entry->place) <= value(course->end) <= section_way(section);
     ensures !goal->rests ==> value(course->end) == section_way(section);

@@ -103,9 +103,8 @@ ONLY_MODELLED = {
     "step_channel_turn_over",
 }  # fmt: skip
 
-# Of the path: its unit tests try them, and there is no proof for all inputs. Of path_course_lay
-# what it leaves with its end is not proved, of path_lay_begin that look-ahead is asked within its
-# conditions.
+# Of the path: its unit tests try them, and there is no proof for all inputs. Of path_lay_begin
+# it is not proved that look-ahead is asked within its conditions.
 NOT_PROVED = {
     "path_lay_next",
     "path_change", "path_find",
@@ -142,12 +141,14 @@ def said(name: str, word: str) -> set[tuple[str, str]]:
 
 
 def test_what_is_admitted_of_a_course_is_proved_at_the_same_place() -> None:
-    begin = said("path_course_lay_begin", "assert")
+    begin, legs = said("path_course_lay_begin", "assert"), said("path_course_lay_legs", "assert")
 
-    of_legs = said("path_course_lay_legs", "admit")
+    of_legs, of_the_whole = said("path_course_lay_legs", "admit"), said("path_course_lay", "admit")
 
     assert of_legs
     assert of_legs <= begin
+    assert of_the_whole
+    assert of_the_whole <= begin | legs
 
 
 def test_a_course_and_its_parts_are_asked_for_alike() -> None:
