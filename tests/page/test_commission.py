@@ -276,6 +276,24 @@ def test_a_run_that_waits_for_a_scan_is_withdrawn_when_the_button_is_let_go(line
     assert "stop" not in page.sent
 
 
+def test_what_is_left_of_a_run_is_told_unless_its_reset_is_confirmed(lines_page, line, unit):
+    page = lines_page.page
+    opened(page, **FAST)
+    expect(page.locator("#jog-forth")).to_be_enabled()
+    unit.answers[b"\x021\\"] = b"\x021\x02\\"
+    aim(page, "#jog-forth")
+    page.mouse.down()
+    lines_page.expect_sent("request", 1)
+    unit.states[0] = 3
+    expect(page.locator(".card[data-moving=true]")).to_have_count(1)
+    page.mouse.up()
+    lines_page.expect_sent("request", 2)
+    unit.states[0] = 0
+
+    expect(page.locator("#log .log-item").first).to_contain_text("the unit refuses")
+    expect(page.locator("#commission-why")).to_contain_text("may still be in motor 1")
+
+
 def test_the_ramp_is_told_as_the_firmware_plans_it(bench):
     opened(bench.page, start="100", speed="1000", ramp="2000", trial="5000")
     words = bench.page.locator("#ramp-words")

@@ -35,6 +35,8 @@ export class Jog {
     readonly #stop: () => void;
     readonly #isFresh: Cell<boolean>;
     #run: Run | null = null;
+    /** Number of the reset that is to clear what is left. */
+    #clearing: number | null = null;
 
     constructor(link: Link, isFresh: Cell<boolean>, stop: () => void) {
         this.#link = link;
@@ -117,6 +119,10 @@ export class Jog {
             this.stopped();
         }
         const isMine = from === undefined || from === this.#link.client;
+        if (isMine && id !== null && id === this.#clearing) {
+            this.#clearing = null;
+            this.left.set(error === null ? null : this.left.value);
+        }
         if (this.#run === null || id === null || !isMine || !this.#run.asked.delete(id)) {
             return;
         }
@@ -146,9 +152,7 @@ export class Jog {
     #clear(motor: number): void {
         this.#run = null;
         const id = this.#link.nextId();
-        if (this.#link.send({ type: "request", id, message: "send", motor, text: "\\" })) {
-            this.left.set(null);
-        }
+        this.#clearing = this.#link.send({ type: "request", id, message: "send", motor, text: "\\" }) ? id : null;
         this.phase.set("rest");
     }
 
