@@ -9,24 +9,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rkm04_tools.acting import MAY_MOVE, Told, states, states_since
+from rkm04_tools.acting import MAY_MOVE, Told, states
 from rkm04_tools.doubt import Doubt
 from rkm04_tools.line import Motor
-from rkm04_tools.line_errors import UnitRestarted
 from rkm04_tools.messages import BreakPoint
 
 
 def send_speed(motor: Motor, steps_per_s: int, doubt: Doubt) -> Told:
-    """Send V to a motor that moves, and look what has become of it."""
+    """Send V to a motor that moves, and look what has become of it; in one session."""
     unit, number = motor.unit, motor.number
     before = motor.table()
     doubt.about(f"whether V{steps_per_s} was taken by motor {number}", MAY_MOVE)
     motor.set_speed(steps_per_s)
     doubt.what = f"V{steps_per_s} was sent to motor {number}, but what it has changed"
-    session = unit.line.sessions[unit.node]
     after, held, found = motor.table(), motor.program(), states(unit, number)
-    if session != unit.line.sessions[unit.node]:
-        raise UnitRestarted(f"unit {unit.node}", repeated=True)
     if found is None:
         return Told(number, f"was sent V{steps_per_s}", None)
     if held.endswith(f"V{steps_per_s}"):
@@ -48,13 +44,13 @@ def send_speed(motor: Motor, steps_per_s: int, doubt: Doubt) -> Told:
 
 
 def send_speed_briefly(motor: Motor, steps_per_s: int) -> Told:
-    """Send it without a look at the memory, and tell in the words that the page has, too.
+    """Send it likewise without a look at the memory, and tell in the words that the page has, too.
 
     Of an original unit nothing is known.
     """
     number, before = motor.number, motor.table()
     motor.set_speed(steps_per_s)
-    state, after = states_since(motor.unit, number), motor.table()
+    state, after = states(motor.unit, number), motor.table()
     if state and not state[0].moving:
         text = f"has come to a stand meanwhile: V{steps_per_s} may be in its memory now"
         return Told(number, text, False)

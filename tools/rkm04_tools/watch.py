@@ -18,6 +18,7 @@ from rkm04_tools.messages import ALL_MOTORS, MOTORS, BreakPoint, Progress
 from rkm04_tools.status import Status, levels_text
 from rkm04_tools.table import table, thousands
 
+ATTEMPTS = 2
 LATE_LOOKS = 2
 """So many tell that the interval cannot be kept."""
 Asked = tuple[Motor, float, int, tuple[BreakPoint, ...], Progress]
@@ -129,14 +130,18 @@ class Watcher:
         return Seen(looks, levels, restarted, status.cause if status else "")
 
     def _asked(self) -> tuple[Status | None, list[Asked]]:
-        """What all tell in one session: a look that a restart falls into is of two units."""
+        """What all tell in one session: a look that a restart falls into is made once more.
+
+        Not for ever, as another master on the line begins sessions, too.
+        """
         sessions, node = self._unit.line.sessions, self._unit.node
-        while True:
+        for _ in range(ATTEMPTS):
             status = self._status()
             session = sessions[node]
             asked = [self._ask(number) for number in self._numbers]
             if sessions[node] == session:
-                return status, asked
+                break
+        return status, asked
 
     def _status(self) -> Status | None:
         """Inputs, outputs and counts; None: the unit cannot tell, which is said once."""
