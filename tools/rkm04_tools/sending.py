@@ -174,7 +174,8 @@ def _send_plan(motor: Motor, plan: Plan, tell: Tell) -> Sent:
     _require_holdable(motor, plan)
     tell(0, len(plan.texts))
     with _whole_or_forgotten(motor):
-        sent = send_texts(motor, plan, tell, _halt(motor))
+        _halt(motor)
+        sent = send_texts(motor, plan, tell)
     motor.resume()
     return sent
 
@@ -187,30 +188,24 @@ def load_program(motor: Motor, checked: Checked) -> Sent:
     plan = plan_program(checked)
     plan = replace(plan, hold=Hold.STOP, texts=pack(["]", *plan.plain]))
     _require_holdable(motor, plan)
-    with _whole_or_forgotten(motor):
-        return send_texts(motor, plan, silent, _halt(motor))
+    with motor.unit.line.one_session(motor.unit.node), _whole_or_forgotten(motor):
+        _halt(motor)
+        return send_texts(motor, plan, silent)
 
 
-def _session(motor: Motor) -> int:
-    return motor.unit.line.sessions[motor.unit.node]
-
-
-def send_texts(motor: Motor, plan: Plan, tell: Tell, session: int | None = None) -> Sent:
-    """Send all texts in one session, which may have begun before."""
-    overflow, is_stopped = False, session is not None
+def send_texts(motor: Motor, plan: Plan, tell: Tell) -> Sent:
+    """Send all texts, inside a one_session."""
+    overflow = False
     for done, text in enumerate(plan.texts):
         tell(done, len(plan.texts))
-        if session is not None and session != _session(motor):
-            # A question in between has begun a new one, after which the unit may be another.
-            raise UnitRestarted(f"unit {motor.unit.node}", repeated=False)
         try:
             overflow = motor.command(text) or overflow
         except UnitRefused as refusal:
             raise placed(refusal, plan) from None
-        session = _session(motor)
     tell(len(plan.texts), len(plan.texts))
     # What overwrites only the brackets of the hold loses nothing.
-    return Sent(len(plan.commands), len(plan.texts), overflow and not is_stopped, plan.notes)
+    overflow = overflow and plan.hold is not Hold.STOP
+    return Sent(len(plan.commands), len(plan.texts), overflow, plan.notes)
 
 
 def _at_last_reset(commands: Sequence[Command]) -> tuple[list[Command], bool, list[Command]]:
@@ -285,10 +280,9 @@ def _whole_or_forgotten(motor: Motor) -> Iterator[None]:
         raise
 
 
-def _halt(motor: Motor) -> int:
-    """Reset and stop a motor, so that what is stored then waits for C75; return the session."""
+def _halt(motor: Motor) -> None:
+    """Reset and stop a motor, so that what is stored then waits for C75."""
     motor.command("\\[")
-    session = _session(motor)
     end = time.monotonic() + STAND_SECONDS
     numbers = MOTORS if motor.number == ALL_MOTORS else [motor.number]
     # Until it stands it has not come to [, and K would do nothing.
@@ -298,7 +292,6 @@ def _halt(motor: Motor) -> int:
         time.sleep(POLL_SECONDS)
     motor.stop()
     _require_stopped(motor, numbers)
-    return session
 
 
 def _require_stopped(motor: Motor, numbers: Collection[int]) -> None:

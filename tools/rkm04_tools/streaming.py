@@ -16,7 +16,7 @@ from rkm04_tools.failure import NOT_SO, Failure
 from rkm04_tools.frame import BROADCAST
 from rkm04_tools.host import Command, stored
 from rkm04_tools.line import Motor
-from rkm04_tools.line_errors import UnitRefused, UnitRestarted, UnknownMessage
+from rkm04_tools.line_errors import UnitRefused, UnknownMessage
 from rkm04_tools.messages import ALL_MOTORS
 from rkm04_tools.sending import COMMANDS_MAX, Plan, Sent, Tell, placed
 from rkm04_tools.source import Source
@@ -50,7 +50,8 @@ def stream_program(motor: Motor, checked: Checked, tell: Tell, say: Say) -> Sent
             f"{source.name}: --stream begins with an empty memory; begin it with \\", NOT_SO
         )
     feeder = Feeder(motor, Plan(checked, commands, notes=()), _spans(source, commands), say)
-    return feeder.feed(tell)
+    with motor.unit.line.one_session(motor.unit.node):
+        return feeder.feed(tell)
 
 
 def _spans(source: Source, commands: Sequence[Command]) -> list[tuple[int, int]]:
@@ -96,7 +97,6 @@ class Feeder:
         self._spans = spans
         self._say = say
         self._stopped = False
-        self._session: int | None = None
         self.sent = 0
 
     def feed(self, tell: Tell) -> Sent:
@@ -126,10 +126,6 @@ class Feeder:
         return part
 
     def _send(self, part: Sequence[Command], is_first: bool) -> None:
-        sessions, node = self._motor.unit.line.sessions, self._motor.unit.node
-        if not is_first and sessions[node] != self._session:
-            # A question in between has begun a new one, after which the unit may be another.
-            raise UnitRestarted(f"unit {node}", repeated=False)
         text = ("\\" if is_first else "") + "".join(command.text for command in part)
         if [command.opcode for command in part] == ["SPEED"]:
             text = f"K{text}"  # V alone would act at once; K inside a message does nothing
@@ -137,7 +133,6 @@ class Feeder:
             self._motor.command(text)
         except UnitRefused as refusal:
             raise placed(refusal, self._plan) from None
-        self._session = sessions[node]
         self.sent += len(part)
 
     def _room(self) -> int:
