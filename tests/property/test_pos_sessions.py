@@ -14,9 +14,9 @@ import pytest
 from chance import SEED
 from pos_tried import tried
 
-SESSIONS = int(os.environ.get("RKM04_PROGRAMS", "50"))
+SESSIONS = int(os.environ.get("RKM04_PROGRAMS", "30"))
 BATCH = 1000
-FRESH = 40
+FRESH = 20
 UNSURE_SHARE_MAX = 0.03
 """What is open at once may be more than the model can follow: pos_model.py tells what."""
 

@@ -54,7 +54,7 @@ def measured(tmp_path_factory: pytest.TempPathFactory) -> Measured:
         (target_figures.step_cycles, "lone_step", "lone_step_cycles"),
         (target_figures.step_cycles, "together_step", "together_step_cycles"),
         (target_figures.load_language, "load_16000", "load_16000_percent"),
-        (target_paths.borders, "load_path_alike", "load_paths_percent"),
+        (target_paths.busy, "load_path_alike", "load_paths_percent"),
         (step_time.figures, "longest_ramps", "load_longest_percent"),
     ],
 )

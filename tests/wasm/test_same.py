@@ -23,8 +23,8 @@ from wasm_build import build_wasm, run_all
 ROOT = Path(__file__).resolve().parents[2]
 NATIVE = Path(os.environ.get("RKM04_BUILD", ROOT / "build" / "host")) / "bin"
 EXAMPLES = ROOT / "tools" / "examples"
-PROGRAMS = 1000
-DRAWN = PROGRAMS if "RKM04_LONG" in os.environ else 60
+PROGRAMS = 1000 if "RKM04_LONG" in os.environ else 300
+DRAWN = PROGRAMS if "RKM04_LONG" in os.environ else 30
 SECONDS = "60"
 HEADER_BYTES = 2
 """Of a message: its number and its motor."""

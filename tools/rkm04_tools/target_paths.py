@@ -194,6 +194,12 @@ def _steps(ran: Ran) -> int:
     return int(ran.step_interrupt["cycles"])
 
 
+def busy(rig: Rig) -> Figures:
+    """The one of `borders` that has a budget."""
+    ran, _ = whole(rig, "4 x 200 000 steps/s, alike", fast(ALIKE))
+    return {"load_path_alike": ran.load}
+
+
 def borders(rig: Rig) -> Figures:
     """Borders on all axes 2000 times a second at 200 000 steps/s, and 500 times at 50 000."""
     figures: Figures = {"stack_used": 0}
