@@ -15,7 +15,7 @@ import pytest
 from alone_page import write_alone
 from gve_page import GveService, gve_shown
 from page_looks import AXE, COLOURS, NO_COLOURS, VIOLATIONS
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Keyboard, Page, expect
 from pos_page import PosService, pos_shown
 from service_page import Service, shown
 from tab import DESK
@@ -206,6 +206,19 @@ def test_a_file_that_is_dropped_does_not_take_the_place_of_the_page(
 ) -> None:
     _, page = whole
     assert page.evaluate(DROP)
+
+
+@pytest.mark.parametrize("inserts", [Keyboard.type, Keyboard.insert_text], ids=["keys", "paste"])
+def test_a_decimal_comma_is_a_point(
+    whole: tuple[str, Page], inserts: Callable[[Keyboard, str], None]
+) -> None:
+    _, page = whole
+    field = page.locator("input[type=number]:visible:enabled").first
+    before = field.input_value()
+    field.select_text()
+    inserts(page.keyboard, "1,5")
+    assert field.input_value() == "1.5"
+    field.fill(before)
 
 
 def test_the_tab_key_reaches_every_control_and_leaves_it(whole: tuple[str, Page]) -> None:

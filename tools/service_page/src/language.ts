@@ -1,3 +1,4 @@
+import { readCommas } from "./common/comma";
 import { Cell } from "./signal";
 import { keepPreference, recallPreference } from "./storage";
 
@@ -47,6 +48,7 @@ function translatePage<K extends string>(t: Translate<K | "page.title">): void {
 }
 
 export function setUpWords<K extends string>(chooser: HTMLSelectElement, t: Translate<K | "page.title">): void {
+    readCommas();
     language.watch((name) => {
         chooser.value = name;
         translatePage(t);
