@@ -22,33 +22,37 @@
 #define IMAGE_STEP_HALF 0
 #endif
 
-/* The width of a pulse is the board's, or that of the image. Then two edges are a period of the highest rate apart,
- * which is 2 ticks less where both were rounded. */
+/* The width of a pulse is the board's, or that of the image. */
 #define HIGH_NS (IMAGE_STEP_HIGH_NS != 0U ? IMAGE_STEP_HIGH_NS : BOARD_STEP_HIGH_NS)
 #define WIDEST_NS 10000U
 
 enum {
-    STEP_RATE_MAX = 200000,
     ROUNDED_TICKS = 2,
     HIGH_TICKS = TICKS_OF_NS(HIGH_NS),
     WIDEST_TICKS = TICKS_OF_NS(IMAGE_STEP_HALF ? WIDEST_NS : HIGH_NS),
-    LEFT_TICKS = (int)(TICK_HZ / STEP_RATE_MAX) - HIGH_TICKS - ROUNDED_TICKS, /* below 0: no such rate */
     BOARD_LOW_TICKS = TICKS_OF_NS(BOARD_STEP_LOW_NS),
+
+    /* The unit's highest rate: a period, what of it a pulse is high, and what two edges leave if both were rounded. */
+    TOP_TICKS = (int)(TICK_HZ / IMAGE_STEPS_PER_S_MAX),
+    TOP_HALF_TICKS = WIDEST_TICKS < TOP_TICKS / 2 ? WIDEST_TICKS : TOP_TICKS / 2,
+    TOP_HIGH_TICKS = TOP_HALF_TICKS > HIGH_TICKS ? TOP_HALF_TICKS : HIGH_TICKS,
+    LEFT_TICKS = TOP_TICKS - TOP_HIGH_TICKS - ROUNDED_TICKS,
+
     LOW_TICKS = IMAGE_STEP_HIGH_NS != 0U && BOARD_LOW_TICKS > LEFT_TICKS ? LEFT_TICKS : BOARD_LOW_TICKS,
     SETUP_TICKS = TICKS_OF_NS(BOARD_DIR_SETUP_NS),
     HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS) + WIDEST_TICKS, /* after a rising edge, while main waits */
     DIR_NS_MAX = 200000, /* a motion's first pulse comes so long after its begin at least */
 };
 
-static_assert(IMAGE_STEP_HIGH_NS == 0U ||
-                  (IMAGE_STEP_HIGH_NS >= BOARD_STEP_HIGH_NS && BOARD_LOW_TICKS <= LEFT_TICKS + ROUNDED_TICKS),
-              "the drivers of the board want wider pulses than the unit makes, or more time between them");
+static_assert(IMAGE_STEP_HIGH_NS == 0U || IMAGE_STEP_HIGH_NS >= BOARD_STEP_HIGH_NS,
+              "the drivers of the board want wider pulses than the unit makes");
+static_assert(HIGH_NS <= WIDEST_NS, "a stop waits for the end of a pulse, with interrupts held off");
+/* Nanoseconds, too, as ticks of far too many would wrap. */
+static_assert(BOARD_STEP_LOW_NS <= 1000000000U / IMAGE_STEPS_PER_S_MAX && TOP_HIGH_TICKS + BOARD_LOW_TICKS <= TOP_TICKS,
+              "the drivers of the board want more time for a pulse than the highest rate of the unit leaves");
 
 static_assert(BOARD_DIR_SETUP_NS <= DIR_NS_MAX, "the drivers want DIR to stand for longer before a pulse than can be");
 static_assert(BOARD_DIR_HOLD_NS <= DIR_NS_MAX, "the drivers want DIR to stand for longer after a pulse than can be");
-
-static_assert(WIDEST_TICKS >= HIGH_TICKS && WIDEST_TICKS <= 10 * TICKS_PER_US,
-              "a stop waits for the end of a pulse, with interrupts held off");
 
 /* Of ticks less than 25 s apart. */
 static inline bool is_before(uint32_t tick, uint32_t other)

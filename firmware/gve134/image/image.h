@@ -11,6 +11,9 @@
 #endif
 #define IMAGE_LINE_FULL_DUPLEX 1
 
+/* The most steps of a motor in a second, for which a board's drivers must do. */
+#define IMAGE_STEPS_PER_S_MAX 200000U
+
 /* The width of a pulse at STEP; 0: that of the board. */
 #define IMAGE_STEP_HIGH_NS 2500U
 

@@ -14,6 +14,9 @@
 /* Small rather than fast, but for the steps. */
 #define IMAGE_SMALL 1
 
+/* The most steps of a motor in a second, for which a board's drivers must do. */
+#define IMAGE_STEPS_PER_S_MAX 200000U
+
 /* The width of a pulse at STEP; 0: that of the board. */
 #define IMAGE_STEP_HIGH_NS 0U
 

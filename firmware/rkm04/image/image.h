@@ -12,6 +12,9 @@
  * broadcast counts from then on. */
 #define IMAGE_LINE_LAST 0x7EU
 
+/* The most steps of a motor in a second, for which a board's drivers must do. */
+#define IMAGE_STEPS_PER_S_MAX 16000U
+
 /* The width of a pulse at STEP; 0: that of the board. */
 #define IMAGE_STEP_HIGH_NS 0U
 
