@@ -52,6 +52,7 @@ enum {
 };
 
 static_assert(IMAGE_STEP_HIGH_NS == 0U, "an interrupt cannot make the width of a pulse that the unit promises");
+static_assert(BOARD_DIR_HOLD_NS >= 1U, "BOARD_DIR_HOLD_NS must be 1 or more: an interrupt turns DIR after the pulse");
 static_assert(!IMAGE_STEP_HALF, "an interrupt makes each pulse before it knows the next one");
 static_assert((RING_PULSES & (RING_PULSES - 1)) == 0, "pulses are counted modulo the ring");
 

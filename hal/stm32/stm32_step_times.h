@@ -41,7 +41,6 @@ enum {
     LOW_TICKS = IMAGE_STEP_HIGH_NS != 0U && BOARD_LOW_TICKS > LEFT_TICKS ? LEFT_TICKS : BOARD_LOW_TICKS,
     SETUP_TICKS = TICKS_OF_NS(BOARD_DIR_SETUP_NS),
     HOLD_TICKS = TICKS_OF_NS(BOARD_DIR_HOLD_NS) + WIDEST_TICKS, /* after a rising edge, while main waits */
-    DIR_NS_MAX = 200000, /* a motion's first pulse comes so long after its begin at least */
 };
 
 static_assert(IMAGE_STEP_HIGH_NS == 0U || IMAGE_STEP_HIGH_NS >= BOARD_STEP_HIGH_NS,
@@ -51,8 +50,11 @@ static_assert(HIGH_NS <= WIDEST_NS, "a stop waits for the end of a pulse, with i
 static_assert(BOARD_STEP_LOW_NS <= 1000000000U / IMAGE_STEPS_PER_S_MAX && TOP_HIGH_TICKS + BOARD_LOW_TICKS <= TOP_TICKS,
               "the drivers of the board want more time for a pulse than the highest rate of the unit leaves");
 
-static_assert(BOARD_DIR_SETUP_NS <= DIR_NS_MAX, "the drivers want DIR to stand for longer before a pulse than can be");
-static_assert(BOARD_DIR_HOLD_NS <= DIR_NS_MAX, "the drivers want DIR to stand for longer after a pulse than can be");
+/* Motors that begin together wait for HOLD at once, and for SETUP one after the other, before the first pulse of the
+ * last one is planned, which may be due 500 us after their begin. In 64 bits, as four times far too much would wrap. */
+#define DIR_NS_MAX 120000
+static_assert(BOARD_DIR_HOLD_NS + UINT64_C(4) * BOARD_DIR_SETUP_NS <= DIR_NS_MAX,
+              "the drivers want DIR to stand for longer than there is: hold and four times setup, 120 us at most");
 
 /* Of ticks less than 25 s apart. */
 static inline bool is_before(uint32_t tick, uint32_t other)

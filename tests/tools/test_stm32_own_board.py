@@ -8,9 +8,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from own_board import configured
 from rkm04_tools import board
 
-ROOT = Path(__file__).resolve().parents[2]
 HEADER = (board.BOARDS / "f405" / "board.h").read_text()
 LED = "X(LED_2, C, 9, OUT)"
 
@@ -41,16 +41,3 @@ def test_bring_up_tells_the_header_as_it_is_and_not_as_it_was_configured(tmp_pat
     asked[3:] = ["-t", "commands", "bringup_image"]
     done = subprocess.run(asked, cwd=tmp_path, capture_output=True, text=True, check=True)
     assert hashlib.sha1(header.read_bytes()).hexdigest()[:8] in done.stdout
-
-
-def configured(folder: Path, text: str) -> Path:
-    """A board with this header is ready to be built in a folder; returns its header."""
-    for part in ("CMakeLists.txt", "CMakePresets.json", "firmware", "tools", "tests"):
-        (folder / part).symlink_to(ROOT / part)
-    shutil.copytree(ROOT / "hal", folder / "hal")
-    header = folder / "hal" / "stm32" / "boards" / "own" / "board.h"
-    header.parent.mkdir()
-    header.write_text(text)
-    ready = ["cmake", "--preset", "stm32", "-DFIRMWARE_BOARD=own"]
-    subprocess.run(ready, cwd=folder, capture_output=True, check=True)
-    return header

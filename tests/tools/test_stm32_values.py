@@ -170,6 +170,8 @@ def with_value(name: str, value: str) -> str:
     [
         *(("pins", f"BOARD_{level}_LEVEL", ("0U", "1U")) for level in LEVELS),
         ("clock", "BOARD_CRYSTAL_MHZ", ("4U", "8U", "25U", "26U")),
+        ("step", "BOARD_DIR_SETUP_NS", ("0U", "28750U")),
+        ("step", "BOARD_DIR_HOLD_NS", ("0U", "100000U")),
         ("flash", "BOARD_LOADER_BYTES", ("0", "0x4000", "0xC000", "0x10000", "131072", "0xA0000")),
     ],
 )
@@ -182,6 +184,7 @@ def test_values_that_a_board_can_have_compile(
         assert (value, done.returncode, done.stderr) == (value, 0, "")
 
 
+TURN = "DIR to stand for longer"
 ERASED, OVERLAPS = "flashing the image would erase the loader", "where programs are stored"
 
 
@@ -191,8 +194,11 @@ ERASED, OVERLAPS = "flashing the image would erase the loader", "where programs 
     [
         *(("pins", f"BOARD_{level}_LEVEL", "2U", f"BOARD_{level}_LEVEL must") for level in LEVELS),
         *(("clock", "BOARD_CRYSTAL_MHZ", mhz, "must be 4 to 26") for mhz in ("0U", "3U", "27U")),
-        ("step", "BOARD_DIR_SETUP_NS", "200001U", "DIR to stand for longer"),
-        ("gpio_step", "BOARD_DIR_HOLD_NS", "200001U", "DIR to stand for longer"),
+        ("step", "BOARD_DIR_SETUP_NS", "28751U", TURN),
+        ("gpio_step", "BOARD_DIR_HOLD_NS", "100001U", TURN),
+        ("gpio_step", "BOARD_DIR_HOLD_NS", "0U", "BOARD_DIR_HOLD_NS must be 1 or more"),
+        ("gpio_step", "BOARD_DIR_SETUP_NS", "0x40000000U", TURN),
+        ("step", "BOARD_DIR_HOLD_NS", "0xFFFFFFFFU", TURN),
         ("flash", "BOARD_LOADER_BYTES", "0x1000", ERASED),
         ("flash", "BOARD_LOADER_BYTES", "0x14000", ERASED),
         ("flash", "BOARD_LOADER_BYTES", "0x30000", ERASED),
