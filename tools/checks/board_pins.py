@@ -1,5 +1,5 @@
 """Checks a board's pins: each used once, on its package, and able to do what it is used for; and
-that the tools can read its values as the compiler does, which checks what they are.
+that the tools read its header as the compiler does, which checks what the values are.
 
     python -m checks.board_pins hal/stm32/boards/NAME/board.h
 
@@ -14,6 +14,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from rkm04_tools.board_form import form_errors
 from rkm04_tools.board_header import Board, Pin, read_board
 
 # Which pins can be a channel of a timer of 32 bits (alternate functions 1 and 2) or the line (7).
@@ -81,16 +82,12 @@ SAFE_AT_RESET = {"STEP", "DIR", "BO", "LINE", "PWM"}
 # 3 mA and must feed nothing, so all that they can do is light an LED that is on at low.
 WEAK = {"C13", "C14", "C15"}
 
-VALUE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(BOARD_\w+)[ \t]+\S", re.MULTILINE)
 LEVEL = re.compile(r"BOARD_(STEP|DIR|ENABLE|BI|BO|LED|S1|PWM)_LEVEL")
 NUMBER = re.compile(r"0x[0-9a-fA-F]+|0|[1-9]\d*")
 
 
-def value_errors(text: str, board: Board) -> Iterator[str]:
-    """The tools and the build read a header line by line, and would miss what they cannot read."""
-    for name in VALUE.findall(text):
-        if name not in board.values:
-            yield f"{name} must be one plain value, from #define at the margin to the line's end"
+def value_errors(board: Board) -> Iterator[str]:
+    """Values that the build takes from the header by itself."""
     for name, value in board.values.items():
         if LEVEL.fullmatch(name) and value not in ("0U", "1U"):
             yield f"{name} must be 0U or 1U, not {value}"
@@ -158,7 +155,8 @@ def find_errors(text: str) -> Iterator[str]:
     line = f"USART{board.values.get('BOARD_USART', '').rstrip('U')}"
     if line not in LINE_PINS:
         yield f"BOARD_USART must be 1, 2 or 3, as the line's driver has {', '.join(LINE_PINS)}"
-    yield from value_errors(text, board)
+    yield from form_errors(text)
+    yield from value_errors(board)
     names = [pin.signal for pin in board.pins]
     yield from enable_errors(names)
     own = {name for name in names if not name.startswith("EN_")} - MAY_BE

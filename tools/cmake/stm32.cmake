@@ -7,7 +7,8 @@ set(unit_script ${PROJECT_SOURCE_DIR}/firmware/${FIRMWARE_UNIT}/image/image_ram.
 set(elf $<TARGET_FILE:unit_image>)
 set(output ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${image})
 
-# A loader of the board has the beginning of the flash.
+# A loader of the board has the beginning of the flash. The header has a form in which a line is what the compiler sees
+# (rkm04_tools.board_form), or nothing is compiled.
 set(board_header ${PROJECT_SOURCE_DIR}/hal/stm32/boards/${FIRMWARE_BOARD}/board.h)
 file(STRINGS ${board_header} loader REGEX "^#define BOARD_LOADER_BYTES ")
 string(REGEX REPLACE "^#define BOARD_LOADER_BYTES " "" loader_bytes "${loader}")
@@ -60,7 +61,8 @@ set(run_python ${CMAKE_COMMAND} -E env PYTHONPATH=${PROJECT_SOURCE_DIR}/tools PY
 add_custom_command(OUTPUT pins.stamp
     COMMAND ${run_python} checks.board_pins ${board_header}
     COMMAND ${CMAKE_COMMAND} -E touch pins.stamp
-    DEPENDS ${board_header} ${checks}/board_pins.py ${PROJECT_SOURCE_DIR}/tools/rkm04_tools/board_header.py
+    DEPENDS ${board_header} ${checks}/board_pins.py
+        ${PROJECT_SOURCE_DIR}/tools/rkm04_tools/board_form.py ${PROJECT_SOURCE_DIR}/tools/rkm04_tools/board_header.py
     VERBATIM COMMENT "Checking pins")
 add_custom_target(board_pins DEPENDS pins.stamp)
 add_dependencies(hal_stm32 board_pins)

@@ -14,7 +14,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from rkm04_tools import board_part, board_size
-from rkm04_tools.board_header import read_board
+from rkm04_tools.board_form import form_errors
+from rkm04_tools.board_header import Board, read_board
 from rkm04_tools.failure import DONE, NO_CONNECTION, NOT_SO, Failure
 from rkm04_tools.table import table, thousands
 from rkm04_tools.tree import ROOT, require_checkout
@@ -130,12 +131,20 @@ def line_bd(unit: str) -> int:
     return int(rate)
 
 
+def header_of(name: str) -> Board:
+    """What the header of a board says, if the compiler reads it alike."""
+    path = BOARDS / name / "board.h"
+    for error in form_errors(text := path.read_text()):
+        raise Failure(f"{path}: {error}", NOT_SO)
+    return read_board(text)
+
+
 def refusal(unit: str, board: str) -> str:
     """Why a board cannot have the image of a unit, or empty; as hal/stm32 asserts it."""
     if not is_full_duplex(unit):
         return ""
     values = read_board((BOARDS / board / "board.h").read_text()).values
-    if values["BOARD_USART"].rstrip("U") != "1":
+    if values.get("BOARD_USART", "").rstrip("U") != "1":
         return "its line is not on USART1, which full duplex needs"
     if values.get("BOARD_STEP_CLASS", "1") != "1":
         return "an interrupt makes its steps, whose width cannot be kept then"
@@ -258,13 +267,13 @@ def run_size(options: Namespace) -> int:
 
 def loader_bytes(name: str) -> int:
     """What a loader of the board has of the flash, before the image."""
-    values = read_board((BOARDS / name / "board.h").read_text()).values
+    values = header_of(name).values
     return int(values.get("BOARD_LOADER_BYTES", "0"), 0)
 
 
 def require_tool(tool: str, name: str) -> None:
     """Refuse what does not get an image into a board."""
-    values = read_board((BOARDS / name / "board.h").read_text()).values
+    values = header_of(name).values
     why = ""
     if tool == "stm32flash" and loader_bytes(name):
         why = "stm32flash would erase the loader of the board"

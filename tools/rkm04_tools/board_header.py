@@ -1,12 +1,16 @@
-"""What a board header says (hal/stm32/boards/NAME/board.h): its pins and its values."""
+"""What a board header says (hal/stm32/boards/NAME/board.h): its pins and its values.
+
+They are read as the compiler reads them as long as the header has the form that `board_form` wants.
+"""
 
 from __future__ import annotations
 
 import re
 from dataclasses import dataclass
 
-PIN = re.compile(r"\bX\((\w+), ([A-K]), (\d+), (\w+)\)")
-TAKEN = re.compile(r'\bX\(([A-K]), (\d+), "([^"]+)"\)')
+COMMENT = re.compile(r'("(?:\\.|[^"\\\n])*")|/\*.*?\*/|//(?:\\\n|[^\n])*', re.DOTALL)
+PIN = re.compile(r"\bX\(\s*(\w+)\s*,\s*(\w+)\s*,\s*(\w+)\s*,\s*(\w+)\s*\)")
+TAKEN = re.compile(r'\bX\(\s*(\w+)\s*,\s*(\w+)\s*,\s*"([^"]+)"\s*\)')
 DEFINE = re.compile(r'^#define (BOARD_\w+) "?([\w.]+)"?$', re.MULTILINE)
 
 
@@ -38,7 +42,13 @@ def inputs_without_edges(pins: list[Pin]) -> list[str]:
     ]
 
 
+def without_comments(text: str) -> str:
+    """A header with a space for each comment, as the compiler sees it; strings stay."""
+    return COMMENT.sub(lambda found: found[1] or " ", text)
+
+
 def read_board(text: str) -> Board:
-    pins = [Pin(m[1], m[2] + m[3], m[4]) for m in PIN.finditer(text)]
-    taken = {m[1] + m[2]: m[3] for m in TAKEN.finditer(text)}
-    return Board(pins, taken, dict(DEFINE.findall(text)))
+    code = without_comments(text)
+    pins = [Pin(m[1], m[2] + m[3], m[4]) for m in PIN.finditer(code)]
+    taken = {m[1] + m[2]: m[3] for m in TAKEN.finditer(code)}
+    return Board(pins, taken, dict(DEFINE.findall(code)))

@@ -10,7 +10,6 @@ import sys
 from argparse import ArgumentParser, Namespace
 
 from rkm04_tools import board
-from rkm04_tools.board_header import read_board
 from rkm04_tools.board_part import openocd
 from rkm04_tools.failure import DONE, NOT_SO, Failure
 from rkm04_tools.typed import forget_typed
@@ -60,7 +59,7 @@ def level_text(control: int) -> str:
 
 def wanted_level(name: str, level: str | None) -> str:
     """The level asked for, or the board's; never one at which the board might not start."""
-    values = read_board((board.BOARDS / name / "board.h").read_text()).values
+    values = board.header_of(name).values
     chosen = level or values["BOARD_BROWN_OUT_LEVEL"].rstrip("U")
     supply_mv = int(values["BOARD_SUPPLY_MIN_MV"].rstrip("U"))
     if RISING_MAX_MV[chosen] > supply_mv:

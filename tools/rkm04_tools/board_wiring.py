@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 
 from rkm04_tools import board
-from rkm04_tools.board_header import Board, Pin, inputs_without_edges, read_board
+from rkm04_tools.board_header import Board, Pin, inputs_without_edges
 from rkm04_tools.failure import DONE
 from rkm04_tools.table import table
 
@@ -80,7 +80,7 @@ def wires(header: Board, unit: str = board.UNIT) -> Iterator[Wire]:
 def run(options: Namespace) -> int:
     """`board pins`."""
     name = board.image_of(options.board, options.image).board
-    shown = list(wires(read_board((board.BOARDS / name / "board.h").read_text()), options.image))
+    shown = list(wires(board.header_of(name), options.image))
     if options.json:
         print(json.dumps({"board": name, "pins": [asdict(wire) for wire in shown]}))
     else:

@@ -16,8 +16,8 @@ from types import TracebackType
 from typing import Any
 
 from rkm04_tools import child, host
-from rkm04_tools.board import BOARDS, UNIT, is_full_duplex
-from rkm04_tools.board_header import Board, read_board
+from rkm04_tools.board import UNIT, header_of, is_full_duplex
+from rkm04_tools.board_header import Board
 from rkm04_tools.failure import NOT_SO, Failure
 
 PROGRAM = "rkm04-vboard"
@@ -67,7 +67,7 @@ def pins(board: Board, unit: str = UNIT) -> str:
 
 def board_pins(name: str, unit: str = UNIT) -> str:
     """The same of a board by its name."""
-    return pins(read_board((BOARDS / name / "board.h").read_text()), unit)
+    return pins(header_of(name), unit)
 
 
 def program_path() -> Path:

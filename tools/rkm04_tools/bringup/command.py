@@ -10,7 +10,6 @@ from datetime import datetime
 from pathlib import Path
 
 from rkm04_tools import board
-from rkm04_tools.board_header import read_board
 from rkm04_tools.bringup import findings
 from rkm04_tools.bringup.findings import (
     BAD,
@@ -64,7 +63,7 @@ def run(options: Namespace) -> int:
     """Ask whether it is safe before anything is sent; report whatever ends the walk, a terminal
     that is closed, too."""
     name = board.image_of(options.board).board
-    header = read_board((board.BOARDS / name / "board.h").read_text())
+    header = board.header_of(name)
     if options.report:
         _require_place(Path(options.report))
     when = datetime.now().astimezone().isoformat(sep=" ", timespec="seconds")
