@@ -2,8 +2,8 @@
  * The seam to the step output: four STEP pins whose edges the hardware makes, each at its tick, and the DIR pins.
  *
  * Pulses are laid ahead: while a motor moves, the backend asks the client for those that are due next (hal_run.h,
- * lay_isr), in time and at least one ahead. What has been laid is made without any code, or taken back. The position
- * is what has been made.
+ * lay_isr), in time and at least one ahead. What has been laid is made without any code, or taken back. A pulse is
+ * made when its active edge has come. The position is what has been made.
  */
 #ifndef HAL_STEP_H
 #define HAL_STEP_H

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -67,13 +68,29 @@ void start(struct step_channel *channel, struct path_section *ring)
 }
 """
 
+EXAMPLE = re.compile(r"^```cmake\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+SEAM = re.compile(r"^(\w[\w ]*?\**)\b(hal_\w+)\(([^;{]*)\);", re.MULTILINE)
+"""A function of the seam: what it returns, its name, what it takes."""
+
+
+def backend() -> str:
+    """A backend that does nothing, as the headers have its functions."""
+    headers = sorted((ROOT / "hal" / "include").glob("*.h"))
+    lines = [f'#include "{header.name}"' for header in headers] + ['#include "image.h"']
+    for header in headers:
+        for kind, name, takes in SEAM.findall(header.read_text()):
+            does = "" if kind.strip() == "void" else f"return ({kind.strip()})0;"
+            lines.append(f"{kind.strip()} {name}({takes})\n{{\n    {does}\n}}")
+    return "\n".join(line for line in lines if "hal_trace(" not in line) + "\n"
+
 
 def built(folder: Path, *options: str) -> subprocess.CompletedProcess[str]:
     """What its default target comes to."""
     for name, text in (
         ("CMakeLists.txt", PROJECT), ("cross.cmake", CROSS), ("path.c", PATH), ("group.c", GROUP),
     ):  # fmt: skip
-        (folder / name).write_text(text)
+        if not (folder / name).exists():
+            (folder / name).write_text(text)
     configure = ["cmake", "-G", "Ninja", "-S", ".", "-B", "build", *options]
     subprocess.run(configure, cwd=folder, capture_output=True, text=True, check=True)
     build = ["cmake", "--build", "build"]
@@ -96,3 +113,17 @@ def test_another_project_gets_the_libraries_and_none_of_the_programs(tmp_path: P
     assert subprocess.run([tmp_path / "build" / "path"], check=False).returncode == 0
     assert not list(tmp_path.glob("build/**/*-host"))
     assert not list(tmp_path.glob("build/**/rkm04-vboard"))
+
+
+@pytest.mark.skipif(not shutil.which(COMPILER), reason=f"{COMPILER} is not installed")
+def test_a_backend_of_ones_own_becomes_an_image_as_the_page_says(tmp_path: Path) -> None:
+    page = (ROOT / "firmware" / "docs" / "design.md").read_text()
+    (example,) = EXAMPLE.findall(page)
+    (tmp_path / "CMakeLists.txt").write_text(example)
+    (tmp_path / "mychip.c").write_text(backend())
+    (tmp_path / "motion-controllers").symlink_to(ROOT)
+
+    done = built(tmp_path, "--toolchain", str(tmp_path / "cross.cmake"))
+
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    assert (tmp_path / "build" / "rkm04-mychip").is_file()
