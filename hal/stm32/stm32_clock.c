@@ -82,6 +82,8 @@ static bool start_pll(uint32_t source_mhz, uint32_t source)
     RCC_PLLCFGR = (uint32_t)PLL_RESERVED | source | RCC_PLLCFGR_PLLM(source_mhz / step_mhz) |
                   RCC_PLLCFGR_PLLN(PLL_MHZ / step_mhz) | RCC_PLLCFGR_PLLQ((uint32_t)USB_DIVIDER);
     RCC_CR |= RCC_CR_PLLON;
+    /* They take effect up to 16 cycles later (RM0090 7.3.3), which are over when the PLL is ready. */
+    RCC_CFGR = RCC_CFGR_PPRE1((uint32_t)DIVIDE_BY_4) | RCC_CFGR_PPRE2((uint32_t)DIVIDE_BY_2);
     return wait_for(&RCC_CR, RCC_CR_PLLRDY, RCC_CR_PLLRDY);
 }
 
@@ -99,13 +101,8 @@ static bool switch_to_pll(void)
     if (!wait_for(&FLASH_ACR, FLASH_ACR_LATENCY(7U), FLASH_ACR_LATENCY((uint32_t)WAIT_STATES))) {
         return false;
     }
-    RCC_CFGR = RCC_CFGR_PPRE1((uint32_t)DIVIDE_BY_4) | RCC_CFGR_PPRE2((uint32_t)DIVIDE_BY_2);
     RCC_CFGR |= RCC_CFGR_SW((uint32_t)CLOCK_PLL);
-    if (wait_for(&RCC_CFGR, RCC_CFGR_SWS(3U), RCC_CFGR_SWS((uint32_t)CLOCK_PLL))) {
-        return true;
-    }
-    RCC_CFGR = 0;
-    return false;
+    return wait_for(&RCC_CFGR, RCC_CFGR_SWS(3U), RCC_CFGR_SWS((uint32_t)CLOCK_PLL));
 }
 
 /* Without the crystal the internal oscillator drives the PLL: 1 % off when cool, good enough for the line. Without the
@@ -116,6 +113,7 @@ struct stm32_clock stm32_clock_start(void)
     bool crystal = internal && start_crystal();
     uint32_t source_mhz = crystal ? BOARD_CRYSTAL_MHZ : (uint32_t)INTERNAL_MHZ;
     if (!internal || !start_pll(source_mhz, crystal ? RCC_PLLCFGR_PLLSRC : 0U) || !switch_to_pll()) {
+        RCC_CFGR = 0;
         return (struct stm32_clock){.core_hz = INTERNAL_HZ, .apb1_hz = INTERNAL_HZ, .apb2_hz = INTERNAL_HZ};
     }
     if (crystal) {

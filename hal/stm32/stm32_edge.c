@@ -36,8 +36,8 @@ static void connect_lines(void)
 void stm32_edge_start(void)
 {
     connect_lines();
-    EXTI_RTSR = INPUT_LINES;
-    EXTI_FTSR = INPUT_LINES | STM32_EDGE_START;
+    EXTI_RTSR = INPUT_LINES | STM32_EDGE_SUPPLY;
+    EXTI_FTSR = INPUT_LINES | STM32_EDGE_KEPT;
     stm32_edge_let_through();
 }
 
@@ -46,14 +46,14 @@ void stm32_edge_start(void)
 void stm32_edge_let_through(void)
 {
     EXTI_PR = INPUT_LINES;
-    EXTI_IMR = INPUT_LINES | STM32_EDGE_START;
+    EXTI_IMR = INPUT_LINES | STM32_EDGE_KEPT;
     (void)EXTI_IMR;
 }
 
 /* Edges of several lines at once are one: the interrupts of the others are taken back, once the requests are gone. */
 void stm32_edge_hold(void)
 {
-    EXTI_IMR = STM32_EDGE_START;
+    EXTI_IMR = STM32_EDGE_KEPT;
     EXTI_PR = INPUT_LINES;
     (void)EXTI_PR;
     NVIC_ICPR(0) = INPUT_IRQS_0;

@@ -1,6 +1,6 @@
 /*
- * Which lines of EXTI notice edges, as bits of its registers: those of the inputs, and that of the start bits at the
- * receiver of a half-duplex line. Main and interrupts.
+ * Which lines of EXTI notice edges, as bits of its registers: those of the inputs, that of the start bits at the
+ * receiver of a half-duplex line, and that of the voltage detector. Main and interrupts.
  */
 #ifndef STM32_EDGE_H
 #define STM32_EDGE_H
@@ -27,5 +27,9 @@
              (STM32_EDGE_IRQS_1(STM32_EDGE_INPUTS) & STM32_EDGE_IRQS_1(STM32_EDGE_LINE(LINE_RX))) == 0                 \
          ? STM32_EDGE_LINE(LINE_RX)                                                                                    \
          : 0U)
+
+/* The voltage detector (RM0090 5.2.3), likewise. */
+#define STM32_EDGE_SUPPLY 0x10000U
+#define STM32_EDGE_KEPT (STM32_EDGE_START | STM32_EDGE_SUPPLY)
 
 #endif

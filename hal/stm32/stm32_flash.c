@@ -6,6 +6,7 @@
 #include "base_hint.h"
 #include "base_tick.h"
 #include "board.h"
+#include "stm32_edge.h"
 #include "stm32_private.h"
 #include "stm32f4.h"
 
@@ -49,11 +50,25 @@ static uint32_t address_of(unsigned area, uint32_t offset)
     return AREA_FIRST + area * (uint32_t)HAL_FLASH_AREA_BYTES + offset;
 }
 
+/* Since the last look, however shortly. */
+static bool supply_has_changed(void)
+{
+    return (EXTI_PR & STM32_EDGE_SUPPLY) != 0U;
+}
+
 /* Below the level of stm32_supply.c nothing is begun, and what was going on then is not believed: what is written with
- * too low a supply may read well and not last (RM0090 3.6.2). */
+ * too low a supply may read well and not last (RM0090 3.6.2). The detector itself is looked at only when EXTI has
+ * noticed a change: PWR_CSR takes longer to read than other registers (5.4.2), and the DMA controller, which moves the
+ * edges of pulses over the same bus, would wait for it. */
 static bool supply_is_good(void)
 {
-    return (PWR_CSR & PWR_CSR_PVDO) == 0;
+    if (supply_has_changed()) {
+        EXTI_PR = STM32_EDGE_SUPPLY;
+        if ((PWR_CSR & PWR_CSR_PVDO) != 0U) {
+            EXTI_SWIER = STM32_EDGE_SUPPLY; /* to be looked at again */
+        }
+    }
+    return !supply_has_changed();
 }
 
 static bool may_begin(void)
@@ -65,15 +80,13 @@ static bool may_begin(void)
 static bool wait_until_done(uint32_t ticks_max)
 {
     uint32_t start = TIM2_CNT;
-    bool good = true;
     do {
-        good = supply_is_good() && good;
         if (TIM2_CNT - start > ticks_max) {
             return false;
         }
         stm32_watchdog_main_lives();
     } while ((FLASH_SR & FLASH_SR_BSY) != 0);
-    return good && supply_is_good() && (FLASH_SR & ERRORS) == 0;
+    return !supply_has_changed() && (FLASH_SR & ERRORS) == 0;
 }
 
 /* Apart, as both callers would have it otherwise. */
@@ -87,9 +100,13 @@ BASE_APART static void unlock(uint32_t control)
     FLASH_CR = control;
 }
 
+/* While it is busy a write would hold up the processor (RM0090 3.6.1): after an operation without an end it stays open.
+ */
 static void lock(void)
 {
-    FLASH_CR = FLASH_CR_LOCK;
+    if ((FLASH_SR & FLASH_SR_BSY) == 0U) {
+        FLASH_CR = FLASH_CR_LOCK;
+    }
 }
 
 /* What the data cache still holds of an area that was erased is wrong. Of a word that was written it has what that
@@ -109,6 +126,7 @@ void stm32_flash_start(uint32_t part_kb)
     FLASH_SR = ERRORS | FLASH_SR_EOP;
     lock();
     FLASH_OPTCR |= FLASH_OPTCR_OPTLOCK;
+    (void)supply_is_good(); /* nothing moves yet */
 }
 
 bool hal_flash_is_there(void)

@@ -34,14 +34,15 @@ static void check_made(const struct stm32_channel *channel, uint32_t waiting)
     }
 }
 
-/* The pin is low and stays so. */
+/* The pin is low and stays so. First the stream, then who asks it (RM0090 10.3.17), which takes back what it has asked
+ * for meanwhile (AN4031 4.1). */
 BASE_APART static void stop(struct stm32_channel *channel)
 {
     set_mode(&channel->step, MODE_LOW);
-    set_asking(channel, false);
     DMA_CR(channel->stream) &= ~DMA_CR_EN;
     while ((DMA_CR(channel->stream) & DMA_CR_EN) != 0) {
     }
+    set_asking(channel, false);
     channel->active = false;
     channel->laid = 0;
 }

@@ -4,6 +4,7 @@
 
 #include "base_tick.h"
 #include "board.h"
+#include "stm32_edge.h"
 #include "stm32_private.h"
 #include "stm32f4.h"
 
@@ -30,4 +31,8 @@ void stm32_supply_start(void)
     uint32_t start = TIM2_CNT;
     for (uint32_t turns = 0; turns < (uint32_t)TURNS_MAX && TIM2_CNT - start < SETTLE_TICKS; turns++) {
     }
+    EXTI_RTSR |= STM32_EDGE_SUPPLY;
+    EXTI_FTSR |= STM32_EDGE_SUPPLY;
+    EXTI_IMR |= STM32_EDGE_SUPPLY;
+    EXTI_SWIER = STM32_EDGE_SUPPLY; /* as if it had changed: who asks first looks */
 }

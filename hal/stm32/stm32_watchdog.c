@@ -8,22 +8,29 @@ enum {
     KEY_ACCESS = 0x5555,
     KEY_FEED = 0xAAAA,
     KEY_START = 0xCCCC,
-    TURNS_MAX = 100000, /* a change of the registers takes 5 periods of the oscillator */
+    TURNS_MAX = 100000, /* a change of the registers takes 5 periods of the oscillator, which starts first */
 
     MAIN_MS_MAX = 200, /* the longest pass of main takes a tenth of it */
 };
 
 static volatile uint32_t main_age_ms;
 
-/* It cannot be stopped again. */
+static void wait_for_update(void)
+{
+    for (uint32_t turns = 0; turns < TURNS_MAX && (IWDG_SR & (IWDG_SR_PVU | IWDG_SR_RVU)) != 0; turns++) {
+    }
+}
+
+/* It cannot be stopped again. What a boot loader has set may wait for the oscillator yet, and no reset of this start
+ * has cleared it: until it is taken over, the registers must not be written (RM0090 21.4.2, AN2606). */
 void stm32_watchdog_start(void)
 {
     IWDG_KR = KEY_START;
+    wait_for_update();
     IWDG_KR = KEY_ACCESS;
     IWDG_PR = DIVIDE_BY_32;
     IWDG_RLR = RELOAD;
-    for (uint32_t turns = 0; turns < TURNS_MAX && (IWDG_SR & (IWDG_SR_PVU | IWDG_SR_RVU)) != 0; turns++) {
-    }
+    wait_for_update();
     IWDG_KR = KEY_FEED;
 }
 

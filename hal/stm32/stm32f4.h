@@ -123,10 +123,11 @@
 #define SYSCFG_MEMRMP STM32_REGISTER(SYSCFG_BASE + 0x00U)               /* 9.2.1 */
 #define SYSCFG_EXTICR(n) STM32_REGISTER(SYSCFG_BASE + 0x08U + 4U * (n)) /* 9.2.3 to 9.2.6 */
 #define EXTI_BASE 0x40013C00U
-#define EXTI_IMR STM32_REGISTER(EXTI_BASE + 0x00U)  /* 12.3.1 */
-#define EXTI_RTSR STM32_REGISTER(EXTI_BASE + 0x08U) /* 12.3.3 */
-#define EXTI_FTSR STM32_REGISTER(EXTI_BASE + 0x0CU) /* 12.3.4 */
-#define EXTI_PR STM32_REGISTER(EXTI_BASE + 0x14U)   /* 12.3.6 */
+#define EXTI_IMR STM32_REGISTER(EXTI_BASE + 0x00U)   /* 12.3.1 */
+#define EXTI_RTSR STM32_REGISTER(EXTI_BASE + 0x08U)  /* 12.3.3 */
+#define EXTI_FTSR STM32_REGISTER(EXTI_BASE + 0x0CU)  /* 12.3.4 */
+#define EXTI_SWIER STM32_REGISTER(EXTI_BASE + 0x10U) /* 12.3.5 */
+#define EXTI_PR STM32_REGISTER(EXTI_BASE + 0x14U)    /* 12.3.6 */
 
 /* TIM1 has 16 bits; the bring-up image captures pulses with it.
  *

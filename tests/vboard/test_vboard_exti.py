@@ -64,7 +64,7 @@ def test_a_line_follows_its_port_and_the_mode_of_the_pin(run_image):
 @pytest.mark.parametrize(
     ("define", "complaint"),
     [
-        ("LINE_16", "only lines 0 to 15"),
+        ("LINE_17", "only lines 0 to 15, those of the pins, and 16"),
         ("PORT_9", "SYSCFG_EXTICR: port 9 of line 0 does not exist"),
         ("EVENTS", "EXTI_EMR: events are not modelled"),
         ("NO_REGISTER", "read of 40013c18 (EXTI+18)"),

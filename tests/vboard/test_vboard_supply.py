@@ -43,6 +43,7 @@ def test_a_falling_and_a_rising_supply_meet_thresholds_of_their_own(run_image, c
     assert run.result[0] == pytest.approx(1e4 + 1e4 * (3.3 - falling), abs=20)
     assert run.result[1] == pytest.approx(2e4 + 1e4 * (rising - 2.3), abs=20)
     assert run.summary["supply"]["least_mv"] == 2300
+    assert run.result[2:5] == [1 << 16, 1 << 16, 0]  # lines of EXTI: RM0090 5.2.3
 
 
 def test_the_detector_is_not_to_be_believed_at_once(run_image):

@@ -59,7 +59,8 @@ static void wire_system(struct board *board)
                                                       .report = report,
                                                       .reset = &board->reset,
                                                       .conditions = &board->conditions,
-                                                      .flash = &board->flash});
+                                                      .flash = &board->flash,
+                                                      .exti = &board->exti});
     rcc_init(&board->rcc, (struct rcc_wires){.clock = clock,
                                              .report = report,
                                              .nvic = &board->nvic,

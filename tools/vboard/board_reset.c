@@ -64,7 +64,7 @@ void board_reset(struct board *board, enum reset_cause cause)
     art_reset(&board->fetch.art);
     reset_processor(board);
     if (cause == RESET_POWER && board->options->left_by_loader) {
-        loader_leave(&board->core, &board->rcc, &board->flash, &board->gpio);
+        loader_leave(&board->core, &board->rcc, &board->flash, &board->gpio, &board->iwdg);
     }
 }
 

@@ -101,11 +101,14 @@ enum {
     QUARTER = 4
 };
 
+/* RM0090 5.4.2: PWR_CSR takes additional cycles of APB; it does not say how many. Assumed: as many again. */
+#define PWR_CSR UINT32_C(0x40007004)
+
 static uint32_t apb_wait(const struct bus *bus, uint32_t address)
 {
     uint32_t divider =
         bus_is_apb1(address) ? bus->wires.conditions->pclk1_divider : bus->wires.conditions->pclk2_divider;
-    return bus->wires.apb_wait * divider / QUARTER;
+    return (address == PWR_CSR ? 2U : 1U) * bus->wires.apb_wait * divider / QUARTER;
 }
 
 bool bus_is_apb1(uint32_t address)

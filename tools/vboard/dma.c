@@ -3,7 +3,7 @@
 #include <stddef.h>
 
 enum {
-    LOAD_CYCLES = 3, /* address, bus matrix, one of SRAM: assumed */
+    LOAD_CYCLES = 4, /* arbitration, address, bus matrix, one of SRAM (AN4031 table 5) */
     STOP_CYCLES = 8, /* EN reads 1 for a while after it was cleared (section 10.3.14); how long is not said */
 };
 

@@ -11,15 +11,16 @@ enum {
     EXTI_PR = 0x14,
 };
 
-#define PIN_LINES UINT32_C(0xFFFF)
+#define DETECTOR_LINE UINT32_C(0x10000) /* section 12.2.5 */
+#define LINES UINT32_C(0x1FFFF)
 
 /* Interrupts of the lines (RM0090 table 61): the first five have their own. */
 static const struct {
     enum nvic_irq irq;
-    uint16_t lines;
+    uint32_t lines;
 } interrupts[] = {
-    {NVIC_IRQ_EXTI0, 0x0001}, {NVIC_IRQ_EXTI1, 0x0002},   {NVIC_IRQ_EXTI2, 0x0004},     {NVIC_IRQ_EXTI3, 0x0008},
-    {NVIC_IRQ_EXTI4, 0x0010}, {NVIC_IRQ_EXTI9_5, 0x03E0}, {NVIC_IRQ_EXTI15_10, 0xFC00},
+    {NVIC_IRQ_PVD, DETECTOR_LINE}, {NVIC_IRQ_EXTI0, 0x0001}, {NVIC_IRQ_EXTI1, 0x0002},   {NVIC_IRQ_EXTI2, 0x0004},
+    {NVIC_IRQ_EXTI3, 0x0008},      {NVIC_IRQ_EXTI4, 0x0010}, {NVIC_IRQ_EXTI9_5, 0x03E0}, {NVIC_IRQ_EXTI15_10, 0xFC00},
 };
 
 static void update_interrupts(struct exti *exti)
@@ -60,6 +61,13 @@ void exti_follow(struct exti *exti, unsigned port, uint16_t levels)
 {
     exti->pins[port] = levels;
     follow(exti, port);
+}
+
+void exti_follow_detector(struct exti *exti, bool low)
+{
+    if (((low ? exti->rtsr : exti->ftsr) & DETECTOR_LINE) != 0) {
+        pend(exti, DETECTOR_LINE);
+    }
 }
 
 void exti_route(struct exti *exti, uint64_t ports)
@@ -139,8 +147,8 @@ static void write_pr(struct exti *exti, uint32_t ones)
 bool exti_write(void *model, uint32_t offset, uint32_t value, uint32_t mask)
 {
     struct exti *exti = model;
-    if ((value & mask & ~PIN_LINES) != 0 && offset <= EXTI_PR) {
-        report_fail(exti->wires.report, "EXTI: only lines 0 to 15, those of the pins, are modelled");
+    if ((value & mask & ~LINES) != 0 && offset <= EXTI_PR) {
+        report_fail(exti->wires.report, "EXTI: only lines 0 to 15, those of the pins, and 16 are modelled");
         return true;
     }
     value &= mask;

@@ -1,6 +1,6 @@
 /*
  * External interrupts (RM0090 chapter 12): edges at the pins that SYSCFG_EXTICR has put on the 16 lines (section 9.2)
- * become interrupts. Not modelled: events, and the lines of other blocks.
+ * become interrupts, and so do changes of the voltage detector. Not modelled: events, and the lines of other blocks.
  */
 #ifndef EXTI_H
 #define EXTI_H
@@ -42,6 +42,9 @@ bool exti_write(void *model, uint32_t offset, uint32_t value, uint32_t mask);
 
 /* SYSCFG_EXTICR says which port has each line: four bits a line. A line whose level changes with it has an edge. */
 void exti_route(struct exti *exti, uint64_t ports);
+
+/* The output of the voltage detector has changed. */
+void exti_follow_detector(struct exti *exti, bool low);
 
 /* The pins of a port as the program can see them, which have changed perhaps. */
 void exti_follow(struct exti *exti, unsigned port, uint16_t levels);

@@ -54,11 +54,21 @@ static void reload(struct iwdg *iwdg)
     }
 }
 
+/* What was written while the watchdog stood is taken over once it runs. */
+static void begin_update(const struct iwdg *iwdg, uint64_t *end_ps)
+{
+    if (*end_ps == VTIME_NEVER) {
+        *end_ps = clock_now_ps(iwdg->wires.clock) + period_ps(iwdg, UPDATE_PERIODS);
+    }
+}
+
 static void write_key(struct iwdg *iwdg, uint32_t value)
 {
     iwdg->unlocked = value == KEY_UNLOCK;
     if (value == KEY_START) {
         iwdg->started = true;
+        begin_update(iwdg, &iwdg->prescaler_end_ps);
+        begin_update(iwdg, &iwdg->reload_end_ps);
         rcc_start_lsi(iwdg->wires.rcc);
         reload(iwdg);
     } else if (value == KEY_RELOAD) {
@@ -79,7 +89,16 @@ static void write_setting(struct iwdg *iwdg, uint32_t *setting, uint64_t *end_ps
                     "IWDG: a setting is written while the one before is not taken over (RM0090 21.4.2, 21.4.3)");
     }
     *setting = value;
-    *end_ps = now + period_ps(iwdg, UPDATE_PERIODS);
+    *end_ps = VTIME_NEVER;
+    if (iwdg->started) {
+        begin_update(iwdg, end_ps);
+    }
+}
+
+void iwdg_leave_slow(struct iwdg *iwdg)
+{
+    iwdg->prescaler = PRESCALER_CODE_MOST;
+    iwdg->prescaler_end_ps = VTIME_NEVER;
 }
 
 bool iwdg_read(void *model, uint32_t offset, uint32_t *value)

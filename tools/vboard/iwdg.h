@@ -35,6 +35,10 @@ struct iwdg {
 
 void iwdg_init(struct iwdg *iwdg, struct iwdg_wires wires);
 void iwdg_reset(struct iwdg *iwdg);
+
+/* The prescaler has been set to its most, and the watchdog stands, so that this is not taken over before it runs. */
+void iwdg_leave_slow(struct iwdg *iwdg);
+
 bool iwdg_read(void *model, uint32_t offset, uint32_t *value);
 bool iwdg_write(void *model, uint32_t offset, uint32_t value, uint32_t mask);
 

@@ -38,7 +38,7 @@ static void leave_task(struct cpu *cpu)
     cpu_write(cpu, UC_ARM_REG_BASEPRI, CRITICAL);
 }
 
-void loader_leave(struct core *core, struct rcc *rcc, struct flash *flash, struct gpio *gpio)
+void loader_leave(struct core *core, struct rcc *rcc, struct flash *flash, struct gpio *gpio, struct iwdg *iwdg)
 {
     struct scb *scb = core->wires.scb;
     struct nvic *nvic = core->wires.nvic;
@@ -46,6 +46,7 @@ void loader_leave(struct core *core, struct rcc *rcc, struct flash *flash, struc
     rcc_run_from_pll(rcc);
     flash_leave_unlocked(flash);
     leave_open_drain(gpio);
+    iwdg_leave_slow(iwdg);
     scb->vtor = SYSTEM_MEMORY;
     nvic->group_bits = ONE_BIT_OF_GROUP;
     nvic_enable(nvic, NVIC_IRQ0 + NVIC_IRQ_USB, true);

@@ -27,6 +27,7 @@ enum nvic_exception {
 };
 
 enum nvic_irq { /* RM0090 table 61 */
+    NVIC_IRQ_PVD = 1,
     NVIC_IRQ_FLASH = 4,
     NVIC_IRQ_RCC = 5,
     NVIC_IRQ_EXTI0 = 6,

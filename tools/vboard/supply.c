@@ -87,6 +87,11 @@ static uint64_t next_change(const struct supply *supply, uint64_t ps)
     return VTIME_NEVER;
 }
 
+static bool detector_is_on(const struct supply *supply)
+{
+    return (supply->pwr_cr & PWR_CR_PVDE) != 0;
+}
+
 static void watch_voltage(struct supply *supply)
 {
     const struct threshold *level = &detector[(supply->pwr_cr & PWR_CR_PLS) >> 5];
@@ -135,7 +140,11 @@ static void on_supply_event(void *model, uint64_t cycle)
     supply->wires.conditions->supply_mv = voltage_at(supply, ps);
     supply->least_mv =
         supply->wires.conditions->supply_mv < supply->least_mv ? supply->wires.conditions->supply_mv : supply->least_mv;
+    bool was_low = supply->low;
     watch_voltage(supply);
+    if (supply->low != was_low && detector_is_on(supply)) {
+        exti_follow_detector(supply->wires.exti, supply->low);
+    }
     watch_reset(supply, ps);
     uint64_t next = next_change(supply, ps);
     if (supply->held) {
@@ -213,7 +222,7 @@ bool supply_open(struct supply *supply, const char *text, enum supply_corner cor
 bool pwr_read(void *model, uint32_t offset, uint32_t *value)
 {
     const struct supply *supply = model;
-    bool on = (supply->pwr_cr & PWR_CR_PVDE) != 0;
+    bool on = detector_is_on(supply);
     if (offset == PWR_CSR && on && clock_now_ps(supply->wires.clock) < supply->settled_ps) {
         report_fail(supply->wires.report,
                     "PWR_CSR is read before the voltage detector, just switched on, can be believed");
@@ -238,7 +247,7 @@ bool pwr_write(void *model, uint32_t offset, uint32_t value, uint32_t mask)
         return false;
     }
     supply->pwr_cr = ((before & ~mask) | (value & mask)) & PWR_CR_MASK;
-    if ((supply->pwr_cr & PWR_CR_PVDE) != 0 && ((before ^ supply->pwr_cr) & (PWR_CR_PVDE | PWR_CR_PLS)) != 0) {
+    if (detector_is_on(supply) && ((before ^ supply->pwr_cr) & (PWR_CR_PVDE | PWR_CR_PLS)) != 0) {
         start_detector(supply);
     }
     return true;

@@ -11,6 +11,7 @@
 
 #include "clock.h"
 #include "conditions.h"
+#include "exti.h"
 #include "flash.h"
 #include "report.h"
 #include "reset.h"
@@ -32,6 +33,7 @@ struct supply_wires {
     struct reset *reset;
     struct conditions *conditions; /* which get the voltage */
     struct flash *flash;
+    struct exti *exti;
 };
 
 struct supply {

@@ -155,8 +155,8 @@ int main(void)
     software();
     begin();
     routing();
-#ifdef LINE_16
-    EXTI_IMR = 1 << 16;
+#ifdef LINE_17
+    EXTI_IMR = 1 << 17;
 #endif
 #ifdef PORT_9
     SYSCFG_EXTICR(0) = 9;
