@@ -24,10 +24,13 @@ from tab import DESK, PATIENCE_SECONDS
 
 NODE, SEED = 3, 5
 WRITE_REGISTERS = 16
+IMAGE_OUT = bytes([3, 1, 244])
 AXIS_1, CLOCK = bytes([3, 0, 110]), bytes([3, 0, 0, 0, 28])
-"""What requests begin with that read an axis, and the unit with its clock."""
+"""What requests begin with that read what axes were told, an axis, and the unit with its clock."""
 SOON_SECONDS = 2
 ENGLISH = re.compile(r"\b(the|is|of|to|in|as|at|steps|limit|from|never)\b")
+ANSWER_SECONDS = 0.05
+"""After so long an answer has come to all that hear it."""
 CHOICE_MS = 3000
 BUSY_MS = 8000
 """After so long what was asked for has come to nothing: this machine was too busy for the line."""
@@ -334,6 +337,28 @@ def test_a_stop_goes_out_to_a_unit_that_was_never_heard(open_page: Open, line: L
         page.page.keyboard.press("Escape")
         expect(page.at("alarm")).to_contain_text(NOT_CONFIRMED)
         assert not axis.read().moves
+
+
+def test_a_stop_that_another_master_undoes_again_and_again_is_not_confirmed(
+    line_page: AlonePage, line: Line, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page = line_page
+    go(page, "1000", "MOVING")
+    with open_unit(line.units[0].place, NODE) as other:
+
+        def to_unit(data: bytes) -> bytes:
+            if data[1:4] == IMAGE_OUT:
+                line.bridge.silent = True
+                other.wire.write(105, [1, 600, 0])
+                time.sleep(ANSWER_SECONDS)
+                line.bridge.silent = False
+            return data
+
+        monkeypatch.setattr(line.bridge, "to_unit", to_unit)
+        page.page.keyboard.press("Escape")
+        expect(page.at("alarm")).to_contain_text(NOT_CONFIRMED)
+        expect(page.answers.first).to_contain_text("axis 1 IS NOT HELD: another master, such as")
+        assert other.axis(1).read().state == "TAKEN"
 
 
 def test_a_user_may_take_their_time_to_choose_a_port(open_page: Open, line: Line) -> None:

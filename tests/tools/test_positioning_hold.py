@@ -6,16 +6,15 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import count
 from pathlib import Path
 from typing import Any
 
 import pytest
+from pos_cycles import cycles
 from rkm04_tools.positioning.line_errors import NotHeld
 from rkm04_tools.positioning.state import AxisState
 from rkm04_tools.positioning.unit import open_unit
@@ -25,25 +24,6 @@ ROOT = Path(__file__).resolve().parents[2]
 PATIENCE_SECONDS = 15.0
 Tool = Callable[..., Any]
 Serve = Callable[..., Served]
-
-
-@contextmanager
-def cycles(place: str, seconds: float = 0.02) -> Iterator[None]:
-    """A PLC that writes permission and feed of axis 1 in each of its cycles."""
-    over = threading.Event()
-
-    def run() -> None:
-        with open_unit(place) as unit:
-            while not over.wait(seconds):
-                unit.wire.write(105, [1, 3000, 0])
-
-    thread = threading.Thread(target=run)
-    thread.start()
-    try:
-        yield
-    finally:
-        over.set()
-        thread.join(PATIENCE_SECONDS)
 
 
 @pytest.mark.parametrize("seconds", [0.02, 0.2])

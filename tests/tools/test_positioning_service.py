@@ -442,26 +442,6 @@ def test_another_master_is_told_and_its_requests_are(shared: tuple[PosDesk, Unit
     assert desk.live(lambda m: m["unit"]["others"])["unit"]["others"] > 1
 
 
-def test_a_master_that_gives_the_permission_again_does_not_prevent_a_stop(
-    shared: tuple[PosDesk, Unit],
-) -> None:
-    desk, other = shared
-    moving(desk)
-    number = desk.say("halt")
-    axis = other.axis(1)
-    answer = None
-    while answer is None:
-        other.wire.write(105, [1, 600, 0])  # CONTROL and FEED, as a PLC does in every cycle
-        answer = next((m for m in desk.told if m.get("id") == number), None)
-
-    assert answer["error"] is None, answer
-    assert not axis.read().moves
-    if "another master" in answer["text"]:
-        assert axis.read().state == "TAKEN"
-    time.sleep(0.3)
-    assert not axis.read().moves
-
-
 # ---- what a page says ----
 
 

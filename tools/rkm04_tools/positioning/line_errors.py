@@ -32,10 +32,11 @@ class NotConfirmed(LineError):
 
 
 class NotHeld(Failure):
-    """The axis was told to stand and does not."""
+    """Axes were told to stand and do not, or may move at any moment."""
 
-    def __init__(self, axis: int, why: str) -> None:
-        super().__init__(f"axis {axis} IS NOT HELD: {why}", NOT_SO)
+    def __init__(self, who: str, why: str) -> None:
+        verb = "IS" if who.startswith("axis") else "ARE"
+        super().__init__(f"{who} {verb} NOT HELD: {why}", NOT_SO)
 
 
 class RequestRefused(Failure):

@@ -70,6 +70,7 @@ HELD_SECONDS = 0.3
 CLOCK_HALF = 1 << 31
 MM_MAX = (CLOCK_HALF - 1) / UM_PER_MM
 FEED_MAX = (1 << 32) - 1
+GIVEN_AGAIN = "another master, such as a PLC, has given the permission (MP) again"
 Tell = Callable[[AxisState], None] | None
 """What is called with each look at an axis that is waited for."""
 
@@ -350,7 +351,7 @@ class Axis:
                 slower_by, speed = now + SLOWER_SECONDS, state.speed
             steps = state.position_steps
             if state.moves and now > min(end, slower_by):
-                raise NotHeld(self.number, "MP is 0, and it does not brake")
+                raise NotHeld(f"axis {self.number}", "MP is 0, and it does not brake")
             time.sleep(POLL_SECONDS)
             state = self._until_answered(self._read_held, waits)
             now = time.monotonic()
@@ -362,9 +363,9 @@ class Axis:
         state = self.read()
         if state.may_move and self.unit.wire.read(self._base + CONTROL, 1)[0] & 1:
             raise NotHeld(
-                self.number, "another master, such as a PLC, has given the permission (MP) again; "
-                "take it away there, or end the measure: positioning init or reset",
-            )  # fmt: skip
+                f"axis {self.number}",
+                f"{GIVEN_AGAIN}; take it away there, or end the measure: positioning init or reset",
+            )
         return state
 
     def go(self) -> AxisState:

@@ -109,6 +109,14 @@ export const ALONE: Sentences = [
     ["all axes", "všechny osy"],
     ["axes $1", "osy $1"],
     ["$1, unit #2, axis $3: it still moves", "$1, jednotka #2, osa $3: ještě se pohybuje"],
+    ["axis #1 IS NOT HELD: $2", "osa #1 NENÍ DRŽENA: $2"],
+    ["axes $1 ARE NOT HELD: $2", "osy $1 NEJSOU DRŽENY: $2"],
+    ["all axes ARE NOT HELD: $1", "všechny osy NEJSOU DRŽENY: $1"],
+    [
+        "another master, such as a PLC, has given the permission (MP) again",
+        "jiný master, například PLC, dal znovu povolení (MP)",
+    ],
+    ["the measure is ended now, take the permission away there", "míra je teď ukončena, odeberte povolení tam"],
     ["axis #1 is not possible", "osa #1 není možná"],
     ["$1 mm: too far", "$1 mm: příliš daleko"],
     ["a way has at most 2147483.647 mm", "dráha má nejvýše 2147483.647 mm"],
@@ -254,10 +262,6 @@ export const SERVICE: Sentences = [
     ["write a feed of more than 0", "pište rychlost větší než 0"],
     ["write up to $1 mm, either way", "pište nejvýše $1 mm, kterýmkoli směrem"],
     ["MP is 0, and it does not brake", "MP je 0 a nebrzdí"],
-    [
-        "another master, such as a PLC, has given the permission (MP) again",
-        "jiný master, například PLC, dal znovu povolení (MP)",
-    ],
     [
         "take it away there, or end the measure: positioning init or reset",
         "odeberte je tam, nebo míru ukončete: init nebo reset",

@@ -1,4 +1,4 @@
-import { LineTrouble } from "../../unit_place";
+import { LineTrouble, Refusal } from "../../unit_place";
 import { AXES } from "../protocol";
 import { has, mmText, type AxisState } from "./axis_state";
 import { Restarted, type Unit } from "./client";
@@ -11,6 +11,8 @@ const PAUSE_MS = 20;
 const ANSWER_MS = 5000;
 /** How long an axis may brake before it is told that nobody knows. */
 const BRAKE_MS = 60_000;
+/** So long axes that stand are looked at: a PLC gives the permission in each of its cycles. */
+const HELD_MS = 300;
 const MP = 1;
 
 /** What a stop needs of the desk; `more` gives axes that are to be stopped, too, as they come. */
@@ -23,16 +25,20 @@ export interface StopDesk {
 }
 
 /**
- * Takes the permission away from axes until they are seen to stand. Who gives it back while they brake, as a PLC that
- * writes it in every cycle, is overruled: POS_INIT ends the measure.
+ * Takes the permission away from axes until they are seen to stand, and to be held for a while. Who gives it back
+ * meanwhile is overruled: POS_INIT ends the measure. Who then gives it yet again, as a PLC that writes it in every cycle,
+ * may move the axis at any moment, so that nothing is confirmed.
  */
 export class Stop {
     readonly #desk: StopDesk;
     readonly #axes = new Set<number>();
     readonly #ended = new Set<number>();
+    /** Those that have got the permission yet again. */
+    readonly #given = new Set<number>();
     #new = new Set<number>();
     #answer_end_ms = 0;
     #brake_end_ms = 0;
+    #held_from_ms = 0;
 
     constructor(desk: StopDesk) {
         this.#desk = desk;
@@ -49,10 +55,15 @@ export class Stop {
         } finally {
             wire.tries = before;
         }
+        if (this.#given.size > 0) {
+            const who = namesOf(this.#given);
+            const cause = `${who} ${who.startsWith("axis") ? "IS" : "ARE"} NOT HELD: another master, such as a PLC, has given the permission (MP) again`;
+            throw new Refusal(cause, "the measure is ended now, take the permission away there", { kind: "NotHeld" });
+        }
         return this.#text();
     }
 
-    /** Whether all stand. */
+    /** Whether all are held. */
     async #turn(): Promise<boolean> {
         const come = this.#desk.more();
         if (come.length > 0) {
@@ -83,27 +94,50 @@ export class Stop {
             await unit.takePermission(wanted);
             wanted.forEach((axis) => this.#axes.add(axis));
             this.#new = new Set();
+            if ([...wanted].some((axis) => !this.#given.has(axis))) {
+                this.#held_from_ms = performance.now();
+            }
         }
+        const looked_ms = performance.now();
         await look();
         this.#answer_end_ms = performance.now() + ANSWER_MS;
-        const { axes, wanted } = this.#desk.looks();
-        const isPermitted = ({ axis }: AxisState): boolean => ((wanted[axis - 1]?.control ?? 0) & MP) !== 0;
-        const own = axes.filter(({ axis }) => this.#axes.has(axis));
-        const again = own.filter((axis) => isPermitted(axis) && mayMove(axis));
-        for (const { axis } of again) {
-            this.#desk.looks().touch([axis]);
-            await unit.instruct(axis, "POS_INIT", [0]);
-            this.#ended.add(axis);
-        }
-        const moving = own.filter((axis) => has(axis, "JEDE")).map(({ axis }) => axis);
+        const isAgain = await this.#endAgain();
+        const moving = this.#own.filter((axis) => has(axis, "JEDE") && !this.#given.has(axis.axis)).map(({ axis }) => axis);
         if (moving.length > 0 && performance.now() > this.#brake_end_ms) {
             throw new LineTrouble("NotConfirmed", `${unit.wire.name}, axis ${moving.join(", ")}: it still moves`, "");
         }
-        return again.length === 0 && moving.length === 0 && own.length > 0;
+        if (isAgain || moving.length > 0) {
+            this.#held_from_ms = performance.now();
+        }
+        return looked_ms >= this.#held_from_ms + HELD_MS;
+    }
+
+    /** Ends the measures of axes that have got the permission again; whether it was the first time of one. */
+    async #endAgain(): Promise<boolean> {
+        const { unit, looks } = this.#desk;
+        const { wanted } = looks();
+        let isFirst = false;
+        for (const state of this.#own) {
+            const { axis } = state;
+            const wasEnded = this.#ended.has(axis);
+            if (((wanted[axis - 1]?.control ?? 0) & MP) === 0 || !(wasEnded || mayMove(state))) {
+                continue;
+            }
+            (wasEnded ? this.#given : this.#ended).add(axis);
+            isFirst ||= !wasEnded;
+            this.#new.add(axis); // POS_INIT gives the permission
+            looks().touch([axis]);
+            await unit.instruct(axis, "POS_INIT", [0]);
+        }
+        return isFirst;
+    }
+
+    get #own(): AxisState[] {
+        return this.#desk.looks().axes.filter(({ axis }) => this.#axes.has(axis));
     }
 
     #text(): string {
-        const states = this.#desk.looks().axes.filter(({ axis }) => this.#axes.has(axis));
+        const states = this.#own;
         const [first] = states;
         const at = states.filter((axis) => has(axis, "DISP")).map(({ axis, position_um }) => `${axis} at ${mmText(position_um)} mm`);
         const text = states.length === 1 && first
