@@ -112,7 +112,7 @@ def test_a_hold_is_confirmed_and_go_goes_on(page: PosPage) -> None:
     page.beyond(1)
     page.at("hold-1").click()
     expect(page.at("alarm")).to_have_attribute("data-kind", "done")
-    expect(page.at("alarm")).to_contain_text("STOP is confirmed: axis 1 stands at")
+    expect(page.at("alarm")).to_contain_text("Hold is confirmed: axis 1 stands at")
     page.doing("READY")
     expect(page.at("asked-1")).to_have_text("asked: 600 mm/min, NOT permitted")
     expect(page.bit("MP")).to_have_attribute("data-level", "0")

@@ -8,7 +8,10 @@ from collections.abc import Callable, Iterator
 import pytest
 from pos_cycles import cycles
 from pos_desk import PosDesk
+from relay import Relay
+from rkm04_tools.positioning.service import stopping
 from rkm04_tools.positioning.unit import Unit, open_unit
+from rkm04_tools.service import turns
 from served import Served
 
 JEDE, MP = 0x100, 1
@@ -24,6 +27,24 @@ def place(pos_serve: Serve) -> str:
 @pytest.fixture
 def desk(place: str) -> Iterator[PosDesk]:
     desk = PosDesk(place)
+    desk.connected()
+    yield desk
+    desk.close()
+
+
+@pytest.fixture
+def relay(pos_serve: Serve) -> Iterator[Relay]:
+    relay = Relay(pos_serve("--unpaced", speed="1").place)
+    yield relay
+    relay.close()
+
+
+@pytest.fixture
+def line_desk(relay: Relay, monkeypatch: pytest.MonkeyPatch) -> Iterator[PosDesk]:
+    """A desk at the end of a line that can be muted, and that gives a stop up soon."""
+    monkeypatch.setattr(stopping, "STOP_SECONDS", 0.8)
+    monkeypatch.setattr(turns, "LOOK_AGAIN_SECONDS", 0.2)
+    desk = PosDesk(relay.port)
     desk.connected()
     yield desk
     desk.close()
@@ -77,3 +98,40 @@ def test_a_stop_that_somebody_undoes_once_is_confirmed_with_the_measure_ended(
     )
     assert other.axis(1).read().state == "TAKEN"
     assert not other.wire.read(105, 1)[0] & MP
+
+
+def not_answered(desk: PosDesk, relay: Relay, order: str, axis: int = 1) -> None:
+    """Ask for a stop while the line is dumb."""
+    relay.muted = True
+    assert desk.ask(order, axis=axis)["error"]["kind"] == "NotConfirmed"
+    relay.muted = False
+    desk.live()
+
+
+def test_a_hold_of_an_axis_does_not_confirm_a_stop_of_all(line_desk: PosDesk, relay: Relay) -> None:
+    desk = line_desk
+    moving(desk, axis=2)
+    not_answered(desk, relay, "halt")
+    assert desk.now["unheld"] == (1, 2, 3, 4)
+
+    told = desk.ask("hold", axis=1)
+    assert (told["message"], told["error"]) == ("hold", None)
+    assert (desk.now["halt"], desk.now["unheld"]) == ("failed", (2, 3, 4))
+    assert desk.axis(number=2)["state"] == "MOVING"
+    assert desk.ask("halt")["message"] == "halt"
+    assert (desk.now["halt"], desk.now["unheld"]) == (None, ())
+
+
+def test_a_hold_of_an_axis_does_not_confirm_that_of_another(
+    line_desk: PosDesk, relay: Relay
+) -> None:
+    desk = line_desk
+    moving(desk)
+    moving(desk, axis=2)
+    not_answered(desk, relay, "hold", axis=2)
+
+    assert desk.ask("hold", axis=1)["error"] is None
+    assert (desk.now["halt"], desk.now["unheld"]) == ("failed", (2,))
+    assert desk.axis(number=2)["state"] == "MOVING"
+    assert desk.ask("hold", axis=2)["error"] is None
+    assert (desk.now["halt"], desk.now["unheld"]) == (None, ())

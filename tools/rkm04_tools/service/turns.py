@@ -57,7 +57,7 @@ class Turns(ABC, Generic[Unit]):
         self._wakes = Condition()
         self._waiting: deque[tuple[Any, Asked, float]] = deque()
         self._halts: deque[tuple[Asked, Any]] = deque()
-        self._answered: list[Asked] = []
+        self._answered: list[tuple[Asked, Any]] = []
         self._halt_since = 0.0
         self._halting = False
         self._closing = False
@@ -76,6 +76,14 @@ class Turns(ABC, Generic[Unit]):
     def _begin_halt(self) -> dict[str, Any]:
         """What of the state changes with a halt."""
         return {}
+
+    def _end_halt(self, got: str | Failure) -> dict[str, Any]:
+        """What of the state changes at its end."""
+        return {"halt": "failed" if isinstance(got, Failure) else None}
+
+    def halt_name(self, what: Any) -> str:
+        """The name under which the page knows what has asked for a halt."""
+        return "halt"
 
     def _has_more(self) -> bool:
         """Whether there is something to be done beside orders."""
@@ -214,16 +222,15 @@ class Turns(ABC, Generic[Unit]):
         self._answered = []
         got = self._tried(lambda: self._send_halt(self._more_halts()))
         self._halting = False
-        halt = "failed" if isinstance(got, Failure) else None
-        self.board.change(busy=None, halt=halt)
-        for asked in self._answered:
-            self._answer("halt", asked, got)
+        self.board.change(busy=None, **self._end_halt(got))
+        for asked, what in self._answered:
+            self._answer(self.halt_name(what), asked, got)
 
     def _more_halts(self) -> list[Any]:
         """What was asked to be halted since the last time; its askers are answered with it."""
         with self._wakes:
             halts = [self._halts.popleft() for _ in range(len(self._halts))]
-        self._answered += [asked for asked, _ in halts]
+        self._answered += halts
         return [what for _, what in halts]
 
     def _look(self) -> None:

@@ -12,10 +12,11 @@ from rkm04_tools.service.unit_board import LineState
 @dataclass(frozen=True)
 class State(LineState):
     """`doubt`: something that moves an axis was asked for and not answered, and nobody has looked
-    since then."""
+    since then. `unheld`: the axes of which no stop is confirmed since one was asked for."""
 
     node: int = 1
     doubt: bool = False
+    unheld: tuple[int, ...] = ()
 
 
 Board = unit_board.Board[State]

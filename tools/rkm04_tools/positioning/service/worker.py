@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from rkm04_tools.failure import Failure
 from rkm04_tools.line_errors import LineError
 from rkm04_tools.positioning.service import acting
 from rkm04_tools.positioning.service.board import Board, State
 from rkm04_tools.positioning.service.connection import Connection, LineForm
-from rkm04_tools.positioning.service.orders import Capture, Release, Write
+from rkm04_tools.positioning.service.orders import ALL_AXES, Capture, Release, Write
 from rkm04_tools.positioning.service.stopping import Stop
 from rkm04_tools.positioning.table import Register, registers
 from rkm04_tools.positioning.unit import Unit
@@ -32,6 +33,9 @@ class Worker(Turns[Unit]):
         board = Board(tell, State())
         self._line = Connection(board, units, form, self._mind_halt)
         super().__init__(board, self._line, is_watched)
+        self._unheld: set[int] = set()
+        """Axes of which a stop was asked for: only one of that axis ends it."""
+        self._asked: set[int] = set()
 
     def greetings(self) -> list[dict[str, Any]]:
         """What a browser that comes is told."""
@@ -52,6 +56,31 @@ class Worker(Turns[Unit]):
         except LineError:
             self.board.change(doubt=True)
             raise
+
+    def halt_name(self, what: Any) -> str:
+        """A stop is one of all axes."""
+        return "halt" if what == ALL_AXES else "hold"
+
+    def _begin_halt(self) -> dict[str, Any]:
+        self._asked = set()
+        with self._wakes:
+            return self._note_asked([what for _, what in self._halts])
+
+    def _more_halts(self) -> list[Any]:
+        whats = super()._more_halts()
+        self.board.change(**self._note_asked(whats))
+        return whats
+
+    def _note_asked(self, whats: list[Any]) -> dict[str, Any]:
+        self._asked.update(axis for axes in whats for axis in axes)
+        self._unheld |= self._asked
+        return {"unheld": tuple(sorted(self._unheld))}
+
+    def _end_halt(self, got: str | Failure) -> dict[str, Any]:
+        if not isinstance(got, Failure):
+            self._unheld -= self._asked
+        unheld = tuple(sorted(self._unheld))
+        return {"halt": "failed" if unheld else None, "unheld": unheld}
 
     def _send_halt(self, whats: list[Any]) -> str:
         """Stop, and see the axes stand."""

@@ -4,7 +4,7 @@ import type { Left } from "../left";
 import { listenForStop } from "../stop_press";
 import type { Answer, Known } from "./known";
 import { told } from "./told";
-import type { CommonWords } from "./words";
+import type { CommonKey, CommonWords } from "./words";
 
 const DONE_MS = 4000;
 
@@ -16,14 +16,20 @@ export class Halt {
     readonly #unit: Known;
     readonly #t: CommonWords;
     readonly #left: Left;
+    readonly #part: () => string;
     readonly #alarm = byId("alarm", HTMLElement);
     /** Whether a halt of this page has no good answer yet; "asked": it may still come. */
     #own: "asked" | "failed" | null = null;
     #done = "";
+    #isDoneOfPart = false;
     #forget = 0;
 
-    /** `moves`: whether something moves, of which it is not said any more that it stands. */
-    constructor(unit: Known, t: CommonWords, left: Left, moves: () => boolean) {
+    /**
+     * `moves`: whether something moves, of which it is not said any more that it stands. `part`: the axis that alone was to be
+     * held, where that can be; empty: all were to be stopped.
+     */
+    constructor(unit: Known, t: CommonWords, left: Left, moves: () => boolean, part = () => "") {
+        this.#part = part;
         this.#unit = unit;
         this.#t = t;
         this.#left = left;
@@ -56,18 +62,20 @@ export class Halt {
     }
 
     #hear({ message, from, text, error }: Answer): void {
-        if (message !== "halt") {
+        const isPart = message === "hold";
+        if (message !== "halt" && !isPart) {
             return;
         }
         if (error === null && this.#left.names === "") {
-            this.#own = null;
+            this.#own = isPart ? this.#own : null;
+            this.#isDoneOfPart = isPart;
             this.#done = text;
             window.clearTimeout(this.#forget);
             this.#forget = window.setTimeout(() => {
                 this.#done = "";
                 this.#show();
             }, DONE_MS);
-        } else if (error === null || from === this.#unit.link.client) {
+        } else if (!isPart && (error === null || from === this.#unit.link.client)) {
             this.#own = "failed";
         }
         this.#show();
@@ -78,7 +86,10 @@ export class Halt {
         const left = this.#left.names;
         const kind = open ?? (this.#done === "" || left !== "" ? "none" : "done");
         const names = kind === "failed" && left !== "" ? ` (${left})` : "";
-        const words = kind === "none" ? "" : this.#t(`halt.${kind}`, { words: told(this.#done) }) + names;
+        const axis = this.#part();
+        const isPart = kind === "done" ? this.#isDoneOfPart : this.#own === null && axis !== "";
+        const key = `${isPart ? "hold" : "halt"}.${kind}` as CommonKey;
+        const words = kind === "none" ? "" : this.#t(key, { words: told(this.#done), axis }) + names;
         this.#alarm.dataset.kind = kind;
         this.#alarm.hidden = kind === "none";
         if (this.#alarm.textContent !== words) {

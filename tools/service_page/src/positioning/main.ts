@@ -34,7 +34,7 @@ const danger = new Danger("danger-confirm");
 unit.state.watch((state) => danger.setPlace(state));
 const left = new Left(link, t, { name: "left_positioning", moves: () => unit.didMove });
 link.on("state", ({ doubt }) => doubt && left.mark());
-new Halt(unit, t, left, () => unit.now?.axes.some(moves) === true);
+new Halt(unit, t, left, () => unit.now?.axes.some(moves) === true, heldAxis);
 new Connection(unit, t, { form: alone?.form });
 new Loud(unit, t, {
     didMove: () => unit.didMove,
@@ -51,6 +51,12 @@ const top = byId("top", HTMLElement);
 new ResizeObserver(() => document.body.style.setProperty("--top", `${top.clientHeight}px`)).observe(top);
 if (alone === null || alone.begin(unit)) {
     link.open();
+}
+
+/** The axis whose hold is not confirmed, where it is no stop of more than that. */
+function heldAxis(): string {
+    const { unheld = [] } = unit.state.value ?? {};
+    return unheld.length === 1 ? unheld.join() : "";
 }
 
 /** What must not be overlooked of a unit that answers, or that nobody asks any more. */

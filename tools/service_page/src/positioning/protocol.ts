@@ -35,6 +35,8 @@ export interface UnitState extends CommonState {
     node: number;
     /** Something that moves an axis was asked for and not answered. */
     doubt: boolean;
+    /** The axes of which no stop is confirmed since one was asked for. */
+    unheld: number[];
 }
 
 export type AxisName = "FREE" | "TAKEN" | "WAITING" | "READY" | "MOVING" | "REACHED" | "FAULT";

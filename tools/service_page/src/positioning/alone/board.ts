@@ -8,7 +8,7 @@ export class Board {
     /** When the unit answered last. */
     heard_ms: number | null = null;
     readonly tell: (told: FromService) => void;
-    #state: UnitState = { ...GONE, port: null, virtual: false, node: 1, busy: null, halt: null, seen_ago_s: null };
+    #state: UnitState = { ...GONE, port: null, virtual: false, node: 1, busy: null, halt: null, unheld: [], seen_ago_s: null };
 
     constructor(tell: (told: FromService) => void) {
         this.tell = tell;

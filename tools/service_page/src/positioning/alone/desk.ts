@@ -46,6 +46,9 @@ export class Desk {
     #halts: HaltOrder[] = [];
     #answered: HaltOrder[] = [];
     #isHalting = false;
+    /** Axes of which a stop was asked for: only one of that axis ends it. */
+    readonly #unheld = new Set<number>();
+    #asked: number[] = [];
     #wake: () => void = () => undefined;
 
     /** `fail` is told of a fault of the desk, which ends it. */
@@ -125,8 +128,7 @@ export class Desk {
     }
 
     #answer(order: Work | HaltOrder, got: string | Refusal): void {
-        const message = order.type === "hold" ? "halt" : order.type;
-        const asker = { type: "answer" as const, id: "id" in order ? order.id : null, from: 1, message };
+        const asker = { type: "answer" as const, id: "id" in order ? order.id : null, from: 1, message: order.type };
         this.#board.tell(got instanceof Refusal ? { ...asker, text: null, error: got.trouble } : { ...asker, text: got, error: null });
     }
 
@@ -250,12 +252,15 @@ export class Desk {
 
     /** Stops for all who have asked for it until the axes stand; a later one stops again. */
     async #doHalts(): Promise<void> {
-        this.#board.change({ busy: "halt", halt: "asked" });
         this.#isHalting = true;
         this.#answered = [];
+        this.#asked = [];
         const got = await tried(() => this.#stop());
         this.#isHalting = false;
-        this.#board.change({ busy: null, halt: got instanceof Refusal ? "failed" : null });
+        if (!(got instanceof Refusal)) {
+            this.#asked.forEach((axis) => this.#unheld.delete(axis));
+        }
+        this.#board.change({ busy: null, halt: this.#unheld.size > 0 ? "failed" : null, unheld: [...this.#unheld] });
         this.#answered.forEach((order) => this.#answer(order, got));
     }
 
@@ -279,7 +284,13 @@ export class Desk {
         const halts = this.#halts;
         this.#halts = [];
         this.#answered.push(...halts);
-        return halts.flatMap((order) => (order.type === "hold" ? [order.axis] : [...AXES]));
+        const axes = halts.flatMap((order) => (order.type === "hold" ? [order.axis] : [...AXES]));
+        if (axes.length > 0) {
+            this.#asked.push(...axes);
+            axes.forEach((axis) => this.#unheld.add(axis));
+            this.#board.change({ busy: "halt", halt: "asked", unheld: [...this.#unheld] });
+        }
+        return axes;
     }
 
     async #look(): Promise<void> {
