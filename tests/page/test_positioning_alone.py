@@ -23,7 +23,8 @@ from service_page import NOT_KNOWN
 from tab import DESK, PATIENCE_SECONDS
 
 NODE, SEED = 3, 5
-WRITE_REGISTERS = 16
+WRITE_REGISTERS, WRITE_AND_READ = 16, 23
+GETS_THROUGH = 3
 IMAGE_OUT = bytes([3, 1, 244])
 AXIS_1, CLOCK = bytes([3, 0, 110]), bytes([3, 0, 0, 0, 28])
 """What requests begin with that read what axes were told, an axis, and the unit with its clock."""
@@ -362,6 +363,26 @@ def test_a_stop_that_another_master_undoes_again_and_again_is_not_confirmed(
         expect(page.at("alarm")).to_contain_text(NOT_CONFIRMED)
         expect(page.answers.first).to_contain_text("axis 1 IS NOT HELD: another master, such as")
         assert other.axis(1).read().state == "TAKEN"
+
+
+def test_a_motion_that_took_too_long_on_a_bad_line_does_not_begin(
+    line_page: AlonePage, line: Line, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page, asked = line_page, [b""]
+
+    def to_unit(data: bytes) -> bytes:
+        """From the first instruction on what is sent for the third time gets through."""
+        if data[1] == WRITE_AND_READ or asked[0]:
+            asked[:] = [*asked, data] if data == asked[-1] else [data]
+        return data if len(asked) >= GETS_THROUGH or not asked[0] else b""
+
+    monkeypatch.setattr(line.bridge, "to_unit", to_unit)
+    page.move("1000")
+    expect(page.answers.first).to_contain_text("it was not told to move")
+    monkeypatch.undo()
+    page.ready()
+    page.doing("READY")
+    expect(page.at("position-1")).to_have_text("0.000 mm")
 
 
 def test_a_user_may_take_their_time_to_choose_a_port(open_page: Open, line: Line) -> None:

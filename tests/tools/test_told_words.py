@@ -168,6 +168,13 @@ ASSEMBLED: dict[str, list[str]] = {
         "axis 1 stands at 10.000 mm; another master gave all axes the permission again, so the "
         "measure was ended there",
         "COM3, unit 2, axis 1, 2: it still moves",
+        "axis 1 IS NOT HELD: another master, such as a PLC, has given the permission (MP) again; "
+        "the measure is ended now, take the permission away there",
+        "axes 1, 2 ARE NOT HELD: another master, such as a PLC, has given the permission (MP) "
+        "again",
+        "all axes ARE NOT HELD: another master, such as a PLC, has given the permission (MP) again",
+        "COM3, unit 2 does not answer; it was not told again to move, as that would be late; "
+        "whether it has begun to is not known",
         "script.csv:3: no such instruction; write ms,axis,INSTRUCTION,values, for example "
         "10,1,POS_MODE,10000,500",
         "written: axis1 BACKLASH, unit WATCHDOG; not stored yet",
@@ -249,7 +256,9 @@ PIECES = {
         "its axes are free, positions count from 0, and what moved stood at once; 7look at the "
         "unit",
         ", only the adapter's echo comes back", "7, axis 7: it still moves",
-        "7 does not answer7; 7", "another master has given it back", "axis 7 is not taken: 7",
+        "7 does not answer7; 7", "7 does not answer; it was not told again to move, as that would "
+        "be late; whether it has begun to is not known", "another master has given it back",
+        "axis 7 is not taken: 7",
         "7 HAS RESTARTED: its axes are free, positions count from 0, and what moved stood at once; "
         "7positioning status tells what it is like",
     },

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import time
 from argparse import Namespace
 from collections.abc import Callable
 from contextlib import suppress
@@ -25,6 +26,8 @@ from rkm04_tools.table import table
 from rkm04_tools.watch import Shown, require_looks, watch
 
 PORT_VARIABLE, NODE_VARIABLE = "POSITIONING_PORT", "POSITIONING_NODE"
+LATE_SECONDS = 2.0
+"""What has not begun to move an axis by then is given up: nobody expects it any more."""
 HEAD = ("axis", "state", "position mm", "to go mm", "mm/min")
 
 
@@ -42,6 +45,12 @@ def node_of(options: Namespace) -> int:
     if not (text.isascii() and text.isdigit() and int(text) in NODES):
         raise Failure(f"{name} {text}: write an address, 1 to 16")
     return int(text)
+
+
+def late_from_now() -> Callable[[], bool]:
+    """Whether what is begun now is late, at any time."""
+    end = time.monotonic() + LATE_SECONDS
+    return lambda: time.monotonic() > end
 
 
 def all_axes(unit: Unit) -> list[AxisState]:
@@ -138,7 +147,9 @@ def _one(what: str, act: Act) -> Callable[[Namespace], int]:
     """A command that gives one instruction, and tells what the axis does then."""
 
     def run(options: Namespace) -> int:
-        with in_doubt(Doubt()) as doubt, unit_of(options) as unit:
+        with (
+            in_doubt(Doubt()) as doubt, unit_of(options) as unit, unit.wire.until(late_from_now()),
+        ):  # fmt: skip
             axis = unit.axis(options.axis)
             axis.read()
             doubt.about(f"whether {what} was done", "positioning status tells what the axis does")
@@ -253,7 +264,10 @@ def _moved(options: Namespace, mm: float, work: Callable[[Axis, Tell], AxisState
     require_motion(mm, options.feed, options.accel)
     begun = False
     try:
-        with unit_of(options) as unit, Stopper(unit.wire) as stopper:
+        with (
+            unit_of(options) as unit, unit.wire.until(late_from_now()),
+            Stopper(unit.wire) as stopper,
+        ):  # fmt: skip
             axis = unit.axis(options.axis)
             is_taken = axis.read().is_taken
             try:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rkm04_tools.failure import NOT_SO, Failure
-from rkm04_tools.line_errors import LineError, UnitRestarted
+from rkm04_tools.line_errors import LineError, NoAnswer, UnitRestarted
 from rkm04_tools.positioning.state import EXCEPTIONS, AxisState, error_text, mm_text
 
 
@@ -24,6 +24,26 @@ class Restarted(UnitRestarted):
             self,
             f"{where} HAS RESTARTED: its axes are free, positions count from 0, and what moved "
             f"stood at once; {what}positioning status tells what it is like",
+        )
+
+
+class NotBegun(Failure):
+    """It has taken so long to get to the unit that nobody expects a motion any more."""
+
+    def __init__(self, where: str) -> None:
+        super().__init__(
+            f"{where}: this took too long, and it was not told to move; "
+            "look at the unit, then ask again", NOT_SO,
+        )  # fmt: skip
+
+
+class NotRepeated(NoAnswer):
+    """The same, after it was sent and not answered."""
+
+    def __init__(self, where: str) -> None:
+        super().__init__(
+            f"{where} does not answer; it was not told again to move, as that would be late; "
+            "whether it has begun to is not known"
         )
 
 

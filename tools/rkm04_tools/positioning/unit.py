@@ -266,7 +266,9 @@ class Axis:
         require()
         if words:
             place = self._base + (CONTROL if permitted is not None else FEED)
-            found, _ = self.unit.wire.write_and_read(place, words, self._base + CONTROL, 3)
+            found, _ = self.unit.wire.write_and_read(
+                place, words, self._base + CONTROL, 3, begins=not stops
+            )
             mp, *wanted = found
             taken = (permitted is None or mp & 1 == permitted) and (
                 feed is None or wanted == words[-2:]

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 from rkm04_tools.line_errors import GarbledAnswer, LineError, NoAnswer
 from rkm04_tools.positioning import modbus
-from rkm04_tools.positioning.line_errors import RequestRefused, WrongUnit
+from rkm04_tools.positioning.line_errors import NotBegun, NotRepeated, RequestRefused, WrongUnit
 from rkm04_tools.positioning.master import NS_PER_MS, End, Master
 from rkm04_tools.transport import SLICE_SECONDS, Port, open_transport
 
@@ -50,6 +51,7 @@ class Wire:
         self.counts = Counts()
         self.tries = SENT_MAX
         self.look: Callable[[], None] = lambda: None
+        self._is_late: Callable[[], bool] = lambda: False
         self._port = port
         self._patience_ms = TCP_MS if tcp else ANSWER_MS
         self._master = Master(rate, tcp)
@@ -71,6 +73,15 @@ class Wire:
         """Let nothing go out any more that still waits."""
         self._port.take_back()
 
+    @contextmanager
+    def until(self, is_late: Callable[[], bool]) -> Iterator[None]:
+        """Send nothing that may begin a motion, and repeat none of it, once it is late."""
+        self._is_late = is_late
+        try:
+            yield
+        finally:
+            self._is_late = lambda: False
+
     def read(self, first: int, count: int) -> list[int]:
         """Registers."""
         request = modbus.read_request(first, count)
@@ -81,12 +92,14 @@ class Wire:
         self._ask(modbus.write_request(first, words), f"writing register {first}")
 
     def write_and_read(
-        self, first: int, words: Sequence[int], read: int, count: int
+        self, first: int, words: Sequence[int], read: int, count: int, begins: bool = False
     ) -> tuple[list[int], bool]:
-        """Write registers, then read others; whether the request had to be repeated."""
+        """Write registers, then read others; whether the request had to be repeated.
+
+        `begins`: it may begin a motion."""
         before = self.counts.repeats
         request = modbus.exchange_request(first, words, read, count)
-        found = self._words(self._ask(request, f"writing register {first}"), count)
+        found = self._words(self._ask(request, f"writing register {first}", begins), count)
         return found, self.counts.repeats != before
 
     def identify(self) -> list[str]:
@@ -99,7 +112,7 @@ class Wire:
             raise WrongUnit(self.name)
         return words
 
-    def _ask(self, request: bytes, what: str) -> bytes:
+    def _ask(self, request: bytes, what: str, begins: bool = False) -> bytes:
         """Send a request until it is answered."""
         master = self._master
         master.ask(self.node, request, self._patience_ms, self.tries, time.monotonic_ns())
@@ -110,6 +123,8 @@ class Wire:
             end = master.poll(time.monotonic_ns())
             if out := master.out:
                 self.look()
+                if begins and self._is_late():
+                    raise NotRepeated(self.name) if sent else NotBegun(self.name)
                 self.counts.requests += 1
                 self.counts.repeats += sent > 0
                 sent += 1

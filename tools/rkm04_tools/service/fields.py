@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 from rkm04_tools.service.trouble import BadRequest, TooLarge
@@ -19,12 +19,14 @@ ID_MAX = 1 << 53
 class Asked:
     """By whom something was asked, and the number under which the answer is awaited.
 
-    `beat`: the last sign of life of the service that the page had when the user asked.
+    `beat`: the last sign of life of the service that the page had when the user asked. `is_late`:
+    whether that is too long ago by now.
     """
 
     client: int | None = None
     number: int | None = None
     beat: int | None = None
+    is_late: Callable[[], bool] = field(default=lambda: False, compare=False)
 
 
 def read_object(text: str) -> tuple[dict[str, Any], Asked]:

@@ -58,6 +58,8 @@ class Turns(ABC, Generic[Unit]):
         self._waiting: deque[tuple[Any, Asked, float]] = deque()
         self._halts: deque[tuple[Asked, Any]] = deque()
         self._answered: list[tuple[Asked, Any]] = []
+        self._asked_now = Asked()
+        """By whom that was asked which is being done."""
         self._halt_since = 0.0
         self._halting = False
         self._closing = False
@@ -186,6 +188,7 @@ class Turns(ABC, Generic[Unit]):
             return
         was_away = bool(self.board.state.error)
         self.board.change(busy=name)
+        self._asked_now = asked
         got = self._tried(
             lambda: nothing_kept_back(lambda: self._obey(order), self._own_line.take_back)
         )

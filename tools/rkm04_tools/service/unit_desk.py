@@ -53,7 +53,7 @@ class TurnsDesk:
     def take(self, text: str, client: int, is_late: IsLate) -> Aside | None:
         """Take what a browser says."""
         order, asked = self.read(text)
-        asked = replace(asked, client=client)
+        asked = replace(asked, client=client, is_late=partial(is_late, asked.beat))
         if (what := self.halted_by(order)) is not None:
             self._turns.halt(asked, what)  # better late than never
         elif order == PORTS:

@@ -14,7 +14,7 @@ from rkm04_tools.positioning.service.orders import ALL_AXES, Capture, Release, W
 from rkm04_tools.positioning.service.stopping import Stop
 from rkm04_tools.positioning.table import Register, registers
 from rkm04_tools.positioning.unit import Unit
-from rkm04_tools.service.trouble import BadRequest, NotConnected
+from rkm04_tools.service.trouble import BadRequest, Late, NotConnected
 from rkm04_tools.service.turns import Turns
 from rkm04_tools.service.unit_board import Tell
 from rkm04_tools.service.unit_orders import Plain
@@ -51,8 +51,12 @@ class Worker(Turns[Unit]):
             return acting.write(self._line, unit, order)
         if self.board.state.restarted and not isinstance(order, Release | Capture):
             raise BadRequest("the unit has restarted; take note of that first")
+        is_late = self._asked_now.is_late
+        if is_late():
+            raise Late
         try:
-            return acting.act(self._line, unit, order)
+            with unit.wire.until(is_late):
+                return acting.act(self._line, unit, order)
         except LineError:
             self.board.change(doubt=True)
             raise

@@ -181,6 +181,9 @@ export const ALONE: Sentences = [
         "are address, rate and format right, is the unit on, and are A and B not swapped?",
         "souhlasí adresa, rychlost a formát, je jednotka zapnutá a nejsou A a B prohozené?",
     ],
+    ["this took too long, and it was not told to move", "trvalo to příliš dlouho a povel k pohybu už nebyl dán"],
+    ["it was not told again to move, as that would be late", "povel k pohybu už nebyl zopakován, přišel by pozdě"],
+    ["whether it has begun to is not known", "není známo, zda se pohyb začal"],
     ["what comes is damaged, or no Modbus", "co přichází, je poškozené, nebo to není Modbus"],
     [
         "check rate and format of the line, cable and terminators",

@@ -130,7 +130,8 @@ export class Unit {
         await this.requireKnown();
         if (words.length > 0) {
             const place = base + (permitted === undefined ? feedRow : control).number;
-            const [found] = await this.wire.writeAndRead(place, words, base + control.number, 1 + wordsOf(feedRow));
+            const begins = permitted !== false && feed !== 0;
+            const [found] = await this.wire.writeAndRead(place, words, base + control.number, 1 + wordsOf(feedRow), begins);
             const isPermitted = permitted === undefined || ((found[0] ?? 0) & 1) === Number(permitted);
             const isFed = feedWords.every((word, index) => found[1 + index] === word);
             if (!isPermitted || !isFed) {

@@ -203,13 +203,19 @@ export class Desk {
         if (this.#board.state.restarted && order.type !== "release" && order.type !== "capture") {
             throw RESTARTED;
         }
+        const isLate = (): boolean => this.#beats.isLate(order.beat, performance.now());
+        if (isLate()) {
+            throw LATE;
+        }
         this.#line.looks.touch([order.axis]);
+        unit.wire.isLate = isLate;
         try {
             return await act(unit, order);
         } catch (error) {
             this.#board.change(error instanceof LineTrouble ? { doubt: true } : {});
             throw error;
         } finally {
+            unit.wire.isLate = () => false;
             this.#line.looks.touch([order.axis]);
         }
     }

@@ -11,6 +11,8 @@ const SENT_MAX = 4;
 
 const CHECK_LINE = "are address, rate and format right, is the unit on, and are A and B not swapped?";
 const CHECK_FORM = "check rate and format of the line, cable and terminators";
+const NOT_BEGUN = new Refusal("this took too long, and it was not told to move", "look at the unit, then ask again", { kind: "NotBegun" });
+const NOT_REPEATED = "it was not told again to move, as that would be late; whether it has begun to is not known";
 const ENDS: Record<number, (where: string) => LineTrouble> = {
     [SILENT]: (where) => new LineTrouble("NoAnswer", `${where} does not answer`, CHECK_LINE),
     [ECHOED]: (where) => new LineTrouble("NoAnswer", `${where} does not answer, only the adapter's echo comes back`, CHECK_LINE),
@@ -23,6 +25,8 @@ export class Wire {
     readonly node: number;
     /** How often a request may be sent. */
     tries = SENT_MAX;
+    /** When it is, nothing is sent that may begin a motion, nor repeated. */
+    isLate = (): boolean => false;
     /** Requests sent, repeats among them. */
     requests = 0;
     repeats = 0;
@@ -51,10 +55,10 @@ export class Wire {
         await this.#ask(modbus.writeRequest(first, words), `writing register ${first}`);
     }
 
-    /** Writes registers, then reads others; also whether the request had to be repeated. */
-    async writeAndRead(first: number, words: readonly number[], read: number, count: number): Promise<[number[], boolean]> {
+    /** Writes registers, then reads others; also whether the request had to be repeated. `begins`: it may begin a motion. */
+    async writeAndRead(first: number, words: readonly number[], read: number, count: number, begins = false): Promise<[number[], boolean]> {
         const before = this.repeats;
-        const answer = await this.#ask(modbus.writeReadRequest(first, words, read, count), `writing register ${first}`);
+        const answer = await this.#ask(modbus.writeReadRequest(first, words, read, count), `writing register ${first}`, begins);
         return [this.#wordsIn(answer, count), this.repeats !== before];
     }
 
@@ -72,7 +76,7 @@ export class Wire {
     }
 
     /** Sends a request until it is answered. */
-    async #ask(request: Bytes, what: string): Promise<Bytes> {
+    async #ask(request: Bytes, what: string, begins = false): Promise<Bytes> {
         const { master } = this.bus;
         master.ask(this.node, request, ANSWER_MS, this.tries);
         let end = WAITS;
@@ -82,6 +86,9 @@ export class Wire {
             const { out } = master;
             if (out.length > 0) {
                 this.#look();
+                if (begins && this.isLate()) {
+                    throw sent > 0 ? new LineTrouble("NoAnswer", `${this.name} does not answer`, NOT_REPEATED) : NOT_BEGUN;
+                }
                 this.requests += 1;
                 this.repeats += sent > 0 ? 1 : 0;
                 sent += 1;
