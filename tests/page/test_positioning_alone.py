@@ -341,6 +341,12 @@ def test_a_stop_goes_out_to_a_unit_that_was_never_heard(open_page: Open, line: L
         page.page.keyboard.press("Escape")
         expect(page.at("alarm")).to_contain_text(NOT_CONFIRMED)
         assert not axis.read().moves
+        page.page.reload()
+        page.ready()
+        expect(page.at("alarm")).to_be_hidden()
+        page.at("connect").click()
+        connect(page)
+        expect(page.at("alarm")).to_contain_text(NOT_CONFIRMED)
 
 
 def test_a_stop_that_another_master_undoes_again_and_again_is_not_confirmed(

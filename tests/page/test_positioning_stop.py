@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Iterator
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
@@ -73,3 +75,32 @@ def test_a_hold_has_words_of_its_own_and_confirms_its_axis_alone(
         expect(page.at("alarm")).to_contain_text("STOP is confirmed: all axes stand")
         for each in (page, second):
             expect(each.at("alarm")).to_be_hidden()
+
+
+def test_a_stop_that_is_not_confirmed_outlives_the_service(
+    page: PosPage, relay: Relay, service: PosService
+) -> None:
+    page.move("1000")
+    page.beyond(1)
+    relay.muted = True
+    page.page.keyboard.press("Escape")
+    expect(page.at("alarm")).to_have_text(NOT_CONFIRMED)
+    service.end(signal.SIGKILL)
+    relay.muted = False
+    again = PosService("--port", relay.port, listen=urlsplit(service.url).port or 0)
+    try:
+        for _ in range(2):
+            page.page.goto(again.url)
+            page.ready()
+            page.doing("MOVING")
+            expect(page.at("alarm")).to_have_text(NOT_CONFIRMED)
+        page.at("hold-1").click()
+        page.doing("READY")
+        expect(page.at("alarm")).to_have_text(NOT_CONFIRMED)
+        page.page.keyboard.press("Escape")
+        expect(page.at("alarm")).to_contain_text("STOP is confirmed")
+        page.page.reload()
+        page.ready()
+        expect(page.at("alarm")).to_be_hidden()
+    finally:
+        again.end()

@@ -42,7 +42,7 @@ unit.state.watch((state) => danger.setPlace(state));
 const left = new Left<Live>(link, t, { name: "left_gve134", moves: ({ flags }) => isInMotion(flags) });
 link.on("state", ({ reference }) => reference && left.mark()); // it tells nothing meanwhile
 link.onSent(({ type }) => SETS_OFF.includes(type) && left.mark());
-new Halt(unit, t, left, () => ["moves", "brakes", "reference"].includes(unit.doing));
+new Halt(unit, t, left, { moves: () => ["moves", "brakes", "reference"].includes(unit.doing) });
 new Connection(unit, t, {
     quiet: () => (unit.doing === "reference" ? t("state.reference") : null),
     keeps: () => unit.state.value?.job?.phase === "sending",

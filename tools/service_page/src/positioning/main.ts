@@ -34,7 +34,7 @@ const danger = new Danger("danger-confirm");
 unit.state.watch((state) => danger.setPlace(state));
 const left = new Left(link, t, { name: "left_positioning", moves: () => unit.didMove });
 link.on("state", ({ doubt }) => doubt && left.mark());
-new Halt(unit, t, left, () => unit.now?.axes.some(moves) === true, heldAxis);
+new Halt(unit, t, left, { moves: () => unit.now?.axes.some(moves) === true, part: heldAxis, name: "unheld_positioning" });
 new Connection(unit, t, { form: alone?.form });
 new Loud(unit, t, {
     didMove: () => unit.didMove,
