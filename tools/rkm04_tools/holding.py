@@ -8,7 +8,9 @@ does. Where there are no such locks, as on Windows, nothing is known.
 from __future__ import annotations
 
 import hashlib
+import ipaddress
 import os
+import socket
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -16,9 +18,11 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from rkm04_tools.line_errors import PortBusy
+from rkm04_tools.transport import ADDRESS
 
 SHOWN_MAX = 60
 UNKNOWN = "another program"
+HERE = "127.0.0.1"
 
 if sys.platform != "win32":
     import fcntl
@@ -48,6 +52,28 @@ def holder_of(port: str) -> str:
         os.close(number)
 
 
+def place_of(port: str) -> str:
+    """Where a line is, the same however its port is spelt."""
+    scheme, is_url, rest = port.partition("://")
+    if not is_url:
+        return os.path.realpath(port)
+    match = ADDRESS.fullmatch(rest)
+    return f"{scheme.lower()}://{_address_of(match[1])}:{int(match[2])}" if match else port
+
+
+def _address_of(name: str) -> str:
+    """The address of a host. All that mean this machine without naming an interface are one."""
+    try:
+        told = socket.getaddrinfo(name.strip("[]"), None, type=socket.SOCK_STREAM)
+    except (OSError, UnicodeError):
+        return name.lower()
+    found = [ipaddress.ip_address(str(each[4][0]).partition("%")[0]) for each in told]
+    plain = [getattr(each, "ipv4_mapped", None) or each for each in found]
+    first = min(plain, key=lambda each: (each.version, int(each)))
+    is_here = first.is_unspecified or (first.version == 6 and first.is_loopback)
+    return HERE if is_here else str(first)
+
+
 def _is_locked(number: int) -> bool:
     """Whether another one has it; if not it is locked from then on."""
     if sys.platform == "win32":
@@ -64,8 +90,7 @@ def _open(port: str) -> int | None:
     if sys.platform == "win32":
         return None
     folder = Path(tempfile.gettempdir()) / f"rkm04-lines-{os.getuid()}"
-    place = port if port.startswith("socket://") else os.path.realpath(port)
-    name = hashlib.sha256(place.encode(errors="surrogateescape")).hexdigest()[:32]
+    name = hashlib.sha256(place_of(port).encode(errors="surrogateescape")).hexdigest()[:32]
     try:
         folder.mkdir(mode=0o700, exist_ok=True)
         if folder.is_symlink() or folder.stat().st_uid != os.getuid():
