@@ -132,7 +132,7 @@ class Browsers:
         sender = asyncio.create_task(_send_all(socket, queue))
         try:
             while True:
-                self._take(await socket.receive_text(), number, queue)
+                self._take(await _received(socket), number, queue)
         except (WebSocketDisconnect, KeyError):
             pass  # a KeyError is a message of bytes, which no page sends
         finally:
@@ -185,6 +185,14 @@ class Browsers:
         task = asyncio.create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+
+
+async def _received(socket: WebSocket) -> str:
+    """What it says next; where a send has found out that it is gone, nothing can be received."""
+    try:
+        return await socket.receive_text()
+    except RuntimeError:
+        raise WebSocketDisconnect from None
 
 
 async def _send_all(socket: WebSocket, queue: Messages) -> None:
