@@ -332,7 +332,7 @@ def test_a_unit_with_t40_is_not_streamed_to(tool, fake, unit, write):
     assert acts(unit) == []
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT])
 def test_an_interruption_of_a_stream_stops_the_motor_and_tells_so(start, serve, write, number):
     served = serve("--node", str(NODE))
     path = write("\\ S100 V1000 A5000" + " F500 R" * 2000)

@@ -67,7 +67,7 @@ def test_a_stop_on_a_port_that_cannot_be_opened_calls_for_the_emergency_stop(too
     assert result.complaint.endswith("; use the emergency stop")
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT])
 def test_a_stop_that_is_cut_short_calls_for_the_emergency_stop(start, fake, unit, number):
     silent_after(fake, unit, has(b"K"))
     process = started(start, fake, unit, "stop")

@@ -16,7 +16,9 @@ from rkm04_tools.failure import INTERRUPTED, Failure
 from rkm04_tools.line_errors import LineError, UnitRestarted, WrongAnswer
 
 ENDS = tuple(
-    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
+    getattr(signal, name)
+    for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT")
+    if hasattr(signal, name)
 )
 CUT_SHORT = (LineError, WrongAnswer)
 
