@@ -12,11 +12,12 @@ enum {
     PACKET_ENDS = 2,       /* commands around those of a packet */
 };
 
-void gve_master_init(struct gve_master *master, uint32_t baud, bool sums)
+void gve_master_init(struct gve_master *master, uint32_t baud, enum gve_master_sums sums)
 {
     memset(master, 0, sizeof *master);
     gve_wire_init(&master->wire, baud);
-    master->sums = sums;
+    master->wanted = (uint8_t)sums;
+    master->sums = sums == GVE_MASTER_SUMS_ON;
     master->end = GVE_MASTER_ANSWERED;
 }
 
@@ -55,9 +56,28 @@ void gve_master_finish(struct gve_master *master, enum gve_master_end end)
     master->ready = master->ready && (end == GVE_MASTER_ANSWERED || end == GVE_MASTER_NOT_TAKEN);
 }
 
+bool gve_master_is_zero(const struct gve_reply *reply)
+{
+    return strcmp(reply->values, "0,0,0,0") == 0;
+}
+
+static void note_place(struct gve_master *master)
+{
+    unsigned opcode = gve_reply_opcode(master->text, master->order.length);
+    bool is_told = opcode == (unsigned)GVE_POSITION_4 && master->reply.code == GVE_DONE;
+    if (is_told) {
+        master->is_elsewhere = !gve_master_is_zero(&master->reply);
+    } else if (opcode == (unsigned)GVE_ZERO || opcode == (unsigned)GVE_SET_POSITION) {
+        master->is_elsewhere = false;
+    } else {
+        /* it tells nothing of that */
+    }
+}
+
 void gve_master_finish_answered(struct gve_master *master, const struct gve_reply *reply)
 {
     master->reply = *reply;
+    note_place(master);
     gve_master_finish(master, GVE_MASTER_ANSWERED);
 }
 
@@ -167,11 +187,17 @@ void gve_master_connected(struct gve_master *master, uint64_t now_ns)
 {
     bool is_only = master->order.kind == GVE_MASTER_CONNECT || master->order.kind == GVE_MASTER_HALT;
     master->ready = true;
+    master->is_index_known = true;
     if (is_only || master->is_reset) {
         master->restarted = master->restarted && is_only;
+        master->others = is_only ? master->others : (uint8_t)GVE_MASTER_WAITS;
         master->end = GVE_MASTER_ANSWERED;
     } else if (master->restarted) {
         master->end = GVE_MASTER_RESTARTED; /* it was not meant for this unit, which is known now */
+    } else if (master->others != (uint8_t)GVE_MASTER_WAITS) {
+        master->end = master->others;
+    } else if (master->order.kind == GVE_MASTER_OWN) {
+        master->end = GVE_MASTER_ANSWERED;
     } else {
         master->late = false; /* that it takes so long to connect is usual after a packet that was cut off */
         send_request(master, now_ns);
@@ -198,6 +224,8 @@ static void after_begin(struct gve_master *master, uint64_t now_ns)
         gve_master_halt(master, now_ns);
     } else if (master->order.kind == GVE_MASTER_CONNECT || !master->ready) {
         gve_master_connect(master, now_ns);
+    } else if (master->order.kind == GVE_MASTER_OWN) {
+        gve_master_compare_index(master, now_ns);
     } else {
         send_request(master, now_ns);
     }
@@ -219,6 +247,8 @@ static void go_on(struct gve_master *master, uint64_t now_ns)
         [GVE_STAGE_LAST_AGAIN] = gve_master_after_last_again,
         [GVE_STAGE_INDEX] = gve_master_after_index,
         [GVE_STAGE_INDEX_PROOF] = gve_master_after_index_proof,
+        [GVE_STAGE_BARE_FLAGS] = gve_master_after_bare_flags,
+        [GVE_STAGE_BARE_POSITIONS] = gve_master_after_bare_positions,
         [GVE_STAGE_RESETTING] = gve_master_connect,
         [GVE_STAGE_PAUSE] = gve_master_after_pause,
         [GVE_STAGE_SUMS_ON] = gve_master_after_sums_on,

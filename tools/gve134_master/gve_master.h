@@ -16,8 +16,9 @@
  *               a part of a packet: a packet is taken whole or not at all, so it was not; it is sent again; but if
  *               the last answer has no number, *S was lost and the rest was executed one by one: out of step;
  *               anything else: out of step.
- *             An answer without a checksum is that of a unit which has restarted: @ without a checksum proves it, here
- *             and when connecting.
+ *             An answer without a checksum may be damage; @ without a checksum proves that the unit has none any
+ *             more, here and when connecting. Index, F and positions then tell whether it has restarted, or another
+ *             program has switched them off; where they do not, that is told.
  *
  * > comes first, as a unit that gets a damaged @ answers code 2, which > repeats from then on; where that has happened
  * the end is unknown. So no command is executed twice, and none is sent again to a unit that has restarted.
@@ -51,6 +52,7 @@ enum gve_master_kind {
     GVE_MASTER_RESET,       /* J is executed, and the unit that then starts anew is connected to */
     GVE_MASTER_CONNECT,     /* only connects, known or not */
     GVE_MASTER_HALT,        /* H is sent until it is answered, in whatever state the line is; then all is connected */
+    GVE_MASTER_OWN,         /* only asks whether all that the unit has counted was sent from here */
 };
 
 /* How a request has ended. */
@@ -64,9 +66,17 @@ enum gve_master_end {
     GVE_MASTER_OTHER_DEVICE,      /* an answer in the form of this line, but not of this unit: `heard.other` */
     GVE_MASTER_RESTARTED,         /* the unit has started anew, and has not executed it */
     GVE_MASTER_RESTARTED_PERHAPS, /* the same, but it may have executed it before that */
-    GVE_MASTER_OUT_OF_STEP,       /* the unit has counted other commands than were sent */
+    GVE_MASTER_OUT_OF_STEP,       /* the unit has counted other commands than were sent, or has started anew */
     GVE_MASTER_END_UNKNOWN,       /* it was executed or refused, and which cannot be told any more */
     GVE_MASTER_NOT_CONFIRMED,     /* LONG, HALT: the unit has not told that its axes stand */
+    GVE_MASTER_SUMS_OFF,          /* another program has switched checksums off; it may have been executed */
+};
+
+/* What becomes of the checksums of the unit. */
+enum gve_master_sums {
+    GVE_MASTER_SUMS_NONE, /* they are switched off */
+    GVE_MASTER_SUMS_ON,
+    GVE_MASTER_SUMS_KEPT, /* they stay as they are */
 };
 
 struct gve_master_order {
@@ -96,20 +106,25 @@ struct gve_master {
     uint8_t attempt;    /* of the request, from 0 */
     uint8_t connecting; /* of connecting, from 0 */
     uint8_t asked;      /* so often this was asked in this stage */
-    bool sums;          /* checksums are wanted */
+    uint8_t wanted;     /* enum gve_master_sums */
+    bool sums;          /* the unit has checksums, or is to */
     bool ready;
-    bool restarted; /* the unit was found to have started anew when it was connected to again */
-    bool long_halt; /* the answer to H takes longer than a stop does as a rule */
-    bool late;      /* the unit was silent for so long that nobody expects anything of the command any more */
-    bool bare;      /* the request was refused in a way in which only a unit does that has restarted */
+    uint8_t others;     /* found when it was connected to again: SUMS_OFF, or OUT_OF_STEP: not known; 0: neither */
+    uint8_t bare_stage; /* in which the unit was found to have no checksums */
+    bool restarted;     /* the unit was found to have started anew when it was connected to again */
+    bool long_halt;     /* the answer to H takes longer than a stop does as a rule */
+    bool late;          /* the unit was silent for so long that nobody expects anything of the command any more */
+    bool bare;          /* the request was refused in a way in which only a unit does that has restarted */
     bool has_last;
+    bool is_index_known;
+    bool is_elsewhere;                          /* not all positions were 0 when they were told last */
     bool is_reset;                              /* J has gone out */
     char version[GVE_REPLY_LINE_BYTES_MAX + 1]; /* the answer to ?; empty: there was none; a zero after it */
     uint8_t text[GVE_WIRE_TEXT_BYTES];          /* of the request, put there by the owner */
 };
 
-/* A line of which nothing is known. `sums`: whether checksums are wanted. */
-void gve_master_init(struct gve_master *master, uint32_t baud, bool sums);
+/* A line of which nothing is known. */
+void gve_master_init(struct gve_master *master, uint32_t baud, enum gve_master_sums sums);
 
 /* Begins a request; what was under way before is given up. */
 void gve_master_begin(struct gve_master *master, const struct gve_master_order *order, uint64_t now_ns);

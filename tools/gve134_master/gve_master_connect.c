@@ -13,6 +13,7 @@ void gve_master_connect(struct gve_master *master, uint64_t now_ns)
 {
     master->ready = false;
     master->restarted = false;
+    master->others = GVE_MASTER_WAITS;
     master->connecting = 0;
     memset(&master->heard, 0, sizeof master->heard);
     gve_master_pause(master, GVE_STAGE_PAUSE, pauses_ms[0], now_ns);
@@ -53,6 +54,11 @@ void gve_master_after_pause(struct gve_master *master, uint64_t now_ns)
     switch_sums(master, GVE_STAGE_SUMS_ON, "%+", true, now_ns);
 }
 
+void gve_master_go_on_bare(struct gve_master *master, uint64_t now_ns)
+{
+    switch_sums(master, GVE_STAGE_SUMS_ON_BARE, "%+", false, now_ns);
+}
+
 static bool is_switched(const struct gve_master *master)
 {
     return master->wire.found && master->wire.reply.code == GVE_DONE;
@@ -79,6 +85,9 @@ static void prove_no_sums(struct gve_master *master, uint64_t now_ns)
 void gve_master_after_sums_on(struct gve_master *master, uint64_t now_ns)
 {
     bool is_done = is_switched(master);
+    if (master->wanted == GVE_MASTER_SUMS_KEPT) {
+        master->sums = is_done; /* what has a checksum changes nothing in a unit without them */
+    }
     if (is_done && !master->sums) {
         switch_sums(master, GVE_STAGE_SUMS_OFF, "%-", true, now_ns);
     } else if (is_done || (master->wire.heard.bare && !master->sums)) {
@@ -86,19 +95,17 @@ void gve_master_after_sums_on(struct gve_master *master, uint64_t now_ns)
     } else if (!master->wire.heard.bare) {
         connect_again(master, now_ns);
     } else if (master->version[0] == '\0') {
-        switch_sums(master, GVE_STAGE_SUMS_ON_BARE, "%+", false, now_ns);
+        gve_master_go_on_bare(master, now_ns);
     } else {
         master->asked = 1;
         prove_no_sums(master, now_ns);
     }
 }
 
-/* A unit that is known and has no checksums has started anew. */
 void gve_master_after_sums_proof(struct gve_master *master, uint64_t now_ns)
 {
     if (master->wire.found) {
-        master->restarted = true;
-        switch_sums(master, GVE_STAGE_SUMS_ON_BARE, "%+", false, now_ns);
+        gve_master_judge_bare(master, now_ns);
     } else if (master->asked < TRIES) {
         master->asked++;
         prove_no_sums(master, now_ns);

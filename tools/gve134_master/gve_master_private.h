@@ -22,8 +22,10 @@ enum gve_stage {
     GVE_STAGE_LAST_AGAIN,
     GVE_STAGE_INDEX,       /* @ */
     GVE_STAGE_INDEX_PROOF, /* @ without a checksum */
-    GVE_STAGE_RESETTING,   /* a pause */
-    GVE_STAGE_PAUSE,       /* before an attempt to connect */
+    GVE_STAGE_BARE_FLAGS,  /* F and P4 of a unit that has none any more */
+    GVE_STAGE_BARE_POSITIONS,
+    GVE_STAGE_RESETTING, /* a pause */
+    GVE_STAGE_PAUSE,     /* before an attempt to connect */
     GVE_STAGE_SUMS_ON,
     GVE_STAGE_SUMS_PROOF, /* @ without a checksum */
     GVE_STAGE_SUMS_ON_BARE,
@@ -54,14 +56,27 @@ void gve_master_finish_unanswered(struct gve_master *master, const struct gve_he
 void gve_master_connect(struct gve_master *master, uint64_t now_ns);
 void gve_master_connected(struct gve_master *master, uint64_t now_ns);
 
+/* Goes on to connect to a unit that has no checksums. */
+void gve_master_go_on_bare(struct gve_master *master, uint64_t now_ns);
+
+/* Finds out why a unit that is known has no checksums, as the answer to @ proves; then ends the request, or goes on to
+ * connect. */
+void gve_master_judge_bare(struct gve_master *master, uint64_t now_ns);
+
 /* The request was not executed: it is sent again, or given up. */
 void gve_master_try_again(struct gve_master *master, uint64_t now_ns);
+
+/* Finds out whether the index is that of what was sent from here. */
+void gve_master_compare_index(struct gve_master *master, uint64_t now_ns);
 
 /* Finds out what has become of the request. */
 void gve_master_repair(struct gve_master *master, uint64_t now_ns);
 
 /* Finds the index, on which so many answers in succession have to agree; then goes on with what it was wanted for. */
 void gve_master_find_index(struct gve_master *master, unsigned needed, uint64_t now_ns);
+
+/* Whether all positions are told to be 0. */
+bool gve_master_is_zero(const struct gve_reply *reply);
 
 /* Waits for what ends when the axes stand. */
 void gve_master_wait_long(struct gve_master *master, uint64_t now_ns);
@@ -76,6 +91,8 @@ void gve_master_after_sums_changed(struct gve_master *master, uint64_t now_ns);
 void gve_master_after_version(struct gve_master *master, uint64_t now_ns);
 void gve_master_after_index(struct gve_master *master, uint64_t now_ns);
 void gve_master_after_index_proof(struct gve_master *master, uint64_t now_ns);
+void gve_master_after_bare_flags(struct gve_master *master, uint64_t now_ns);
+void gve_master_after_bare_positions(struct gve_master *master, uint64_t now_ns);
 void gve_master_after_last(struct gve_master *master, uint64_t now_ns);
 void gve_master_after_last_again(struct gve_master *master, uint64_t now_ns);
 void gve_master_after_long(struct gve_master *master, uint64_t now_ns);

@@ -91,7 +91,9 @@ static void judge_last(struct gve_master *master, uint64_t now_ns)
 static void end_repair(struct gve_master *master, uint64_t now_ns)
 {
     uint8_t done = counted(master);
-    if (done > master->counts) {
+    if (master->order.kind == GVE_MASTER_OWN) {
+        gve_master_finish(master, done == 0 ? GVE_MASTER_ANSWERED : GVE_MASTER_OUT_OF_STEP);
+    } else if (done > master->counts) {
         gve_master_finish(master, GVE_MASTER_OUT_OF_STEP);
     } else if (done == 0) {
         gve_master_try_again(master, now_ns);
@@ -105,10 +107,7 @@ static void end_repair(struct gve_master *master, uint64_t now_ns)
 
 static void note_index(struct gve_master *master, uint64_t now_ns)
 {
-    uint8_t told = 0;
-    for (const char *digit = master->wire.reply.values; *digit != '\0'; digit++) {
-        told = (uint8_t)(told * 10 + (*digit - '0'));
-    }
+    uint8_t told = (uint8_t)gve_reply_number(&master->wire.reply);
     master->agree = master->agree > 0 && told == master->index_told ? (uint8_t)(master->agree + 1) : 1;
     master->index_told = told;
     if (master->agree < master->needed) {
@@ -134,19 +133,24 @@ void gve_master_after_index(struct gve_master *master, uint64_t now_ns)
     }
 }
 
-/* Only a unit without checksums, as after a restart, answers what has none. */
+/* Only a unit without checksums answers what has none. */
 void gve_master_after_index_proof(struct gve_master *master, uint64_t now_ns)
 {
     if (master->wire.found) {
-        bool may_be_executed = master->ready && !master->bare;
-        master->version[0] = '\0'; /* so that connecting to it is no news any more */
-        gve_master_finish(master, may_be_executed ? GVE_MASTER_RESTARTED_PERHAPS : GVE_MASTER_RESTARTED);
+        gve_master_judge_bare(master, now_ns);
     } else {
         ask_index_again(master, now_ns);
     }
 }
 
 /* ---- what has become of a request ---- */
+
+void gve_master_compare_index(struct gve_master *master, uint64_t now_ns)
+{
+    master->counts = 0;
+    master->bare = true; /* it executes nothing */
+    gve_master_find_index(master, AGREE_MIN, now_ns);
+}
 
 void gve_master_repair(struct gve_master *master, uint64_t now_ns)
 {

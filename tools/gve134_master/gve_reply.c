@@ -162,6 +162,11 @@ bool gve_reply_read(struct gve_reply *reply, const uint8_t *line, uint32_t lengt
     return true;
 }
 
+unsigned gve_reply_byte(const struct gve_reply *reply)
+{
+    return hex_digit((uint8_t)reply->values[0]) << 4U | hex_digit((uint8_t)reply->values[1]);
+}
+
 static bool are_hex(const struct gve_reply *reply, uint32_t digits)
 {
     bool are = reply->length == digits;
@@ -185,7 +190,7 @@ static bool is_number(const struct gve_reply *reply)
     return is;
 }
 
-static uint32_t number_of(const struct gve_reply *reply)
+uint32_t gve_reply_number(const struct gve_reply *reply)
 {
     uint32_t number = 0;
     for (uint32_t i = 0; i < reply->length; i++) {
@@ -237,7 +242,7 @@ static bool have_form(const struct gve_reply *reply, struct gve_reply_form form)
     case GVE_VALUES_NUMBER_OR_NONE:
         return reply->length == 0 || is_number(reply);
     case GVE_VALUES_COUNT:
-        return is_number(reply) && (number_of(reply) == 0 || number_of(reply) == form.count);
+        return is_number(reply) && (gve_reply_number(reply) == 0 || gve_reply_number(reply) == form.count);
     case GVE_VALUES_DECIMALS_2:
     case GVE_VALUES_DECIMALS_3:
     case GVE_VALUES_DECIMALS_4:

@@ -62,4 +62,8 @@ bool gve_reply_read(struct gve_reply *reply, const uint8_t *line, uint32_t lengt
 /* Whether an answer can be one to what was asked; what was refused has no values, but packets. */
 bool gve_reply_fits(const struct gve_reply *reply, struct gve_reply_form form);
 
+/* The number of one that fits GVE_VALUES_NUMBER, the byte of one that fits GVE_VALUES_BYTE. */
+uint32_t gve_reply_number(const struct gve_reply *reply);
+unsigned gve_reply_byte(const struct gve_reply *reply);
+
 #endif

@@ -12,11 +12,11 @@ struct lines_gve134 {
     uint8_t heard[LINES_GVE134_HEARD_BYTES];
 };
 
-struct lines_gve134 *lines_gve134_begin(uint32_t baud, bool sums)
+struct lines_gve134 *lines_gve134_begin(uint32_t baud, uint32_t sums)
 {
     struct lines_gve134 *line = calloc(1, sizeof *line);
     if (line != NULL) {
-        gve_master_init(&line->master, baud, sums);
+        gve_master_init(&line->master, baud, (enum gve_master_sums)sums);
     }
     return line;
 }
@@ -108,6 +108,11 @@ uint32_t lines_gve134_repairs(const struct lines_gve134 *line)
 bool lines_gve134_restarted(const struct lines_gve134 *line)
 {
     return line->master.restarted;
+}
+
+uint32_t lines_gve134_others(const struct lines_gve134 *line)
+{
+    return line->master.others;
 }
 
 bool lines_gve134_long_halt(const struct lines_gve134 *line)

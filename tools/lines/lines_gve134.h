@@ -16,8 +16,8 @@ enum {
 
 struct lines_gve134;
 
-/* A line of which nothing is known; see gve_master_init. Null: there is not memory enough. */
-LINES_SHARED struct lines_gve134 *lines_gve134_begin(uint32_t baud, bool sums);
+/* A line of which nothing is known; see gve_master_init, enum gve_master_sums. Null: there is not memory enough. */
+LINES_SHARED struct lines_gve134 *lines_gve134_begin(uint32_t baud, uint32_t sums);
 
 /* Null is fine. */
 LINES_SHARED void lines_gve134_end(struct lines_gve134 *line);
@@ -51,6 +51,7 @@ LINES_SHARED const char *lines_gve134_other(const struct lines_gve134 *line);
 LINES_SHARED const char *lines_gve134_version(const struct lines_gve134 *line);
 LINES_SHARED uint32_t lines_gve134_repairs(const struct lines_gve134 *line);
 LINES_SHARED bool lines_gve134_restarted(const struct lines_gve134 *line);
+LINES_SHARED uint32_t lines_gve134_others(const struct lines_gve134 *line);
 LINES_SHARED bool lines_gve134_long_halt(const struct lines_gve134 *line);
 
 /* A command as the line has it, see gve_reply_put_command: so many bytes of `out`, which has room for `capacity`. */

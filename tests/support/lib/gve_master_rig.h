@@ -49,6 +49,8 @@ static bool echo;     /* what is sent comes back */
 static bool mute;     /* nothing is answered, whatever is executed */
 static bool restarts; /* when the next command has come */
 static const char *name;
+static const char *flags; /* answered to F, and to P4 */
+static const char *positions;
 static uint64_t home_ns; /* W is answered then; 0: none is under way */
 static uint64_t home_ms; /* so long it takes */
 static uint8_t refusal;  /* the code of vectors; CODE_NONE: they are executed */
@@ -57,7 +59,7 @@ static uint32_t bytes_length; /* what comes to the master next */
 
 static inline void rig_set_up(void)
 {
-    gve_master_init(&master, BAUD, true);
+    gve_master_init(&master, BAUD, GVE_MASTER_SUMS_ON);
     gve_line_init(&unit, 0, 7);
     now_ns = 0;
     memset(requests, 0, sizeof requests);
@@ -65,6 +67,8 @@ static inline void rig_set_up(void)
     frames = said = halts = executed = staged = 0;
     packet_open = packet_bad = off = echo = mute = restarts = false;
     name = UNIT;
+    flags = "00";
+    positions = "0,0,0,0";
     home_ns = 0;
     home_ms = 1000;
     refusal = CODE_NONE;
@@ -145,6 +149,12 @@ static inline void execute(const struct gve_command *command)
     case GVE_POSITION_2:
         answer(GVE_DONE, false, "0,-5");
         break;
+    case GVE_POSITION_4:
+        answer(GVE_DONE, false, positions);
+        break;
+    case GVE_FLAGS:
+        answer(GVE_DONE, false, flags);
+        break;
     case GVE_REFERENCE:
         home_ns = now_ns + home_ms * MS;
         executed++;
@@ -173,7 +183,7 @@ static inline void serve(const struct gve_request *request)
     if (restarts) {
         restarts = false;
         gve_line_init(&unit, 0, 7);
-    } else if (is_command && request->command.opcode == GVE_PACKET_BEGIN) {
+    } else if (is_command && request->fault == GVE_FAULT_NONE && request->command.opcode == GVE_PACKET_BEGIN) {
         packet_open = true;
         packet_bad = false;
         staged = 0;

@@ -32,12 +32,25 @@ void test_checksums_that_are_on_stay_on(void)
 
 void test_checksums_are_switched_off_if_they_are_not_wanted(void)
 {
-    gve_master_init(&master, BAUD, false);
+    gve_master_init(&master, BAUD, GVE_MASTER_SUMS_NONE);
     unit.sums = unit.receiver.sums = true;
     TEST_ASSERT_EQUAL(GVE_MASTER_ANSWERED, ask("P"));
     TEST_ASSERT_FALSE(unit.sums);
     TEST_ASSERT_EQUAL(GVE_MASTER_ANSWERED, ask("C1"));
     TEST_ASSERT_EQUAL(1, executed);
+}
+
+void test_checksums_stay_as_they_are_for_who_wants_that(void)
+{
+    gve_master_init(&master, BAUD, GVE_MASTER_SUMS_KEPT);
+    TEST_ASSERT_EQUAL(GVE_MASTER_ANSWERED, ask("P"));
+    TEST_ASSERT_FALSE(unit.sums);
+    gve_master_init(&master, BAUD, GVE_MASTER_SUMS_KEPT);
+    unit.sums = unit.receiver.sums = true;
+    TEST_ASSERT_EQUAL(GVE_MASTER_ANSWERED, ask("P"));
+    TEST_ASSERT_TRUE(unit.sums);
+    TEST_ASSERT_EQUAL(GVE_MASTER_ANSWERED, request(GVE_MASTER_HALT, ""));
+    TEST_ASSERT_TRUE(unit.sums);
 }
 
 void test_the_second_command_goes_out_at_once(void)

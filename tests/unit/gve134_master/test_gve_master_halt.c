@@ -135,6 +135,9 @@ void test_answers_to_something_else_do_not_confirm_a_halt(void)
 void test_a_restart_is_told_after_a_halt(void)
 {
     connect();
+    while (unit.index != 100) {
+        TEST_ASSERT_EQUAL(GVE_MASTER_ANSWERED, ask("P"));
+    }
     gve_line_init(&unit, 0, 7);
     TEST_ASSERT_EQUAL(GVE_MASTER_ANSWERED, request(GVE_MASTER_HALT, ""));
     TEST_ASSERT_TRUE(master.restarted);

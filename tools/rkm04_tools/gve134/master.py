@@ -30,6 +30,7 @@ class Kind(IntEnum):
     RESET = 4
     CONNECT = 5
     HALT = 6
+    OWN = 7
 
 
 class End(IntEnum):
@@ -47,6 +48,7 @@ class End(IntEnum):
     OUT_OF_STEP = 9
     END_UNKNOWN = 10
     NOT_CONFIRMED = 11
+    SUMS_OFF = 12
 
 
 @cache
@@ -54,7 +56,7 @@ def _functions() -> dict[str, Any]:
     return declared(
         "lines_gve134_",
         {
-            "begin": (c_void_p, c_uint32, c_bool),
+            "begin": (c_void_p, c_uint32, c_uint32),
             "end": (None, c_void_p),
             "request": (c_void_p, c_void_p),
             "heard": (c_void_p, c_void_p),
@@ -71,6 +73,7 @@ def _functions() -> dict[str, Any]:
             "version": (c_char_p, c_void_p),
             "repairs": (c_uint32, c_void_p),
             "restarted": (c_bool, c_void_p),
+            "others": (c_uint32, c_void_p),
             "long_halt": (c_bool, c_void_p),
             "encode": (c_uint32, c_char_p, c_uint32, c_bool, c_void_p, c_uint32),
             "read": (c_uint32, c_char_p, c_uint32, c_bool, c_void_p),
@@ -97,7 +100,7 @@ def read(line: str, sums: bool) -> tuple[int, str] | None:
 class Master(Handle):
     """A line; see gve_master.h."""
 
-    def __init__(self, baud: int, sums: bool) -> None:
+    def __init__(self, baud: int, sums: int) -> None:
         super().__init__(_functions(), baud, sums)
 
     def ask(self, kind: Kind, commands: Sequence[str], wait_seconds: float, now_ns: int) -> None:
@@ -149,6 +152,11 @@ class Master(Handle):
     def restarted(self) -> bool:
         """Whether the unit had started anew when it was connected to again."""
         return bool(self._call("restarted"))
+
+    @property
+    def others(self) -> End:
+        """What another program has done then: SUMS_OFF; OUT_OF_STEP: that, or a restart."""
+        return End(self._call("others"))
 
     @property
     def long_halt(self) -> bool:
