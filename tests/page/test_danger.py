@@ -46,7 +46,7 @@ def test_no_axis_of_a_gve134_is_moved_by_hand_before_the_danger_was_confirmed(gv
     for button in moving:
         expect(button).to_be_disabled()
     expect(gve.at("stop")).to_be_enabled()
-    for text in ("L100", " !0c100", "g"):
+    for text in ("L100", " !0c100", "g", "sw6,00"):
         gve.at("typed").fill(text)
         gve.page.keyboard.press("Enter")
         expect(gve.answers.first).to_contain_text(f"{text.strip()} sets axes in motion")

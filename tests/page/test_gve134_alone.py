@@ -21,6 +21,7 @@ from gve_page import GvePage
 from page_looks import AXE, CUT, DRAWN, OUTSIDE, OVER, SIZES, VIOLATIONS
 from playwright.sync_api import Browser, Page, WebSocket, expect
 from rkm04_tools import static_pages
+from rkm04_tools.gve134.answers import encoded
 from rkm04_tools.gve134.service import alone
 from rkm04_tools.gve134.service.files import read_file
 from serial_bridge import SerialBridge
@@ -228,7 +229,7 @@ def test_what_the_unit_has_done_is_told_in_the_language_of_the_page(page: GvePag
     expect(page.answers.first).to_contain_text("osy jedou o X 100")
     page.page.keyboard.press("Escape")
     expect(page.at("alarm")).to_contain_text("HALT je potvrzen: osy stojí na X")
-    expect(page.answers.first).to_contain_text("zastaveno")
+    expect(page.answers.first).to_contain_text("v klidu")
     expect(page.answers.first).to_contain_text("potvrzeno jednotkou")
     page.at("language").select_option("en")
     expect(page.answers.first).to_contain_text("confirmed by the unit")
@@ -344,6 +345,49 @@ def test_a_unit_that_restarts_or_falls_silent_in_a_job_is_told_loudly(lined: Lin
         line.close()
 
 
+def test_checksums_that_another_program_switches_off_are_no_restart(lined: Lined) -> None:
+    unit = FakeGve(vector_s=0.05)
+    line = FakeGveLine(unit)
+    try:
+        page, _ = lined(SerialBridge(line.port))
+        page.open("long.gve", f"!7V400\n{LONG}")
+        page.at("start").click()
+        page.doing("moving")
+        with line.lock:
+            unit.take(encoded("%-", sums=True))
+        words = page.at("job-words")
+        expect(words).to_contain_text("another program has switched its checksums off")
+        expect(words).to_contain_text("whether the axes move is NOT KNOWN")
+        expect(page.at("spindle-now")).to_have_text("\N{EN DASH}")
+        page.page.keyboard.press("Escape")
+        expect(page.at("alarm")).to_contain_text("HALT is confirmed")
+        page.doing("stopped, vectors wait")
+        expect(page.at("loud")).to_be_hidden()
+        page.at("language").select_option("cs")
+        expect(words).to_contain_text("jiný program vypnul její kontrolní součty")
+    finally:
+        line.close()
+
+
+def test_a_pause_in_which_another_program_has_used_the_unit_ends_the_job(lined: Lined) -> None:
+    unit = FakeGve(vector_s=0.05)
+    line = FakeGveLine(unit)
+    try:
+        page, _ = lined(SerialBridge(line.port))
+        page.open("a.gve", "C5\n;@pause put in tool 2\nC7\n")
+        page.at("start").click()
+        expect(page.at("resume")).to_be_visible()
+        with line.lock:
+            unit.take(encoded("L640,0,0,0", sums=True))
+        page.at("resume").click()
+        expect(page.at("job-words")).to_contain_text(
+            "has counted commands that were not sent from here"
+        )
+        assert unit.taken == [(5, 0, 0, 0), (640, 0, 0, 0)]
+    finally:
+        line.close()
+
+
 SLEEP = "(ms) => { const now = Date.now.bind(Date); Date.now = () => now() + ms; }"
 
 
@@ -385,6 +429,7 @@ def test_what_is_loud_covers_nothing_of_the_page(lined: Lined) -> None:
 
 def test_a_unit_that_has_restarted_while_its_port_was_gone_is_told(lined: Lined) -> None:
     unit = FakeGve()
+    unit.positions[0] = 5
     line = FakeGveLine(unit)
     try:
         page, _ = lined(SerialBridge(line.port))
@@ -399,6 +444,7 @@ def test_a_unit_that_has_restarted_while_its_port_was_gone_is_told(lined: Lined)
 
 def test_a_unit_that_restarts_at_an_h_of_the_file_gets_nothing_more(lined: Lined) -> None:
     unit = FakeGve(restarts_at="H")
+    unit.positions[1] = 5
     line = FakeGveLine(unit)
     try:
         page, _ = lined(SerialBridge(line.port))

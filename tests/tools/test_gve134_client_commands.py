@@ -158,7 +158,7 @@ def test_a_pty_without_anybody_is_silent(gve: Tool) -> None:
 
 
 def test_it_can_do_without_checksums(gve: Tool, unit: FakeGve) -> None:
-    assert gve("position", "--no-sums").status == 0
+    assert gve("spindle", "0", "--no-sums").status == 0
     assert not unit.receiver.sums
 
 
@@ -408,6 +408,16 @@ def test_jog_says_from_where_to_where_before_it_moves(gve: Tool, unit: FakeGve) 
     assert "X from 5 to 1005, Y from 0 to -20; Ctrl-C halts" in result.err
     assert "stand at X 1005  Y -20" in result.out
     assert unit.modal["V"] == "300"
+
+
+def test_jog_does_not_go_past_the_positions_that_there_are(gve: Tool, unit: FakeGve) -> None:
+    unit.positions[0] = 2_147_483_000
+
+    refused = gve("jog", "X740")
+    assert refused.status == 1
+    assert "X would go from 2147483000 to 2147483740" in refused.complaint
+    assert unit.taken == []
+    assert gve("jog", "X647").status == 0
 
 
 def test_jog_does_not_add_to_what_moves(gve: Tool, unit: FakeGve) -> None:

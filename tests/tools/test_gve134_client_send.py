@@ -401,6 +401,7 @@ def test_a_probe_that_touches_nothing_ends_the_job() -> None:
     with pytest.raises(Failure, match=r"a.gve:2: ;@probe: nothing was touched"):
         send(unit, "L0,0,-500\n;@probe\nC1\n")
     assert len(unit.taken) == 1
+    assert orders(unit)[-1] == "SW1,00"
 
 
 def probing(touch: Callable[[FakeGve], None]) -> tuple[FakeGve, Sender]:

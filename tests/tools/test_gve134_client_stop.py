@@ -16,6 +16,7 @@ from typing import Any
 import pytest
 from fake_gve134 import FakeGve, lost
 from gve134_ports import FakeGveLine
+from rkm04_tools.gve134.answers import encoded
 from rkm04_tools.gve134.client import RUNS
 from rkm04_tools.stopper import TWICE_SECONDS
 
@@ -206,6 +207,28 @@ def test_a_restart_while_a_job_is_stopped_is_told(
 
     assert status == 130
     assert "the unit HAS RESTARTED, its positions count anew; the axes stand" in told
+
+
+def test_a_halt_tells_that_another_program_has_switched_checksums_off_and_no_restart(
+    start_gve: Start, gve_line: FakeGveLine, unit: FakeGve, tmp_path: Path
+) -> None:
+    unit.vector_s = 1000.0
+    path = tmp_path / "a.gve"
+    path.write_text("!7V400\nC1\n;@wait 1000\n")
+    process = start_gve("send", path)
+    gve_line.until(lambda unit: unit.moves)
+    time.sleep(0.3)
+    with gve_line.lock:
+        unit.take(encoded("%-", sums=True))
+
+    status, told = end(process, signal.SIGINT)
+
+    assert status == 130
+    assert "another program has switched its checksums off; the axes stand at X" in told
+    assert "whether the spindle turns is NOT KNOWN (gve134 spindle 0 stops it)" in told
+    assert "RESTARTED" not in told
+    assert "restart" not in told
+    assert unit.ports["spindle"] == 400
 
 
 SPINDLE = "whether the spindle turns is NOT KNOWN, the unit cannot be asked (gve134 spindle 0"

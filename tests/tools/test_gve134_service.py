@@ -329,9 +329,9 @@ def test_a_unit_that_restarts_ends_the_job_and_is_told_until_noted(
 
 
 def test_a_unit_that_restarts_at_rest_is_told(desk: GveDesk, line: FakeGveLine) -> None:
-    desk.live()
+    desk.ask("jog", parts=[5, 0, 0, 0], speed=500)
+    desk.live(lambda m: m["positions"][0] == 5)
     restart(line)
-
     assert desk.state(lambda m: m["restarted"])["error"] is None
 
 

@@ -10,12 +10,12 @@ from rkm04_tools.client_base import port_of
 from rkm04_tools.failure import Failure
 from rkm04_tools.gve134 import host
 from rkm04_tools.gve134.unit import Unit, open_unit
-from rkm04_tools.holding import held, holder_of
+from rkm04_tools.holding import UNKNOWN, held, holder_of
 from rkm04_tools.line_errors import PortBusy
 
 PORT_VARIABLE = "GVE134_PORT"
 TOOL = "gve134"
-ADVICE = "use its keys (gve134 send: + - 0, space, g), or end it"
+ADVICE = "use its keys (gve134 send: + - 0, space, g) or its page (gve134 service), or end it"
 ADVICE_BUSY = f"nothing was sent; {ADVICE} (Ctrl-C halts the axes)"
 
 
@@ -26,15 +26,19 @@ def unit_of(options: Namespace, shared: bool = False) -> Iterator[Unit]:
     `shared`: whoever has it as well is not asked, for what must come through.
     """
     port = port_of(options, PORT_VARIABLE)
-    with nullcontext() if shared else held(port, TOOL, ADVICE), _opened(port, options) as unit:
+    with (
+        nullcontext() if shared else held(port, TOOL, ADVICE),
+        _opened(port, options, shared) as unit,
+    ):
         yield unit
 
 
-def _opened(port: str, options: Namespace) -> Unit:
+def _opened(port: str, options: Namespace, shared: bool) -> Unit:
     try:
         return open_unit(port, options.baud, options.sums)
     except PortBusy:
-        raise PortBusy(f"{port}: {holder_of(port)} has this line; {ADVICE_BUSY}") from None
+        who = holder_of(port) if shared else UNKNOWN  # the note that there is then is our own
+        raise PortBusy(f"{port}: {who} has this line; {ADVICE_BUSY}") from None
 
 
 def require_good(command: str, what: str) -> None:

@@ -7,6 +7,7 @@ import select
 import sys
 from argparse import Namespace
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 from rkm04_tools.client_base import tell
 from rkm04_tools.failure import NO_CONNECTION, NOT_SO, Failure
@@ -17,16 +18,16 @@ from rkm04_tools.gve134.sending import causes_of
 from rkm04_tools.gve134.state import AXES, INTA, RUN, Flags, Positions, positions_text
 from rkm04_tools.gve134.stopping import (
     REST_MAY_WAIT,
-    SPINDLE_AFTER_RESTART,
-    SPINDLE_NOT_KNOWN,
     guarded_motion,
     halt_loudly,
     halted_text,
+    spindle_after,
 )
 from rkm04_tools.gve134.unit import POLL_SECONDS, Unit
-from rkm04_tools.stopper import ENDED_BEFORE, shout
+from rkm04_tools.stopper import ENDED_BEFORE, Stopper, shout
 
 HOME_EXTRA_SECONDS = 10.0
+POSITION_MAX = 2_147_483_647
 SLOWEST_RAMP = 1000
 """Pulses/s², the least that A can be."""
 WAY = re.compile(r"([XYZA])([-+]?)([0-9]{1,10})", re.IGNORECASE)
@@ -36,14 +37,14 @@ OVERRIDES = {"up": "XU", "down": "XD", "last": "XA"}
 
 def run_halt(options: Namespace) -> int:
     """Stop the axes, and tell where they stand, and what the spindle does."""
-    with unit_of(options, shared=True) as unit:
+    with Stopper(SimpleNamespace()) as stopper:
         try:
-            halted = halt_loudly(unit)
+            with stopper.at_once(), unit_of(options, shared=True) as unit:
+                halted = halt_loudly(unit)
         except KeyboardInterrupt:
             shout(ENDED_BEFORE)
             return NO_CONNECTION
-    spindle = SPINDLE_AFTER_RESTART if halted.restarted else SPINDLE_NOT_KNOWN
-    text = f"{halted_text(halted)}; {spindle}"
+    text = f"{halted_text(halted)}; {spindle_after(halted)}"
     return tell(options, _state(halted.flags, halted.positions), text)
 
 
@@ -148,6 +149,16 @@ class Jog:
         """The vector."""
         return f"L{','.join(map(str, self.parts))}"
 
+    def require_reach(self, at: Positions) -> None:
+        """Refuse what would lead past the positions that there are: they go on at the other end."""
+        for axis, begin, way in zip(AXES, at, self.parts, strict=True):
+            if abs(begin + way) > POSITION_MAX:
+                raise Failure(
+                    f"nothing was moved: {axis} would go from {begin} to {begin + way}, and "
+                    f"positions end at {POSITION_MAX}; set a smaller one (N{axis}0 in the console)",
+                    NOT_SO,
+                )
+
     def text(self, at: Positions) -> str:
         """From where to where."""
         return ", ".join(
@@ -169,6 +180,7 @@ def run_jog(options: Namespace) -> int:
         flags, begin = unit.flags(), unit.positions()
         if not flags.stands or flags.has(INTA):
             raise Failure(f"nothing was moved: the unit is {flags.text}", NOT_SO)
+        jog.require_reach(begin)
         until = ", until Enter is pressed" if options.hold else ""
         print(f"gve134: {jog.text(begin)}{until}; Ctrl-C halts", file=sys.stderr, flush=True)
         if options.speed is not None:

@@ -13,7 +13,10 @@ from importlib import import_module
 from textwrap import fill
 from typing import Any
 
+from rkm04_tools.failure import NO_CONNECTION
 from rkm04_tools.gve134.gcode.options import add_turning
+from rkm04_tools.gve134.sums import Sums
+from rkm04_tools.stopper import ENDED_BEFORE, shout
 
 PORT_HELP = "a serial device, socket://HOST:PORT or a pty (or GVE134_PORT)"
 BAUDS = (38_400, 57_600, 115_200, 230_400, 460_800, 921_600)
@@ -28,6 +31,12 @@ STOPS = (
     "unit that does not answer, ends with STOP NOT CONFIRMED: use the emergency stop then. Exit "
     "status 130: stopped and confirmed; 3: not confirmed."
 )
+CHANGES_NOTHING = (
+    "position", "status", "watch", "halt", "memory get", "memory backup", "memory diff",
+)  # fmt: skip
+"""What may run beside another program must not take its checksums away."""
+NO_SUMS = "switch checksums off and speak without them: what is damaged on the line may be executed"
+NO_SUMS_READING = "leave checksums as they are in the unit; else they are switched on"
 MOVES = ("send", "home", "jog")
 """A signal while one of them moves axes halts them; one before that is told to be another end."""
 PLACES = (
@@ -225,9 +234,10 @@ def _add(commands: Any, add: AddTo, row: CommandRow, runs: str) -> argparse.Argu
         "--baud", type=int, choices=BAUDS, default=BAUD_DEFAULT, metavar="BD",
         help=f"rate of a serial device; the image of the unit fixes it (default: {BAUD_DEFAULT})",
     )  # fmt: skip
+    reads = runs in CHANGES_NOTHING
     command.add_argument(
-        "--no-sums", dest="sums", action="store_false",
-        help="speak without checksums: what is damaged on the line may be executed",
+        "--no-sums", dest="sums", action="store_const", default=Sums.ON,
+        const=Sums.KEPT if reads else Sums.NONE, help=NO_SUMS_READING if reads else NO_SUMS,
     )  # fmt: skip
     return command
 
@@ -309,6 +319,9 @@ def _runner(name: str) -> Callable[[argparse.Namespace], int]:
             if name in MOVES:
                 text = f"{name} was ended while it moved nothing: no halt was sent"
                 print(f"gve134: {text}", file=sys.stderr)
+            if name == "halt":
+                shout(ENDED_BEFORE)
+                return NO_CONNECTION
             raise
         return status
 

@@ -23,7 +23,13 @@ from rkm04_tools.gve134.gcode.reading import lines_of
 from rkm04_tools.gve134.gcode.turning import turn_file
 from rkm04_tools.gve134.job import job_of
 from rkm04_tools.gve134.keys import Keys, are_there
-from rkm04_tools.gve134.link_errors import LineError, NotConfirmed, Refused, Restarted
+from rkm04_tools.gve134.link_errors import (
+    LineError,
+    NotConfirmed,
+    OutOfStep,
+    Refused,
+    Restarted,
+)
 from rkm04_tools.gve134.sending import Interrupted, Sender, require_stands
 from rkm04_tools.gve134.source import FILE_BYTES_MAX, TOO_LARGE, is_gcode, read_source
 from rkm04_tools.gve134.state import AXES, Flags, positions_text
@@ -73,6 +79,8 @@ def run_send(options: Namespace) -> int:
         except (Interrupted, Refused) as error:
             raise Failure(f"{error}; {sender.spindle_text}", error.status) from None
         except LineError as error:
+            if isinstance(error, OutOfStep):
+                sender.lose()
             what = "no vector was sent"
             if sender.sent_text != "0":
                 what = f"{sender.sent_text} of {count_of(job.vectors, 'vector')} were sent and go"
@@ -163,6 +171,8 @@ def _executed(sender: Sender, halted: Halted) -> str:
     """What to tell of the vectors once the axes stand; nothing of a unit that has restarted."""
     if halted.restarted:
         return ""
+    if halted.others:
+        sender.lose()
     return f"; {sender.executed_text(halted.positions)}"
 
 

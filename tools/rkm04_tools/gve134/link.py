@@ -22,29 +22,36 @@ from rkm04_tools.gve134.link_errors import (
     OtherDevice,
     OutOfStep,
     Restarted,
+    SumsOff,
 )
 from rkm04_tools.gve134.master import End, Kind, Master
+from rkm04_tools.gve134.sums import Sums
 from rkm04_tools.gve134.wire import Wire
 from rkm04_tools.transport import open_transport
 
 BAUD = 115_200
 NS_PER_SECOND = 1_000_000_000
 HALT_SECONDS = 30.0
+OTHERS = {
+    End.SUMS_OFF: "another program has switched its checksums off",
+    End.OUT_OF_STEP: "whether it has restarted, or another program has switched its checksums off, "
+    "is NOT KNOWN",
+}
 OTHER_CHARACTERS_MAX = 40
 
 
-def open_link(port: str, baud: int = BAUD, sums: bool = True) -> Link:
+def open_link(port: str, baud: int = BAUD, sums: int = Sums.ON) -> Link:
     """Open a line: a serial device, a pty, or socket://HOST:PORT. Nothing is sent yet."""
     return Link(Wire(open_transport(port, baud), baud), sums)
 
 
 class Link:
-    """An open line with a unit. `sums`: whether checksums are wanted."""
+    """An open line with a unit. `sums`: one of Sums."""
 
-    def __init__(self, wire: Wire, sums: bool = True) -> None:
+    def __init__(self, wire: Wire, sums: int = Sums.ON) -> None:
         self.wire = wire
         self.name = wire.port.name
-        self.sums = sums
+        self.sums = sums != Sums.NONE
         self._master = Master(wire.baud, sums)
 
     def __enter__(self) -> Link:
@@ -76,6 +83,11 @@ class Link:
         """Whether the unit was found to have started anew when it was connected to again."""
         return self._master.restarted
 
+    @property
+    def others(self) -> str:
+        """What another program was found to have done when it was connected to again, in words."""
+        return OTHERS.get(self._master.others, "")
+
     def ask(self, command: str) -> Answer:
         """Have a command executed once, and return the answer."""
         return self._answered(Kind.ASK, [command])
@@ -99,6 +111,10 @@ class Link:
     def connect(self) -> None:
         """Find out whether a unit is there, and how it stands with checksums and its index."""
         self._done(Kind.CONNECT, ["?"])
+
+    def require_own(self) -> None:
+        """Nothing is executed: OutOfStep if the unit has counted what was not sent from here."""
+        self._done(Kind.OWN, ["@"])
 
     def halt(self, seconds: float = HALT_SECONDS, waits: Callable[[], None] = lambda: None) -> None:
         """Send H until it is answered, in whatever state the line is; then connect anew.
@@ -135,12 +151,16 @@ class Link:
             if end is End.ANSWERED:
                 answer = answers.answer_of(*self._master.answer)
             elif end is not End.NOT_TAKEN:
+                if end in OTHERS:
+                    self.wire.lose()
                 raise self._error(end, kind, commands, seconds)
         except BaseException:
             self._master.forget()
             raise
         finally:
             self.wire.end(commands, answer)
+        if self._master.others is not End.WAITS and kind in (Kind.CONNECT, Kind.HALT):
+            self.wire.lose()
         return answer
 
     def _end(self, waits: Callable[[], None]) -> End:
@@ -183,8 +203,8 @@ class Link:
             )
         if end in (End.RESTARTED, End.RESTARTED_PERHAPS):
             return Restarted(where, executed=end is End.RESTARTED_PERHAPS)
-        if end is End.OUT_OF_STEP:
-            return OutOfStep(where)
+        if end in OTHERS:
+            return SumsOff(where) if end is End.SUMS_OFF else OutOfStep(where)
         if end is End.END_UNKNOWN:
             is_packet = kind in (Kind.PACKET, Kind.PACKET_ONCE)
             return EndUnknown(where, f"*E{len(commands)}" if is_packet else commands[0])

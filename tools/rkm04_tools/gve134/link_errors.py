@@ -8,7 +8,7 @@ from rkm04_tools.line_errors import GarbledAnswer, LineError, NoAnswer
 
 __all__ = [
     "EndUnknown", "GarbledAnswer", "LineError", "NoAnswer", "NotConfirmed", "OtherDevice",
-    "OutOfStep", "Refused", "Restarted",
+    "OutOfStep", "Refused", "Restarted", "SumsOff",
 ]  # fmt: skip
 
 
@@ -24,6 +24,18 @@ class OutOfStep(LineError):
             f"{where} has counted commands that were not sent from here, or was restarted; what "
             "was sent last may have been executed; look at the unit (gve134 status) and see that "
             "no other program uses this line"
+        )
+
+
+class SumsOff(OutOfStep):
+    """Another program has switched checksums off. The unit has not restarted: all goes on there."""
+
+    def __init__(self, where: str) -> None:
+        LineError.__init__(
+            self,
+            f"{where}: another program has switched its checksums off; what was sent last may have "
+            "been executed; look at the unit (gve134 status) and see that no other program uses "
+            "this line",
         )
 
 

@@ -27,7 +27,7 @@ from rkm04_tools.gve134.executed import Executed
 from rkm04_tools.gve134.gcode.directives import Pause, Probe, Wait
 from rkm04_tools.gve134.job import Asked, Command, Job
 from rkm04_tools.gve134.known import Known
-from rkm04_tools.gve134.link_errors import Refused, Restarted
+from rkm04_tools.gve134.link_errors import Refused
 from rkm04_tools.gve134.probing import BEFORE, HALTED, UNTOUCHED, WORDS
 from rkm04_tools.gve134.state import INTA, INTCOM, RUN, Flags, Positions, named, positions_text
 from rkm04_tools.gve134.unit import POLL_SECONDS, Unit
@@ -55,11 +55,12 @@ Tell = Callable[[int], None]
 
 
 class Interrupted(Failure):
-    """The unit has stopped the axes by itself."""
+    """The unit has stopped the axes by itself. `left`: how they stand then."""
 
-    def __init__(self, message: str, causes: list[str]) -> None:
+    def __init__(self, message: str, causes: list[str], left: tuple[Flags, Positions]) -> None:
         super().__init__(message, NOT_SO)
         self.causes = causes
+        self.left = left
 
 
 @dataclass
@@ -82,6 +83,7 @@ class Sender:
     """What is known of the unit because of this job; its spindle is in `spindle`."""
     _under_way: list[Command] = field(default_factory=list)
     _waits: int = 0
+    _is_lost: bool = False
     _probes_from: Positions | None = None
     _probed: tuple[int, ...] = (0, 0, 0, 0)
     """The vector that probes."""
@@ -244,8 +246,7 @@ class Sender:
         if command.letter == "W":
             return self.unit.link.ask_long(command.text, LONG_SECONDS)
         if command.text == "H":
-            if self.unit.halt().restarted:
-                raise Restarted(self.unit.link.name, executed=False)
+            self.unit.halt().require_known(self.unit.link.name)
             self.inta = True
             return Answer(answers.DONE, inta=True)
         if command.text in ("J", "!7J"):
@@ -257,10 +258,12 @@ class Sender:
         """Do what a line asks of the host."""
         if isinstance(asked, Wait):
             self._dwell(asked.seconds)
+            self.unit.link.require_own()
         elif isinstance(asked, Pause):
             self._wait_until_stands()
             self.ask_person(asked.text)
             self.unit.link.wire.take_slept()
+            self.unit.link.require_own()
         else:
             self._go_back(command)
 
@@ -299,6 +302,7 @@ class Sender:
             self.executed.stood(unit.positions())
 
     def _unprobed(self, command: Command, reason: str, flags: Flags) -> Failure:
+        self.unit.order("SW1,00")  # the sensor is not to stop what comes later
         at = positions_text(self.unit.positions())
         text = f"{WORDS[reason]}; the axes stand at {at}; the unit is {flags.text}"
         return Failure(f"{self._where(command)}: {text}", NOT_SO)
@@ -312,11 +316,20 @@ class Sender:
     @property
     def spindle_text(self) -> str:
         """Whether the spindle turns, as the file has set it: the unit cannot be asked."""
+        if self._is_lost:
+            return "whether the spindle turns is NOT KNOWN: another program has used this line"
         if self.spindle is None:
             return "whether the spindle turns is NOT KNOWN: this file has not set it"
         if self.spindle == 0:
             return "the spindle is off"
         return f"THE SPINDLE TURNS at {self.spindle / 10:g} %, gve134 spindle 0 stops it"
+
+    def lose(self) -> None:
+        """Another program has used the line: nothing is known of the unit any more."""
+        self._is_lost = True
+        self.spindle, self.known = None, Known()
+        if self.executed is not None:
+            self.executed.lose()
 
     def _note_spindle(self, text: str) -> None:
         if match := SPINDLE_SET.fullmatch(text):
@@ -409,7 +422,7 @@ class Sender:
         positions = self.unit.positions()
         text += f"stand at {positions_text(positions)}; {flags.text}; "
         text += f"{self.executed_text(positions)}, {self.sent} were sent"
-        return Interrupted(f"{where}: {text}", causes)
+        return Interrupted(f"{where}: {text}", causes, (flags, positions))
 
     def _wait_for_room(self, command: Command) -> None:
         """Wait a little; where nothing moves there will never be room."""

@@ -15,7 +15,7 @@ from rkm04_tools.bar import Bar
 from rkm04_tools.gve134 import answers
 from rkm04_tools.gve134.keys import Keys
 from rkm04_tools.gve134.known import FACTOR_ONE, step_towards, stepped
-from rkm04_tools.gve134.link_errors import Refused, Restarted
+from rkm04_tools.gve134.link_errors import Refused
 from rkm04_tools.gve134.sending import Sender
 from rkm04_tools.gve134.stopping import halt_loudly, halted_text
 from rkm04_tools.gve134.unit import POLL_SECONDS
@@ -117,12 +117,12 @@ class Steering:
         print("gve134: halting ...", file=sys.stderr, flush=True)
         sender, unit = self._sender, self._sender.unit
         halted = halt_loudly(unit)
-        if halted.restarted:
-            raise Restarted(unit.link.name, executed=False)
+        halted.require_known(unit.link.name)
         text = f"{halted_text(halted)}; {sender.executed_text(halted.positions)}"
         print(f"gve134: {text}; {sender.spindle_text}", file=sys.stderr)
         print(f"gve134: {HELD}", file=sys.stderr, flush=True)
         self._wait_for_go()
+        unit.link.require_own()
         answer = unit.link.ask("G")
         if answer.code not in (answers.DONE, answers.NOTHING_TO_GO_ON):
             raise Refused("G", answer)

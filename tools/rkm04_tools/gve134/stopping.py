@@ -23,6 +23,7 @@ SPINDLE_NOT_KNOWN = (
 )
 REST_MAY_WAIT = "ITS REST MAY WAIT, and gve134 go would make it: gve134 delete"
 SPINDLE_AFTER_RESTART = "the restart has switched the spindle off"
+SPINDLE_OF_OTHERS = "whether the spindle turns is NOT KNOWN (gve134 spindle 0 stops it)"
 
 
 def guarded(
@@ -111,7 +112,7 @@ def halt_at_signal(
     except Failure as failure:
         print(f"gve134: {failure}; {spindle()}{waits}", file=sys.stderr)
         return NO_CONNECTION
-    turns = SPINDLE_AFTER_RESTART if halted.restarted else spindle()
+    turns = spindle_after(halted, spindle)
     print(f"gve134: {halted_text(halted)}{after(halted)}; {turns}", file=sys.stderr)
     return INTERRUPTED
 
@@ -128,9 +129,18 @@ def halt_loudly(unit: Unit) -> Halted:
         ) from None
 
 
+def spindle_after(halted: Halted, spindle: Callable[[], str] = lambda: SPINDLE_NOT_KNOWN) -> str:
+    """What the spindle does, as far as it is known."""
+    if halted.restarted:
+        return SPINDLE_AFTER_RESTART
+    return SPINDLE_OF_OTHERS if halted.others else spindle()
+
+
 def halted_text(halted: Halted) -> str:
     """How the axes stand, in words."""
-    what = "the unit HAS RESTARTED, its positions count anew; " if halted.restarted else ""
+    what = f"{halted.others}; " if halted.others else ""
+    if halted.restarted:
+        what = "the unit HAS RESTARTED, its positions count anew; "
     return f"{what}{standing_text(halted.flags, halted.positions)}"
 
 

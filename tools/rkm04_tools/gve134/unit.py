@@ -18,8 +18,15 @@ from types import TracebackType
 from rkm04_tools.gve134 import answers
 from rkm04_tools.gve134.answers import Answer
 from rkm04_tools.gve134.link import BAUD, HALT_SECONDS, Link, open_link
-from rkm04_tools.gve134.link_errors import LineError, NotConfirmed, Refused
+from rkm04_tools.gve134.link_errors import (
+    LineError,
+    NotConfirmed,
+    OutOfStep,
+    Refused,
+    Restarted,
+)
 from rkm04_tools.gve134.state import Flags, Positions, Status
+from rkm04_tools.gve134.sums import Sums
 
 POLL_SECONDS = 0.05
 MEMORY_BYTES = 256
@@ -28,14 +35,25 @@ WORD_BYTES = 4
 
 @dataclass(frozen=True)
 class Halted:
-    """How the axes stand after H. `restarted`: the unit has started anew since it was known."""
+    """How the axes stand after H. `restarted`: the unit has started anew since it was known.
+
+    `others`: what another program has done instead, or perhaps; empty: nothing of that.
+    """
 
     flags: Flags
     positions: Positions
     restarted: bool
+    others: str = ""
+
+    def require_known(self, where: str) -> None:
+        """Nothing goes on at a unit that is not as it was left."""
+        if self.restarted:
+            raise Restarted(where, executed=False)
+        if self.others:
+            raise OutOfStep(where)
 
 
-def open_unit(port: str, baud: int = BAUD, sums: bool = True) -> Unit:
+def open_unit(port: str, baud: int = BAUD, sums: int = Sums.ON) -> Unit:
     """Open the line to a unit: a serial device, a pty, or socket://HOST:PORT."""
     return Unit(open_link(port, baud, sums))
 
@@ -109,7 +127,7 @@ class Unit:
             raise NotConfirmed(str(error)) from None
         if not flags.stands:
             raise NotConfirmed(f"{self.link.name}: the unit tells that it is {flags.text}")
-        return Halted(flags, self.positions(), self.link.restarted)
+        return Halted(flags, self.positions(), self.link.restarted, self.link.others)
 
     # ---- memory ----
 

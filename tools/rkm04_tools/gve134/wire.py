@@ -67,3 +67,6 @@ class Wire:
 
     def end(self, commands: Sequence[str], answer: Answer | None) -> None:
         """They had an answer; None: it is not known whether they were executed."""
+
+    def lose(self) -> None:
+        """The unit may have executed what was not sent from here."""

@@ -17,6 +17,14 @@ QUESTION = re.compile(r"\?|Q|P[F4L]?|SR\d|F|I[12]|E[UF]?R[0-9A-F]{1,2}")
 NOT_TYPED = re.compile(r"[@>%*].*|H|W.*")
 """What the line does itself, and what has buttons of its own."""
 
+CUTS_IN = re.compile(r"[LCGDNRK].*|(!7)?J|SW0*6.*")
+"""What moves axes, or takes away what a job goes on with."""
+
+
+def cuts_in(text: str) -> bool:
+    """Whether a command would change what a job that was stopped goes on with."""
+    return CUTS_IN.fullmatch(_plain(text)) is not None
+
 
 def only_asks(text: str) -> bool:
     """Whether a command only asks."""

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 from typing import Any
 
 from rkm04_tools.failure import Failure
 from rkm04_tools.gve134.answers import Answer
+from rkm04_tools.gve134.client_base import TOOL
 from rkm04_tools.gve134.known import AFTER_RESET, Known
 from rkm04_tools.gve134.link import Link
-from rkm04_tools.gve134.link_errors import Restarted
+from rkm04_tools.gve134.link_errors import OutOfStep, Restarted
 from rkm04_tools.gve134.service import working
 from rkm04_tools.gve134.service.board import NOT_CONNECTED, Board, State
 from rkm04_tools.gve134.service.heard import HeardWire
@@ -18,13 +20,16 @@ from rkm04_tools.gve134.service.looking import Looks, Made
 from rkm04_tools.gve134.service.saying import WORDS
 from rkm04_tools.gve134.state import RUN, Positions
 from rkm04_tools.gve134.unit import Unit
+from rkm04_tools.holding import UNKNOWN, held, holder_of
+from rkm04_tools.line_errors import PortBusy
 from rkm04_tools.service import virtual
 from rkm04_tools.service.unit_line import UnitLine
 from rkm04_tools.service.virtual import VirtualLine
-from rkm04_tools.transport import open_transport
+from rkm04_tools.transport import Port, open_transport
 
 LOOK_SECONDS = 0.1
 """From one look to the next at least; looks take no more than half of the line's time."""
+ADVICE = "end it, then connect again"
 INPUTS_SECONDS = 0.6
 """From one look at the inputs to the next while a file is sent."""
 
@@ -51,6 +56,7 @@ class Connection(UnitLine[Unit, State]):
         self._mind_halt = mind_halt
         self._wire: HeardWire | None = None
         self._link: Link | None = None
+        self._note = ExitStack()
 
     @property
     def known(self) -> Known:
@@ -80,6 +86,7 @@ class Connection(UnitLine[Unit, State]):
             self._wire.port.abandon()
         if self.job and self.job.is_open:
             self.end_job(working.FAILED, Failure("the port was closed; the rest was not sent"))
+        self._note.close()
         self._wire = None
         self.jogging = False
 
@@ -89,9 +96,8 @@ class Connection(UnitLine[Unit, State]):
         return super().disconnect()
 
     def _open(self, port: str) -> None:
-        place = self._units.open() if port == virtual.NAME else port
         self._wire = HeardWire(
-            open_transport(place, self._baud), self._baud, look=self._mind_halt,
+            self._opened(port), self._baud, look=self._mind_halt,
             begins=self._begin, told=self._hear,
         )  # fmt: skip
         if self._link is None or self._link.name != self._wire.port.name:
@@ -100,6 +106,23 @@ class Connection(UnitLine[Unit, State]):
         self.unit = Unit(self._link)
         self.looks, self.job = Looks(), None
         self.begin_way()
+
+    def _opened(self, port: str) -> Port:
+        """The port, which no command may use beside this page; each virtual unit is its own."""
+        if port == virtual.NAME:
+            return open_transport(self._units.open(), self._baud)
+        try:
+            self._note.enter_context(held(port, TOOL, ADVICE))
+            return open_transport(port, self._baud)
+        except PortBusy:
+            self._note.close()
+            who = holder_of(port).removeprefix(f"{TOOL} ")  # its name is not for a page
+            if who == UNKNOWN:
+                raise
+            raise PortBusy(f"{port}: the command {who} has this line; {ADVICE}") from None
+        except Failure:
+            self._note.close()
+            raise
 
     def _begin(self, commands: Sequence[str]) -> None:
         self._board.change(reference=commands[0].startswith("W"))
@@ -147,6 +170,17 @@ class Connection(UnitLine[Unit, State]):
         if self.job and self.job.is_open:
             self.end_job(working.FAILED, Failure("the unit has restarted; the job is gone"))
         self._board.change(known=self.known, wanted=None)
+
+    def lose(self, why: Failure) -> None:
+        """Another program has used the line: the job is not gone on with."""
+        if self.job and self.job.is_open:
+            self.end_job(working.FAILED, why)
+
+    def note(self, got: object, comes_back: bool = True) -> None:
+        """Keep what says that there is no connection, see UnitLine."""
+        if isinstance(got, OutOfStep):
+            self.lose(got)
+        super().note(got, comes_back)
 
     def kept_when_lost(self) -> dict[str, Any]:
         """What of a state stays as it is when the port is lost."""

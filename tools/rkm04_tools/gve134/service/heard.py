@@ -31,3 +31,7 @@ class HeardWire(Wire):
             elif answer.code == answers.DONE:
                 self.known = self.known.after(command)
         self.told(answer)
+
+    def lose(self) -> None:
+        """Nothing that was known has to be true any more, see Wire."""
+        self.known = Known()

@@ -71,9 +71,28 @@ class Jobs:
 
     def go_on(self, unit: Unit) -> str:
         """Let the axes go on, and the job that was halted or interrupted."""
-        is_job = self._line.job is not None and self._line.job.is_open
+        job = self._line.job
+        is_job = job is not None and job.is_open
+        if job and is_job:
+            self._require_own(unit, job)
         text = acting.go(unit, may_be_empty=is_job)
         return self._work(unit) if is_job else text
+
+    def _require_own(self, unit: Unit, job: working.Work) -> None:
+        """End a job that another program has used the unit beside.
+
+        Whoever has only halted it changes nothing: the axes stand as they did then.
+        """
+        held = job.trouble
+        if isinstance(held, Interrupted) and held.left == (unit.flags(), unit.positions()):
+            unit.link.connect()  # what was counted until now is known
+            return
+        try:
+            unit.link.require_own()
+        except LineError as error:
+            ended = _end_of(error, job.sender.sent_text)
+            self._line.end_job(working.FAILED, ended)
+            raise ended from None
 
     def resume(self) -> str:
         """The person whom the job waits for is ready."""

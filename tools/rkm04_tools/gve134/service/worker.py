@@ -5,6 +5,7 @@ a halt goes ahead, and what may be done beside it is done.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from rkm04_tools.failure import Failure
@@ -76,6 +77,8 @@ class Worker(Turns[Unit]):
         if isinstance(order, Override):
             self.board.change(wanted=order.percent)
             return f"the speed becomes {order.percent} %"
+        if isinstance(order, Typed) and acting.cuts_in(order.text):
+            self.require_no_job()
         if isinstance(order, Typed | Output | Spindle):
             return acting.act(unit, order)
         if isinstance(order, Plain):
@@ -112,8 +115,11 @@ class Worker(Turns[Unit]):
         halted = unit.halt()
         if halted.restarted:
             self._line.restart()
+        elif halted.others:
+            self._line.lose(Failure(f"{halted.others}; the job is gone"))
         if self._line.jogging:
             unit.order("D")
+            halted = replace(halted, flags=unit.flags())
         self._line.jogging = False
         self._line.look(unit)
         return WORDS.plain(halted_text(halted)) + self._line.known.spindle_text

@@ -20,8 +20,8 @@ import type { FromService, Live, ToService } from "./protocol";
 import { Switches } from "./switches";
 import { isInMotion, Unit } from "./unit";
 
-/** Commands that set axes in motion by hand, as the console takes them. */
-const MOVES = /^\s*(!0)?\s*[LCG]/i;
+/** Commands that set axes in motion by hand, as the console takes them; SW6 does where vectors wait. */
+const MOVES = /^\s*(!0)?\s*([LCG]|SW0*6)/i;
 /** Requests after which the axes may move. */
 const SETS_OFF: ToService["type"][] = ["go", "resume", "start", "home", "jog", "typed"];
 

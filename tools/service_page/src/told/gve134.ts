@@ -108,6 +108,12 @@ export const ALONE: Sentences = [
         "$1 has counted commands that were not sent from here, or was restarted",
         "$1 napočítala příkazy, které nebyly odeslány odsud, nebo byla restartována",
     ],
+    ["$1: another program has switched its checksums off", "$1: jiný program vypnul její kontrolní součty"],
+    ["another program has switched its checksums off", "jiný program vypnul její kontrolní součty"],
+    [
+        "whether it has restarted, or another program has switched its checksums off, is NOT KNOWN",
+        "zda byla restartována, nebo jiný program vypnul její kontrolní součty, NENÍ ZNÁMO",
+    ],
     ["what was sent last may have been executed", "co bylo odesláno naposledy, mohlo být vykonáno"],
     ["look at the unit, and see that nothing else uses this line", "podívejte se na jednotku a ověřte, že linku nepoužívá nic jiného"],
     [
@@ -195,6 +201,8 @@ export const SERVICE: Sentences = [
     ["open one (.rkm) first", "nejdříve jej otevřete (.rkm)"],
     ["look at that", "podívejte se na něj"],
     ["Go goes on with the job, Delete ends it", "Pokračovat v práci pokračuje, Smazat ji ukončí"],
+    ["$1: the command $2 has this line", "$1: tuto linku má příkaz $2"],
+    ["end it, then connect again", "ukončete jej a připojte se znovu"],
     ["which file? give its number", "který soubor? uveďte jeho číslo"],
     ["axis is not possible", "taková osa není"],
     ["write X, Y, Z, A or none", "pište X, Y, Z, A nebo nic"],

@@ -6,6 +6,8 @@ import { FAULT, INTA, NO_CRYSTAL, RUN, flagsText, positionsText } from "./told";
 const QUESTION = /^(\?|Q|P[F4L]?|SR\d|F|I[12]|E[UF]?R[0-9A-F]{1,2})$/;
 /** What the line does itself, and what has buttons of its own. */
 const NOT_TYPED = /^([@>%*].*|H|W.*)$/;
+/** What moves axes, or takes away what a job goes on with. */
+const CUTS_IN = /^([LCGDNRK].*|(!7)?J|SW0*6.*)$/;
 /** One command, of the interpolator or the spindle. */
 const COMMAND = /^(!7)?[\x22-\x7e][\x20\x22-\x7e]*$/;
 const TYPED_MAX = 76;
@@ -14,6 +16,9 @@ const plain = (text: string): string => canonical(text.trim().replace(/^!0/, "")
 
 /** Whether a command only asks. */
 export const onlyAsks = (text: string): boolean => QUESTION.test(plain(text));
+
+/** Whether a command would change what a job that was stopped goes on with. */
+export const cutsIn = (text: string): boolean => CUTS_IN.test(plain(text));
 
 /** A command as the console has it. */
 export async function type(link: UnitLink, text: string): Promise<string> {

@@ -264,6 +264,9 @@ export class UnitDesk {
                 this.#line.state.change({ wanted: order.percent });
                 return `the speed becomes ${order.percent} %`;
             case "typed":
+                if (acts.cutsIn(order.text)) {
+                    this.#requireNoJob();
+                }
                 return acts.type(link, order.text);
             case "output":
                 await link.order(`O0,${order.port.toString(16).toUpperCase().padStart(2, "0")}`);
@@ -429,17 +432,21 @@ export class UnitDesk {
     }
 
     async #halted(link: UnitLink): Promise<string> {
-        const { flags, positions, restarted } = await link.halt();
+        const { flags, positions, restarted, others } = await link.halt();
         if (restarted) {
             this.#line.restart();
+        } else if (others !== "" && this.#line.job?.isOpen) {
+            this.#line.endJob(new Refusal(others, "the job is gone"));
         }
+        let left = flags;
         if (this.#line.isJogging) {
             await link.order("D");
+            left = await link.flags();
         }
         this.#line.isJogging = false;
         await this.#line.look(link);
-        const what = restarted ? "the unit HAS RESTARTED, its positions count anew; " : "";
-        const text = `${what}the axes stand at ${positionsText(positions)}; ${flagsText(flags)}; confirmed by the unit`;
+        const what = restarted ? "the unit HAS RESTARTED, its positions count anew; " : others && `${others}; `;
+        const text = `${what}the axes stand at ${positionsText(positions)}; ${flagsText(left)}; confirmed by the unit`;
         return text + spindleText(this.#line.state.known);
     }
 

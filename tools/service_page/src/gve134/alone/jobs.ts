@@ -57,9 +57,27 @@ export class Jobs {
 
     /** Lets the axes go on, and the job that was halted or interrupted. */
     async goOn(link: UnitLink): Promise<string> {
-        const isJob = this.#line.job?.isOpen === true;
+        const { job } = this.#line;
+        const isJob = job?.isOpen === true;
+        if (isJob) {
+            await this.#requireOwn(link, job);
+        }
         const text = await acts.go(link, isJob);
         return isJob ? this.#work(link) : text;
+    }
+
+    /** Ends a job that another program has used the unit beside; who has only halted it changes nothing. */
+    async #requireOwn(link: UnitLink, job: Work): Promise<void> {
+        const left = job.trouble instanceof Interrupted ? job.trouble.left : null;
+        if (left !== null && left.flags === (await link.flags()) && left.positions.join() === (await link.positions()).join()) {
+            await link.connect(); // what was counted until now is known
+            return;
+        }
+        try {
+            await link.requireOwn();
+        } catch (error) {
+            throw this.#ended(job, error);
+        }
     }
 
     /** The person whom the job waits for is ready. */

@@ -1,14 +1,21 @@
 import { LineTrouble, Refusal } from "../../unit_place";
 import { DONE, answerText, answerWords, isReset, type Answer } from "./answers";
 import { flagsText, stands, type Positions } from "./told";
-import { ANSWERED, ASK, CONNECT, HALT, LONG, PACKET, PACKET_ONCE, RESET, type Wire } from "./wire";
+import { ANSWERED, ASK, CONNECT, HALT, LONG, OWN, PACKET, PACKET_ONCE, RESET, type Wire } from "./wire";
 
 const HALT_MS = 30_000;
 const POLL_MS = 50;
 const OTHER_CHARACTERS_MAX = 40;
 /** Other ends of enum gve_master_end of tools/gve134_master/gve_master.h. */
 const NOT_TAKEN = 2;
+const OUT_OF_STEP = 9;
 const NOT_CONFIRMED = 11;
+const SUMS_OFF = 12;
+/** What another program was found to have done when the unit was connected to again. */
+const OTHERS: Record<number, string> = {
+    [SUMS_OFF]: "another program has switched its checksums off",
+    [OUT_OF_STEP]: "whether it has restarted, or another program has switched its checksums off, is NOT KNOWN",
+};
 
 /** The unit does not do what it was asked for. */
 export class Refused extends Refusal {
@@ -24,6 +31,22 @@ export class Restarted extends LineTrouble {
         const gone = "its queue, positions and settings are gone, and what moved stood at once";
         super("UnitRestarted", `${where} HAS RESTARTED: ${gone}`, `the command under way was ${what}, and nothing was sent after it`);
     }
+}
+
+/** Another program has used the line: what is known of the unit is not true any more. */
+export class OutOfStep extends LineTrouble {
+    constructor(cause: string) {
+        const next = "look at the unit, and see that nothing else uses this line";
+        super("OutOfStep", `${cause}; what was sent last may have been executed`, next);
+    }
+}
+
+/** How the axes stand after a halt; `others`: what another program has done, or perhaps; empty: nothing. */
+interface Halted {
+    flags: number;
+    positions: Positions;
+    restarted: boolean;
+    others: string;
 }
 
 /** The unit has not told that its axes stand. */
@@ -53,10 +76,8 @@ const TROUBLES: Record<number, (where: string, what: { command: string; other: s
     },
     7: (where) => new Restarted(where, false),
     8: (where) => new Restarted(where, true),
-    9: (where) => {
-        const cause = `${where} has counted commands that were not sent from here, or was restarted; what was sent last may have been executed`;
-        return new LineTrouble("OutOfStep", cause, "look at the unit, and see that nothing else uses this line");
-    },
+    [OUT_OF_STEP]: (where) => new OutOfStep(`${where} has counted commands that were not sent from here, or was restarted`),
+    [SUMS_OFF]: (where) => new OutOfStep(`${where}: ${OTHERS[SUMS_OFF]}`),
     10: (where, { command }) => {
         const cause = `${where} has executed ${command} or refused it, and the answer was lost for good`;
         return new LineTrouble("EndUnknown", cause, "look at the unit before anything is sent again");
@@ -134,15 +155,21 @@ export class UnitLink {
         await this.#ended(CONNECT, ["?"]);
     }
 
+    /** Executes nothing; fails if the unit has counted what was not sent from here. */
+    async requireOwn(): Promise<void> {
+        await this.#ended(OWN, ["@"]);
+    }
+
     /** Sends H until it is answered, in whatever state the line is, and sees the axes stand. */
-    async halt(): Promise<{ flags: number; positions: Positions; restarted: boolean }> {
+    async halt(): Promise<Halted> {
         await this.#ended(HALT, ["H"], HALT_MS);
         const { restarted } = this.wire;
+        const others = OTHERS[this.wire.others] ?? "";
         const flags = await this.flags();
         if (!stands(flags)) {
             throw new NotConfirmed(`${this.name}: the unit tells that it is ${flagsText(flags)}`);
         }
-        return { flags, positions: await this.positions(), restarted };
+        return { flags, positions: await this.positions(), restarted, others };
     }
 
     /** Asks again and again until no axis moves. */
@@ -165,6 +192,10 @@ export class UnitLink {
     /** Has a request done; whether it was taken. */
     async #ended(kind: number, commands: string[], wait_ms = 0): Promise<number> {
         const end = await this.wire.ask(kind, commands, wait_ms);
+        const isFound = (kind === CONNECT || kind === HALT) && this.wire.others !== 0;
+        if (isFound || end === OUT_OF_STEP || end === SUMS_OFF) {
+            this.wire.onLost();
+        }
         if (end === ANSWERED || end === NOT_TAKEN) {
             return end;
         }

@@ -4,7 +4,7 @@ import { DONE } from "./answers";
 import type { FromService } from "../protocol";
 import { DeskState } from "./desk_state";
 import { AFTER_RESET, NOTHING_KNOWN, knownAfter, knownWithout, percentOf } from "./known";
-import { Restarted, UnitLink } from "./link";
+import { OutOfStep, Restarted, UnitLink } from "./link";
 import { Looks, Made } from "./looks";
 import { RUN, stands } from "./told";
 import { Wire, type BytePort } from "./wire";
@@ -56,6 +56,7 @@ export class UnitConnection {
             this.state.heard_ms = answer === null ? this.state.heard_ms : performance.now();
             this.state.known = learn === null ? this.state.known : commands.reduce(learn, this.state.known);
         };
+        wire.onLost = () => (this.state.known = NOTHING_KNOWN);
         this.link = new UnitLink(wire);
         [this.looks, this.job] = [new Looks(), null];
         this.beginWay();
@@ -100,6 +101,9 @@ export class UnitConnection {
 
     /** Keeps what says that there is no connection. */
     note(got: unknown): void {
+        if (got instanceof OutOfStep && this.job?.isOpen) {
+            this.endJob(got);
+        }
         if (!(got instanceof Refusal)) {
             this.state.change({ error: null });
         } else if (got instanceof Restarted) {

@@ -2,7 +2,7 @@ import { LineTrouble, Refusal } from "../../unit_place";
 import { BOUNDS, DONE, NOT_WHILE_MOVING, NO_ROOM, answerWords, type Answer } from "./answers";
 import type { Executed } from "./executed";
 import { goesInPackets, isVector, stepsOf, type Asked, type Command } from "./job_text";
-import { Refused, Restarted, type UnitLink } from "./link";
+import { OutOfStep, Refused, Restarted, type UnitLink } from "./link";
 import { INTA, INTCOM, RUN, causesOf, flagsText, positionsText, type Positions } from "./told";
 
 const PACKET_COMMANDS_MAX = 64;
@@ -23,8 +23,15 @@ const WAITS_MAX = 3;
 /** What may stand first in a file for a unit that was interrupted. */
 const BEGINS_ANEW = ["D", "G", "J", "H", "R"];
 
-/** The unit has stopped the axes by itself. */
-export class Interrupted extends Refusal {}
+/** The unit has stopped the axes by itself. `left`: how they stand then. */
+export class Interrupted extends Refusal {
+    readonly left: { flags: number; positions: Positions };
+
+    constructor(cause: string, next: string, left: Interrupted["left"]) {
+        super(cause, next);
+        this.left = left;
+    }
+}
 
 /** What the job needs of who has begun it. */
 export interface Hands {
@@ -261,8 +268,9 @@ export class Sender {
             return this.#link.askLong(command.text, LONG_MS);
         }
         if (command.text === "H") {
-            if ((await this.#link.halt()).restarted) {
-                throw new Restarted(this.#link.name, false);
+            const { restarted, others } = await this.#link.halt();
+            if (restarted || others !== "") {
+                throw restarted ? new Restarted(this.#link.name, false) : new OutOfStep(`${this.#link.name}: ${others}`);
             }
             this.#inta = true;
             return { code: DONE, inta: true, values: "" };
@@ -279,10 +287,12 @@ export class Sender {
                 await this.#link.wire.pause(Math.min(left, POLL_MS));
                 await this.#between();
             }
+            await this.#link.requireOwn();
         } else if (asked.kind === "pause") {
             await this.#untilStands();
             await this.#hands.askPerson(asked.text);
             this.#link.wire.takeSlept_s();
+            await this.#link.requireOwn();
         } else {
             await this.#goBack(command);
         }
@@ -318,6 +328,7 @@ export class Sender {
     }
 
     async #unprobed(command: Command, reason: string, flags: number): Promise<Refusal> {
+        await this.#link.order("SW1,00"); // the sensor is not to stop what comes later
         const at = positionsText(await this.#link.positions());
         return new Refusal(`${this.#where(command)}: ${reason}`, `the axes stand at ${at}; the unit is ${flagsText(flags)}`);
     }
@@ -388,6 +399,7 @@ export class Sender {
         return new Interrupted(
             `${where}: INTERRUPTED by ${cause}${latched}; the axes stand at ${positionsText(positions)}`,
             `${flagsText(flags)}; ${done} were executed, ${this.sent} were sent`,
+            { flags, positions },
         );
     }
 

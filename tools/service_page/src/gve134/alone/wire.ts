@@ -17,6 +17,7 @@ export const LONG = 3;
 export const RESET = 4;
 export const CONNECT = 5;
 export const HALT = 6;
+export const OWN = 7;
 
 /** How it has ended: the first of enum gve_master_end. */
 const WAITS = 0;
@@ -39,6 +40,7 @@ interface Exports extends ExecutedExports {
     lines_gve134_other: (line: number) => number;
     lines_gve134_version: (line: number) => number;
     lines_gve134_restarted: (line: number) => number;
+    lines_gve134_others: (line: number) => number;
 }
 
 /** Where bytes go; those that come are given to the wire. */
@@ -61,6 +63,8 @@ export class Wire {
     /** Told of every request: what is sent, and the answer if any came. */
     onSent: (commands: string[]) => void = () => undefined;
     onAnswer: (commands: string[], answer: Answer | null) => void = () => undefined;
+    /** The unit may have executed what was not sent from here. */
+    onLost: () => void = () => undefined;
     readonly #exports: Exports;
     readonly #line: number;
     #wake: (() => void) | null = null;
@@ -85,6 +89,11 @@ export class Wire {
     /** Whether the unit was found to have started anew when it was connected to again. */
     get restarted(): boolean {
         return this.#exports.lines_gve134_restarted(this.#line) !== 0;
+    }
+
+    /** What another program was found to have done then, as an end of a request; 0: nothing. */
+    get others(): number {
+        return this.#exports.lines_gve134_others(this.#line);
     }
 
     /** What another device has answered. */
