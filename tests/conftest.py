@@ -18,11 +18,12 @@ HANG_SECONDS = 600
 def pytest_configure() -> None:
     """Give the same chance to all processes that share the tests.
 
-    A shell lets what it starts in the background ignore SIGINT, which processes of tests would
-    inherit: those that wait for a Ctrl+C would wait for ever.
+    A shell lets what it starts in the background ignore SIGINT and SIGQUIT, which processes of
+    tests would inherit: those that wait for a Ctrl+C would wait for ever.
     """
     os.environ["RKM04_SEED"] = str(SEED)
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGQUIT, signal.SIG_DFL)
     gc.disable()
 
 

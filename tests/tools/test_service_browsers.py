@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from rkm04_tools.service.browsers import Browsers
@@ -47,7 +48,10 @@ def test_a_browser_that_has_gone_while_it_was_told_something_just_leaves() -> No
     desk = Desk()
     browsers = Browsers(lambda tell, is_watched: desk)
 
-    asyncio.run(browsers.talk(Gone({"type": "websocket"}, nothing, nothing)))
+    # In a thread of its own, as there may be a loop of the browser's tests in this one.
+    with ThreadPoolExecutor(1) as pool:
+        talk = browsers.talk(Gone({"type": "websocket"}, nothing, nothing))
+        pool.submit(asyncio.run, talk).result()
 
     assert len(desk.left) == 1
     assert not browsers.is_watched()
