@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import re
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, WebSocketRoute, expect
 from service_page import Service, ServicePage, shown
 
 NODE = 3
@@ -210,6 +211,32 @@ def test_steps_go_so_far_in_both_directions(bench):
     expect(bench.page.locator("#step-back")).to_be_enabled()
     bench.page.locator("#step-back").click()
     expect(bench.position(1)).to_have_text("0")
+
+
+def test_a_browser_that_dies_as_it_lets_go_leaves_nothing_running(browser, service):
+    def relay(page: WebSocketRoute) -> None:
+        server = page.connect_to_server()
+
+        def forward(text: str | bytes) -> None:
+            server.send(text)
+            told = json.loads(text)
+            if told.get("held") is False or told.get("text") == "K":
+                server.close()
+
+        page.on_message(forward)
+
+    with shown(browser, service.url) as page:
+        page.page.route_web_socket("**", relay)
+        page.page.reload()
+        opened(page.page, **FAST)
+        expect(page.page.locator("#jog-forth")).to_be_enabled()
+        aim(page.page, "#jog-forth")
+        page.page.mouse.down()
+        page.expect_beyond(100)
+        page.page.mouse.up()
+        with shown(browser, service.url) as other:
+            other.expect_standing()
+            other.calm()
 
 
 def test_a_page_that_is_closed_lets_go(browser, service):

@@ -1,6 +1,6 @@
 /*
  * External interrupts (RM0090 chapter 12): edges at the pins that SYSCFG_EXTICR has put on the 16 lines (section 9.2)
- * become interrupts, and so do changes of the voltage detector. Not modelled: events, and the lines of other blocks.
+ * become interrupts, and so do changes of the voltage detector. Not modelled: events, other lines.
  */
 #ifndef EXTI_H
 #define EXTI_H

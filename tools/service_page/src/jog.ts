@@ -69,8 +69,7 @@ export class Jog {
         }
         this.phase.set("released");
         this.#run.since_ms = performance.now();
-        this.#hold(false);
-        this.#ask("K");
+        this.#ask("K"); // which lets go, too: of two messages the second may never come
     }
 
     /** All motors were told to stop, by whoever pressed STOP. */

@@ -117,10 +117,10 @@ export class UnitDesk {
             this.#place?.hurry();
             this.#giveUp(STOPPED);
         } else if (asked.type === "hold") {
-            const isMeant = this.#place !== null && !this.#beats.isLate(asked.beat, now_ms);
-            this.#grip.set(asked.held && isMeant, now_ms);
             if (!asked.held) {
-                this.#giveUp(STOPPED, isHeld);
+                this.#letGo(now_ms);
+            } else if (this.#place !== null && !this.#beats.isLate(asked.beat, now_ms)) {
+                this.#grip.set(true, now_ms);
             }
         } else if (asked.type === "forget") {
             this.#state.forget(asked.nodes);
@@ -131,6 +131,7 @@ export class UnitDesk {
             if (isLate) {
                 this.#refuse(asked, LATE);
             } else if (isUrgent(asked)) {
+                this.#letGo(now_ms);
                 this.#queue.unshift({ order: asked, since_ms: now_ms });
                 this.#place?.hurry();
             } else {
@@ -138,6 +139,12 @@ export class UnitDesk {
             }
         }
         this.#go();
+    }
+
+    /** A run that still waits for the line is never sent. */
+    #letGo(now_ms: number): void {
+        this.#grip.set(false, now_ms);
+        this.#giveUp(STOPPED, isHeld);
     }
 
     /** The page has opened a port, to which it will connect. */
